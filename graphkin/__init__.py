@@ -1,0 +1,20 @@
+"""Velocity and acceleration plans of planar mechanisms, constructed as a hand does it on paper."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from graphkin.mechanism import Mechanism, load
+
+__all__ = ["Mechanism", "load"]
+__version__ = "0.1.0"
+
+
+def __getattr__(name: str) -> Any:
+    """Import the public names where they are first used, so that the import stays light."""
+    if name in __all__:
+        from graphkin import mechanism
+
+        return getattr(mechanism, name)
+    raise AttributeError(f"module 'graphkin' has no attribute {name!r}")

@@ -1,0 +1,8 @@
+"""``python -m graphkin``: the command line."""
+
+from __future__ import annotations
+
+from graphkin.cli import main
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,316 @@
+"""The command line: list, check, explain, solve, sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from graphkin import __version__
+from graphkin.console import FAILED, Desk, complain
+
+if TYPE_CHECKING:
+    from graphkin.mechanism import Mechanism
+    from graphkin.scene.model import Scene
+    from graphkin.steps.run import Trace
+    from graphkin.steps.solution import Solution, Verdict
+
+HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
+FORMATS = ("svg", "pdf")
+PDF_ONLY = "calculation"
+
+
+@click.group(cls=Desk, invoke_without_command=True, context_settings=HELP)
+@click.version_option(__version__, "-V", "--version", prog_name="graphkin")
+@click.pass_context
+def app(context: click.Context) -> None:
+    """Draw the velocity and acceleration plans of a planar mechanism to scale, step by step, as a
+    hand does with compass and ruler, and check them by an independent calculation.
+
+    SCENE is the name of a lab that comes with graphkin, or a .toml file that describes your own
+    mechanism.
+
+    \b
+    Examples:
+      graphkin list                              which labs there are
+      graphkin solve pump --set n=7              all numbers of student 7's pump
+      graphkin sheet pump --set n=7 -o sheets    the drawings and calculations
+      graphkin check mine.toml                   what is wrong with my own scene
+
+    \b
+    Exit status: 0 all is well; 1 the independent check disagrees, or something asked cannot
+    be drawn fairly; 2 the scene or the command cannot be understood, drawn or written.
+    """
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
+
+
+def scene_argument(command: Any) -> Any:
+    """SCENE and --set, which every command but list takes."""
+    command = click.option(
+        "--set",
+        "settings",
+        metavar="NAME=VALUE",
+        multiple=True,
+        help="Give a parameter of the scene another value, such as n=7. May be repeated.",
+    )(command)
+    return click.argument("name", metavar="SCENE")(command)
+
+
+@app.command("list")
+def list_labs() -> None:
+    """List the labs that come with graphkin.
+
+    Shows for each lab its title, the parameters that --set can change with their ranges, and what
+    it asks for.
+    """
+    from graphkin.report.catalogue import labs_lines
+
+    tell(labs_lines())
+
+
+@app.command()
+@scene_argument
+def check(name: str, settings: tuple[str, ...]) -> None:
+    """Check a scene and show how its mechanism is put together.
+
+    Tells every mistake at once. Then shows links, pairs and mobility, the groups in the order of
+    construction, both closures of each, the driver's range, and the flattest crossings.
+
+    \b
+    Examples:
+      graphkin check pump
+      graphkin check mine.toml --set r=120
+    """
+    from graphkin.errors import StructureError
+    from graphkin.report.checking import Checking
+
+    checking = Checking(mechanism_of(name, settings))
+    tell(checking.lines())
+    if checking.problems:
+        raise StructureError(checking.problems)
+    if not checking.agrees:
+        complain("the independent route does not agree with the construction")
+        leave(FAILED)
+
+
+@app.command()
+@scene_argument
+def explain(name: str, settings: tuple[str, ...]) -> None:
+    """Explain which effects of the motion the construction needs.
+
+    For what the scene asks: which effects are in (Coriolis, normal components, an accelerated
+    driver, ...), which are out, why, and how many steps each of them costs.
+
+    \b
+    Example:
+      graphkin explain pump
+    """
+    from graphkin.report.catalogue import effects_lines
+
+    tell(effects_lines(mechanism_of(name, settings)))
+
+
+@app.command()
+@scene_argument
+@click.option("--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, full precision, SI units.")
+def solve(name: str, settings: tuple[str, ...], asked: bool, as_json: bool) -> None:
+    """Compute positions, velocities and accelerations, and check them.
+
+    Units are m, s and rad; x points right, y up; counter-clockwise is positive.
+
+    \b
+    Examples:
+      graphkin solve pump --set n=7
+      graphkin solve pump --set n=7 --asked
+      graphkin solve mine.toml --json > mine.json
+    """
+    from graphkin.handout import scales
+    from graphkin.report.motion import motion_text
+    from graphkin.report.record import record
+    from graphkin.steps.gather import gathered
+
+    mechanism = mechanism_of(name, settings)
+    trace = mechanism.trace(mechanism.asked() if asked else None)
+    solution = gathered(trace)
+    verdict = verdict_on(mechanism, solution)
+    found = record(mechanism.scene, solution, verdict, scales(mechanism), asked=asked)
+    if as_json:
+        import json
+
+        click.echo(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
+    else:
+        click.echo(motion_text(mechanism.scene, solution, found, verdict))
+    if doubts(trace, solution, verdict):
+        leave(FAILED)
+
+
+@app.command()
+@scene_argument
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    metavar="DIR",
+    type=click.Path(path_type=Path),
+    default=Path(),
+    help="Folder to write into, made if it is missing; the current one by default.",
+)
+@click.option(
+    "--view",
+    type=click.Choice(["key", "task"]),
+    default="key",
+    show_default=True,
+    help="key: everything drawn; task: what the student is given.",
+)
+@click.option(
+    "--lang", type=click.Choice(["ro", "en"]), help="Language of the pages; the scene's by default."
+)
+@click.option(
+    "--format",
+    "formats",
+    metavar="svg,pdf",
+    default="svg,pdf",
+    show_default=True,
+    help="Kinds of file to write; calculations come as PDF only.",
+)
+@click.option("--force", is_flag=True, help="Replace files that exist.")
+def sheet(
+    name: str,
+    settings: tuple[str, ...],
+    folder: Path,
+    view: str,
+    lang: str | None,
+    formats: str,
+    force: bool,
+) -> None:
+    """Draw the velocity and acceleration sheets and the calculations.
+
+    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and
+    what is set: pump-n7-velocity-key.pdf. Files that exist are kept unless --force is given.
+
+    \b
+    Examples:
+      graphkin sheet pump --set n=7 -o sheets
+      graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
+    """
+    kinds = formats_of(formats)
+    from graphkin.handout import hand_out
+    from graphkin.paper.files import write_all
+
+    mechanism = mechanism_of(name, settings)
+    stem = file_stem(mechanism.scene, pairs_of(settings))
+    files: dict[str, bytes] = {}
+    for part in hand_out(mechanism, view=view, language=lang):
+        files |= rendered(f"{stem}-{part.kind}-{view}", part, kinds)
+    tell(str(path) for path in write_all(folder, files, force))
+
+
+def rendered(stem: str, part: Any, kinds: tuple[str, ...]) -> dict[str, bytes]:
+    """The files of one sheet, by name."""
+    files: dict[str, bytes] = {}
+    if "svg" in kinds and part.kind != PDF_ONLY:
+        from graphkin.paper.svg import write_svg
+
+        for number, page in enumerate(part.pages, 1):
+            tail = f"-{number}" if len(part.pages) > 1 else ""
+            files[f"{stem}{tail}.svg"] = write_svg(page).encode("utf-8")
+    if "pdf" in kinds:
+        from graphkin.paper.pdf import write_pdf
+
+        files[f"{stem}.pdf"] = write_pdf(part.pages, title=part.pages[0].title)
+    return files
+
+
+def file_stem(scene: Scene, settings: dict[str, str]) -> str:
+    """The name of the scene, then what is set: pump-n7."""
+    from graphkin.paper.files import file_part
+
+    set_parts = [file_part(f"{name}{value}") for name, value in settings.items()]
+    return "-".join([file_part(scene.name), *set_parts])
+
+
+def formats_of(text: str) -> tuple[str, ...]:
+    """The kinds of file named with commas between them."""
+    kinds = tuple(dict.fromkeys(kind.strip().lower() for kind in text.split(",") if kind.strip()))
+    wrong = [kind for kind in kinds if kind not in FORMATS]
+    if wrong or not kinds:
+        found = ", ".join(wrong) or "nothing"
+        raise click.UsageError(f"--format: {found} is not svg, pdf or svg,pdf", current())
+    return kinds
+
+
+def mechanism_of(name: str, settings: tuple[str, ...]) -> Mechanism:
+    """The mechanism of a lab or a file with its parameters set."""
+    from graphkin import labs
+    from graphkin.mechanism import Mechanism
+    from graphkin.scene.read import read_scene
+
+    return Mechanism(read_scene(labs.find(name), pairs_of(settings)))
+
+
+def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
+    """Each NAME=VALUE in its two parts; a name may be set once."""
+    found: dict[str, str] = {}
+    for setting in settings:
+        name, equals, value = (part.strip() for part in setting.partition("="))
+        if not (name and equals and value):
+            raise click.UsageError(f"--set {setting}: write NAME=VALUE, such as n=7", current())
+        if name in found:
+            raise click.UsageError(f"--set {name}: is set twice", current())
+        found[name] = value
+    return found
+
+
+def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
+    """The judgement of the independent route; None, and a message, where it cannot judge."""
+    from graphkin.errors import StructureError, WitnessError
+
+    try:
+        return mechanism.witness(solution)
+    except (StructureError, WitnessError) as error:
+        for problem in error.problems:
+            complain(f"the independent check cannot judge: {problem}")
+        return None
+
+
+def doubts(trace: Trace, solution: Solution, verdict: Verdict | None) -> bool:
+    """Warn of a flat crossing and of a witness that disagrees; True when there is any doubt."""
+    from graphkin.report.motion import FAIR, verdict_words
+    from graphkin.report.table import step_words
+
+    flat = solution.margin < FAIR
+    if flat:
+        number = min(trace.margins, key=lambda step: float(trace.margins[step]))
+        bound = f", good only to {verdict.limit:.1e} of the largest of its kind" if verdict else ""
+        complain(
+            f"{step_words(trace.program, number)} crosses at a sine of {solution.margin:.2e}, "
+            f"less than {FAIR:g}: the answer is not fair to ask{bound}"
+        )
+    if verdict is not None and not verdict.agrees:
+        complain(f"the independent check {verdict_words(verdict)}")
+    return flat or verdict is None or not verdict.agrees
+
+
+def current() -> click.Context:
+    """The context of the command that runs."""
+    return click.get_current_context()
+
+
+def leave(status: int) -> None:
+    """End the command with a status."""
+    current().exit(status)
+
+
+def tell(lines: Iterable[str]) -> None:
+    """Print lines."""
+    for line in lines:
+        click.echo(line)
+
+
+def main() -> None:
+    """Run the command line and leave with its status."""
+    app(prog_name="graphkin")

@@ -1,0 +1,147 @@
+"""What is handed out: the sheets of a mechanism, each one proved right before it is drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphkin.errors import Problem, SceneError, WitnessError
+from graphkin.mechanism import Mechanism
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.layout import HEIGHT, WIDTH
+from graphkin.paper.marks import Page
+from graphkin.paper.scale import Scales, fitting_scale, kept_scale
+from graphkin.steps.program import Target
+from graphkin.steps.solution import Solution, Verdict
+from graphkin.text import LANGUAGES, Words, words
+
+LEAST_MARGIN = 1e-4
+"""Sine of the flattest crossing with which a sheet is still handed out."""
+WANTED = {
+    "velocity": ("velocity", "omega", "centre"),
+    "acceleration": ("acceleration", "epsilon", "pole"),
+}
+"""The sheet on which each quantity is asked."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The pages of one document: velocity, acceleration or calculation."""
+
+    kind: str
+    pages: tuple[Page, ...]
+
+
+def hand_out(mechanism: Mechanism, view: str = "key", language: str | None = None) -> list[Sheet]:
+    """The sheets that a scene asks for, in a language (the scene's own if None).
+
+    Raises WitnessError when the independent route disagrees, PageError when a page does not fit.
+    """
+    from graphkin.paper.calculation import calculation
+    from graphkin.paper.sheet import sheet
+
+    spoken = language_of(mechanism, language)
+    verdict = proved(mechanism, mechanism.solve())
+    drawings = drawings_of(mechanism, verdict, spoken)
+    total = len(drawings)
+    sheets = [
+        Sheet(drawing.kind, (sheet(drawing, view, f"{i}/{total}"),))
+        for i, drawing in enumerate(drawings, 1)
+    ]
+    return [*sheets, Sheet("calculation", calculation(drawings, view))]
+
+
+def language_of(mechanism: Mechanism, language: str | None) -> Words:
+    """The words of a language. Raises SceneError for one that is not there."""
+    code = language or mechanism.scene.sheet.language
+    if code not in LANGUAGES:
+        raise SceneError(
+            Problem("sheet.language", f'"{code}" is not a language', " or ".join(LANGUAGES))
+        )
+    return words(code)
+
+
+def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
+    """The witness's verdict. Raises WitnessError when it does not agree, or cannot be trusted."""
+    if solution.margin < LEAST_MARGIN:
+        raise WitnessError(
+            Problem(
+                "position",
+                f"the flattest crossing has a sine of {solution.margin:.1e}",
+                f"at least {LEAST_MARGIN:g}",
+                "the position is nearly singular: choose another driver angle",
+            )
+        )
+    verdict = mechanism.witness(solution)
+    if not verdict.agrees:
+        raise WitnessError(
+            Problem(
+                verdict.quantity,
+                f"construction and vector loops differ by {verdict.largest_difference:.1e}",
+                f"at most {verdict.limit:.1e}",
+                "; ".join(verdict.branches) or "no sheet is handed out",
+            )
+        )
+    return verdict
+
+
+def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[Drawing]:
+    """The material of each sheet, all at the same scale."""
+    targets = {kind: targets_of(mechanism, kind) for kind in WANTED}
+    asked = {kind: found for kind, found in targets.items() if found}
+    scales = scales_of(mechanism, asked, verdict, spoken)
+    return [
+        drawing(mechanism, kind, found, scales, verdict, spoken) for kind, found in asked.items()
+    ]
+
+
+def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
+    """What is asked on one sheet, with the whole mechanism; nothing when nothing is asked."""
+    asked = [target for target in mechanism.asked() if target[0] in WANTED[kind]]
+    if not asked:
+        return ()
+    positions = [target for target in mechanism.program.targets if target[0] == "position"]
+    return (*positions, *asked)
+
+
+def scales_of(
+    mechanism: Mechanism, asked: dict[str, tuple[Target, ...]], verdict: Verdict, spoken: Words
+) -> Scales:
+    """The one set of scale factors at which every sheet's drawings fit their fields."""
+    seconds = time_scale(mechanism)
+    trial = Scales(1.0, seconds)
+    needs = []
+    for kind, found in asked.items():
+        material = drawing(mechanism, kind, found, trial, verdict, spoken)
+        needs.append((material.mechanism_extent(), material.plan_extent()))
+    stated = mechanism.scene.sheet.scale
+    if stated is not None:
+        wanted = float(stated.number(mechanism.scene.values))
+        return Scales(kept_scale(wanted, needs, WIDTH, HEIGHT), seconds)
+    return Scales(fitting_scale(needs, WIDTH, HEIGHT), seconds)
+
+
+def time_scale(mechanism: Mechanism) -> float:
+    """kL/kv: with one turning crank 1/omega, so that the crank and its velocity are drawn alike."""
+    driver = mechanism.scene.drivers[0]
+    speed = float(driver.speed.si(mechanism.scene.values))
+    return 1 / abs(speed) if speed else 1.0
+
+
+def drawing(
+    mechanism: Mechanism,
+    kind: str,
+    targets: tuple[Target, ...],
+    scales: Scales,
+    verdict: Verdict,
+    spoken: Words,
+) -> Drawing:
+    """The material of one sheet: everything a hand draws for it."""
+    trace = mechanism.trace(targets, by_hand=True, seconds=scales.seconds)
+    return Drawing(kind, mechanism.scene, trace, scales, verdict, spoken)
+
+
+def scales(mechanism: Mechanism) -> Scales:
+    """The scale factors of the sheets of a mechanism."""
+    asked = {kind: found for kind in WANTED if (found := targets_of(mechanism, kind))}
+    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    return scales_of(mechanism, asked, nobody, words("en"))

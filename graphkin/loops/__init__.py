@@ -1,0 +1,1 @@
+"""The independent route: vector loops, their Jacobian, Newton's method and velocity ratios."""

@@ -1,0 +1,247 @@
+"""Newton's method on the loop equations, velocity and acceleration ratios, and the motion.
+
+From f(φ, q) = 0 follow the velocity ratios τ_d = ∂φ/∂q_d = -J⁻¹ ∂f/∂q_d and, derived once more,
+∂τ_d/∂q_e = -J⁻¹ f″(τ_d, τ_e); then φ̇ = Σ τ_d q̇_d and φ̈ = Σ τ_d q̈_d + Σ (∂τ_d/∂q_e) q̇_d q̇_e.
+One scene is a batch of one: all arrays carry the N settings first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphkin.errors import Problem, StructureError, WitnessError
+from graphkin.loops.bodies import Reals
+from graphkin.loops.equations import Equations
+from graphkin.loops.motion import Motion
+from graphkin.loops.start import start_values
+
+ITERATIONS = 60
+SETTLED = 1e-12
+"""A step of Newton's method, in bars, after which the next would be rounding."""
+NEAR = 1e-6
+"""A step, in bars, below which steps that no longer shrink are rounding too."""
+AT_REST = 1e-13
+"""Closure error, in bars, at which a longer step than that only shows that J is singular."""
+LONGEST = 0.5
+"""Longest step taken at once, in bars or radians."""
+CLOSED = 1e-9
+"""Closure error, in bars, at which a mechanism counts as closed."""
+SINGULAR = 1e-7
+"""Smallest over largest singular value of J below which a position is singular."""
+
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Report:
+    """How Newton's method went; arrays of shape (N,).
+
+    ``residual`` is the closure error (m) before the first iteration, ``remains`` after the last;
+    ``moved`` (m) the farthest that an unknown went, angles measured on the longest bar;
+    ``smallest`` the smallest singular value of J with lengths in bars, ``condition`` the largest
+    over it; ``bar`` (m) the longest bar. ``good`` marks the settings that closed in a position that
+    is not singular.
+    """
+
+    residual: Reals
+    remains: Reals
+    moved: Reals
+    iterations: int
+    smallest: Reals
+    condition: Reals
+    bar: Reals
+    good: Flags
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ratios:
+    """Velocity ratios τ (N, unknowns, D) and their derivatives ∂τ_d/∂q_e (N, unknowns, D, D)."""
+
+    velocity: Reals
+    acceleration: Reals
+
+    def rates(self, speed: Reals) -> Reals:
+        """φ̇ from the drivers' speeds (N, D)."""
+        return np.asarray(np.einsum("nud,nd->nu", self.velocity, speed))
+
+    def accelerations(self, speed: Reals, acceleration: Reals) -> Reals:
+        """φ̈ from the drivers' speeds and accelerations (N, D)."""
+        steady = np.einsum("nude,nd,ne->nu", self.acceleration, speed, speed)
+        return np.asarray(steady + np.einsum("nud,nd->nu", self.velocity, acceleration))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LoopSolution:
+    """The loop equations solved: unknowns φ (N, unknowns), ratios, motion and report."""
+
+    loops: Equations
+    unknowns: Reals
+    ratios: Ratios
+    motion: Motion
+    report: Report
+
+
+def solve(
+    loops: Equations,
+    places: Mapping[str, object],
+    slides: Mapping[str, object] | None = None,
+) -> LoopSolution:
+    """Close the loops from given positions of points (m) and find the motion.
+
+    ``slides`` may give slide coordinates (m) by block. Raises StructureError when the drivers are
+    too few, WitnessError when one scene does not close or is singular; a batch gives NaN there.
+    """
+    refuse_undriven(loops)
+    with np.errstate(all="ignore"):
+        start = start_values(loops, places, slides or {})
+        closed, first, iterations = newton(loops, start)
+        report = report_on(loops, start, closed, first, iterations)
+        if loops.numbers.single:
+            refuse_failure(report)
+        unknowns = np.where(report.good[:, None], closed, np.nan)
+        ratios = ratios_at(loops, unknowns)
+        speed, acceleration = loops.drives.speed, loops.drives.acceleration
+        rates = ratios.rates(speed)
+        motion = Motion.of(loops, unknowns, rates, ratios.accelerations(speed, acceleration))
+    return LoopSolution(loops, unknowns, ratios, motion, report)
+
+
+def newton(loops: Equations, start: Reals) -> tuple[Reals, Reals, int]:
+    """Newton–Raphson from the start values; steps longer than half a bar are shortened to it.
+
+    Gives the unknowns, the residual of the start in bars (N,) and the number of iterations.
+    """
+    unknowns, done = start, np.zeros(len(start), dtype=np.bool_)
+    before = np.full(len(start), np.inf)
+    first = np.zeros(len(start))
+    iterations = 0
+    while iterations < ITERATIONS and not done.all():
+        residual, jacobian = in_bars(loops, unknowns)
+        first = largest(residual) if iterations == 0 else first
+        step = -linear_solve(jacobian, residual[:, :, None])[:, :, 0]
+        length = largest(step)
+        done |= ~np.isfinite(length) | ((length > 0.9 * before) & (before < NEAR))
+        done |= (largest(residual) < AT_REST) & (length > NEAR)
+        shortened = step * np.minimum(1, LONGEST / np.maximum(length, LONGEST))[:, None]
+        unknowns = np.where(done[:, None], unknowns, unknowns + shortened * loops.columns)
+        done |= length < SETTLED
+        before, iterations = length, iterations + 1
+    return unknowns, first, iterations
+
+
+def in_bars(loops: Equations, unknowns: Reals) -> tuple[Reals, Reals]:
+    """Residual (N, e) and Jacobian (N, e, u) with lengths counted in the longest bar."""
+    linear = loops.chains.at(unknowns)
+    residual = loops.residual(linear, unknowns) / loops.rows
+    jacobian = loops.jacobian(linear) * loops.columns[:, None, :] / loops.rows[:, :, None]
+    return residual, jacobian
+
+
+def largest(rows: Reals) -> Reals:
+    """Largest magnitude in each row."""
+    return np.asarray(np.abs(rows).max(axis=1, initial=0.0))
+
+
+def linear_solve(matrix: Reals, right: Reals) -> Reals:
+    """Solve stacks of equations; least squares where there are more than unknowns, or singular.
+
+    Shapes (N, e, u) and (N, e, R) give (N, u, R); settings with a NaN stay NaN.
+    """
+    finite = finite_rows(matrix) & finite_rows(right)
+    matrix = np.where(finite[:, None, None], matrix, np.eye(*matrix.shape[1:]))
+    right = np.where(finite[:, None, None], right, np.nan)
+    if matrix.shape[1] == matrix.shape[2]:
+        try:
+            return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+        except np.linalg.LinAlgError:
+            pass
+    return np.asarray(np.linalg.pinv(matrix) @ right)
+
+
+def finite_rows(stack: Reals) -> Flags:
+    """Where every number of a matrix of a stack is finite."""
+    return np.asarray(np.isfinite(stack).all(axis=(1, 2)))
+
+
+def report_on(
+    loops: Equations, start: Reals, unknowns: Reals, first: Reals, iterations: int
+) -> Report:
+    """What remains after the last iteration, and how near the position is to a singular one."""
+    residual, jacobian = in_bars(loops, unknowns)
+    remains = largest(residual)
+    finite = finite_rows(jacobian)
+    safe = np.where(finite[:, None, None], jacobian, 0)
+    values = np.linalg.svd(safe, compute_uv=False)
+    smallest, greatest = values.min(axis=1, initial=np.inf), values.max(axis=1, initial=0)
+    return Report(
+        residual=first * loops.size,
+        remains=remains * loops.size,
+        moved=largest((unknowns - start) / loops.columns) * loops.size,
+        iterations=iterations,
+        smallest=smallest,
+        condition=greatest / smallest,
+        bar=loops.size,
+        good=finite & (remains < CLOSED) & (smallest > SINGULAR * greatest),
+    )
+
+
+def ratios_at(loops: Equations, unknowns: Reals) -> Ratios:
+    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position."""
+    linear = loops.chains.at(unknowns)
+    jacobian = loops.jacobian(linear)
+    count, rows, columns = jacobian.shape
+    drivers = len(loops.drives.turns)
+    by_driver = np.zeros((count, rows, drivers))
+    by_driver[:, rows - drivers :, :] = -np.eye(drivers)
+    velocity = -linear_solve(jacobian, by_driver)
+    curved = [
+        loops.second(linear, velocity[:, :, d], velocity[:, :, e])
+        for d in range(drivers)
+        for e in range(drivers)
+    ]
+    if not curved:
+        return Ratios(velocity, np.zeros((count, columns, 0, 0)))
+    acceleration = -linear_solve(jacobian, np.stack(curved, axis=-1))
+    return Ratios(velocity, acceleration.reshape(count, columns, drivers, drivers))
+
+
+def refuse_undriven(loops: Equations) -> None:
+    """There must be as many equations as unknowns, or more where some are idle."""
+    missing = loops.unknown_count - loops.equation_count
+    if missing > 0:
+        raise StructureError(
+            Problem(
+                "drivers",
+                f"{loops.unknown_count} unknowns but only {loops.equation_count} loop and driver "
+                "equations",
+                f"{missing} more driver{'s' if missing > 1 else ''}",
+            )
+        )
+
+
+def refuse_failure(report: Report) -> None:
+    """Say why one scene has no motion: it does not close, or its position is singular."""
+    if report.good[0]:
+        return
+    if not report.remains[0] < CLOSED * report.bar[0]:
+        raise WitnessError(
+            Problem(
+                "loops",
+                f"the loops do not close: after {report.iterations} iterations "
+                f"{report.remains[0]:.3g} m remain open",
+                "lengths and driver positions for which the mechanism can be assembled",
+            )
+        )
+    raise WitnessError(
+        Problem(
+            "loops",
+            "singular position: the smallest singular value of the loop equations is "
+            f"{report.smallest[0]:.2g}",
+            f"more than {SINGULAR:g} of the largest",
+            "which positions are singular depends on the driver: drive another link or move on",
+        )
+    )

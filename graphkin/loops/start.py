@@ -1,0 +1,147 @@
+"""Where Newton's method starts: angles and slide coordinates read off given positions of points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import combinations
+
+import numpy as np
+
+from graphkin.loops.bodies import Complexes, Reals
+from graphkin.loops.equations import Equations
+from graphkin.scene.model import FRAME
+
+Places = Mapping[str, Complexes]
+
+
+def start_values(
+    loops: Equations, places: Mapping[str, object], slides: Mapping[str, object]
+) -> Reals:
+    """Unknowns (N, K + m) from positions of points (m) and slide coordinates by block (m).
+
+    An angle comes from the longest known bar of its turning, else from a block known on its guide,
+    else from a driver; then further points of its links are known. What no position tells is zero.
+    """
+    numbers = loops.numbers
+    known = {name: numbers.complexes(z) - loops.home for name, z in places.items()}
+    frame = {name: numbers.complexes(z) for name, z in loops.bodies[FRAME].items()}
+    known = {**known, **frame}
+    given = {name: numbers.reals(s) for name, s in slides.items()}
+    turn: dict[int, Complexes] = {0: numbers.complexes(1)}
+    while len(turn) < loops.turned.count:
+        seen = len(turn), len(known)
+        turn |= turns_of_bars(loops, known, turn)
+        turn |= turns_of_blocks(loops, known, given, turn)
+        turn |= turns_of_drivers(loops, turn)
+        known = {**points_on_links(loops, known, turn), **known}
+        if seen == (len(turn), len(known)):
+            break
+    angles = [np.angle(turn.get(k, numbers.complexes(1))) for k in range(1, loops.turned.count)]
+    coordinates = [slide_start(loops, j, known, given, turn) for j in range(len(loops.guides))]
+    columns = [*angles, *coordinates]
+    return np.stack(columns, axis=-1) if columns else np.zeros((numbers.count, 0))
+
+
+def turns_of_bars(
+    loops: Equations, known: Places, turn: Mapping[int, Complexes]
+) -> dict[int, Complexes]:
+    """e^{iθ} of the turnings with a link of which two points are known; the longest bar counts."""
+    best: dict[int, tuple[float, Complexes]] = {}
+    for link, body in loops.bodies.items():
+        turning, lean = loops.turned.of[link], loops.turned.lean[link]
+        if turning in turn:
+            continue
+        for p, q in combinations([name for name in body if name in known], 2):
+            bar = loops.numbers.complexes(body[q] - body[p])
+            length = float(np.nanmax(abs(bar)))
+            if length > best.get(turning, (0.0, bar))[0]:
+                best[turning] = length, (known[q] - known[p]) / (bar * lean)
+    return {turning: ratio for turning, (_, ratio) in best.items()}
+
+
+def turns_of_blocks(
+    loops: Equations,
+    known: Places,
+    given: Mapping[str, Reals],
+    turn: Mapping[int, Complexes],
+) -> dict[int, Complexes]:
+    """e^{iθ} of a guide from a point of its link and the block on it, both known.
+
+    Without a given slide coordinate the block is taken on the positive side.
+    """
+    found: dict[int, Complexes] = {}
+    for guide in loops.guides:
+        turning, body = loops.turned.of[guide.on], loops.bodies[guide.on]
+        base = next((name for name in body if name in known), None)
+        head = next(iter(loops.bodies[guide.block]), None)
+        if turning in turn or turning in found or base is None or head is None:
+            continue
+        if head not in known:
+            continue
+        bar = known[head] - known[base]
+        foot = guide.through - body[base] + 1j * guide.offset * guide.along
+        level = foot * np.conj(guide.along)
+        if guide.first and guide.block in given:
+            reach = given[guide.block]
+        else:
+            reach = np.sqrt(np.maximum(abs(bar) ** 2 - np.imag(level) ** 2, 0)) - np.real(level)
+        arm = (foot + reach * guide.along) * loops.turned.lean[guide.on]
+        if np.all(abs(arm) > 0):
+            found[turning] = bar / arm
+    return found
+
+
+def turns_of_drivers(loops: Equations, turn: Mapping[int, Complexes]) -> dict[int, Complexes]:
+    """e^{iθ} of a turning that a driver turns against a known one."""
+    found: dict[int, Complexes] = {}
+    for d, row in enumerate(loops.drives.selects):
+        raised = [int(k) + 1 for k in np.flatnonzero(row[: loops.turning_count] > 0)]
+        lowered = [int(k) + 1 for k in np.flatnonzero(row[: loops.turning_count] < 0)]
+        base = lowered[0] if lowered else 0
+        if not loops.drives.turns[d] or not raised or raised[0] in turn:
+            continue
+        if base in turn or base in found:
+            against = turn[base] if base in turn else found[base]
+            found[raised[0]] = against * loops.drives.aim[:, d] / loops.drives.lean[:, d]
+    return found
+
+
+def points_on_links(
+    loops: Equations, known: Places, turn: Mapping[int, Complexes]
+) -> dict[str, Complexes]:
+    """Every point of a link whose angle and one of whose points are known."""
+    found: dict[str, Complexes] = {}
+    for link, body in loops.bodies.items():
+        base = next((name for name in body if name in known), None)
+        turning = loops.turned.of[link]
+        if base is None or turning not in turn:
+            continue
+        heading = turn[turning] / abs(turn[turning]) * loops.turned.lean[link]
+        for name, arm in body.items():
+            found[name] = known[base] + heading * (arm - body[base])
+    return found
+
+
+def slide_start(
+    loops: Equations,
+    j: int,
+    known: Places,
+    given: Mapping[str, Reals],
+    turn: Mapping[int, Complexes],
+) -> Reals:
+    """Slide coordinate of a block: the way from the guide's zero, measured along the guide."""
+    guide = loops.guides[j]
+    body = loops.bodies[guide.on]
+    base = next((name for name in body if name in known), None)
+    head = next(iter(loops.bodies[guide.block]), None)
+    turning = loops.turned.of[guide.on]
+    if guide.first and guide.block in given:
+        return given[guide.block]
+    if head is None or head not in known or turning not in turn:
+        return loops.numbers.reals(0)
+    if base is None and guide.on != FRAME:
+        return loops.numbers.reals(0)
+    heading = turn[turning] / abs(turn[turning]) * loops.turned.lean[guide.on]
+    origin = known[base] - heading * body[base] if base is not None else 0
+    way = known[head] - origin - heading * guide.through
+    return np.asarray((way / (heading * guide.along)).real)

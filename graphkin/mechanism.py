@@ -1,0 +1,143 @@
+"""A mechanism ready to be constructed: its scene, groups and program, and how to run them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from graphkin import labs
+from graphkin.arithmetic import FLOAT, batch_kind
+from graphkin.plane import Ratio
+from graphkin.plans.compile import write
+from graphkin.scene.model import Scene
+from graphkin.scene.read import read_scene
+from graphkin.steps.gather import gathered
+from graphkin.steps.program import Program, Target
+from graphkin.steps.run import StepFailed, Trace, run, run_batch
+from graphkin.steps.solution import Solution, Verdict
+from graphkin.structure.groups import Group, decompose
+
+BLOCK = 2048
+"""Variants run at once: few enough that the values of a step stay in the processor's cache."""
+
+
+def load(name: str | Path, **settings: object) -> Mechanism:
+    """The mechanism of a shipped lab or a scene file, with parameters set: load("pump", n=7).
+
+    Raises SceneError or StructureError with everything that is wrong.
+    """
+    return Mechanism(read_scene(labs.find(str(name)), settings))
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A scene with what follows from it; lengths in m, angles in rad, times in s."""
+
+    scene: Scene
+
+    @cached_property
+    def groups(self) -> tuple[Group, ...]:
+        """Driven links and Assur groups in the order of construction."""
+        return decompose(self.scene)
+
+    @cached_property
+    def program(self) -> Program:
+        """The construction, step by step, of everything that can be asked."""
+        return write(self.scene, self.groups)
+
+    def asked(self) -> tuple[Target, ...]:
+        """What the scene asks for, as targets of the program."""
+        ask = self.scene.ask
+        wanted = [("velocity", point_of(name)) for name in ask.velocity]
+        wanted += [("acceleration", point_of(name)) for name in ask.acceleration]
+        wanted += [("omega", link) for link in ask.omega]
+        wanted += [("epsilon", link) for link in ask.epsilon]
+        wanted += [("centre", link) for link in ask.centres]
+        wanted += [("pole", link) for link in ask.poles]
+        for block in ask.slides:
+            wanted += [(what, block) for what in ("slide", "slide speed", "slide acceleration")]
+        return tuple(target for target in wanted if target in self.program.targets)
+
+    def trace(
+        self,
+        targets: Iterable[Target] | None = None,
+        *,
+        by_hand: bool = False,
+        seconds: float | None = None,
+    ) -> Trace:
+        """Every value that the targets need (all targets if None), on this one scene.
+
+        ``by_hand`` runs the drawn steps too, with velocities set on the mechanism at the scale
+        ``seconds`` = kL/kv. Raises ClosureError for a step that cannot be drawn.
+        """
+        program = self.program
+        needed = program.needed(program.targets if targets is None else targets, by_hand=by_hand)
+        overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
+        try:
+            return run(program, needed, self.scene.values, FLOAT, overrides=overrides)
+        except StepFailed as failed:
+            from graphkin.reach import does_not_close
+
+            raise does_not_close(self.scene, program, needed, failed) from failed
+
+    def solve(self, *, asked: bool = False) -> Solution:
+        """The motion of every point and link, or only what the scene asks for."""
+        trace = self.trace(self.asked() if asked else None)
+        return gathered(trace)
+
+    def witness(self, solution: Solution) -> Verdict:
+        """The judgement of the independent route on a solution of this scene."""
+        from graphkin.witness import compare
+
+        return compare(self.scene, solution)
+
+    def batch(self, *, asked: bool = False, margins: bool = False, **parameters: Any) -> Solution:
+        """The motion of many variants at once, each parameter an array of equal length.
+
+        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each.
+        """
+        import numpy as np
+
+        kind = batch_kind()
+        arrays = np.broadcast_arrays(*(np.asarray(p, dtype=float) for p in parameters.values()))
+        given = dict(zip(parameters, arrays, strict=True))
+        targets = self.asked() if asked else tuple(self.program.targets)
+        needed = self.program.needed(targets)
+        keep = sorted({self.program.targets[target] for target in targets})
+        size = arrays[0].size
+        blocks = []
+        with np.errstate(all="ignore"):
+            for start in range(0, size, BLOCK):
+                values = dict(self.scene.values)
+                values |= {name: array[start : start + BLOCK] for name, array in given.items()}
+                blocks.append(run_batch(self.program, needed, values, kind, keep, margins=margins))
+        return gathered(joined(blocks))
+
+
+def point_of(name: str) -> str:
+    """The point of a name such as A@3, the point of link 3 under A."""
+    return name.partition("@")[0]
+
+
+def joined(blocks: list[Trace]) -> Trace:
+    """One trace of whole arrays from the traces of the blocks."""
+    first = blocks[0]
+    values = {number: joined_value([b.values[number] for b in blocks]) for number in first.values}
+    margins = {
+        number: joined_value([b.margins[number] for b in blocks]) for number in first.margins
+    }
+    return Trace(first.program, values, margins)
+
+
+def joined_value(parts: list[Any]) -> Any:
+    """One array from the arrays of the blocks; a value that all variants share stays as it is."""
+    import numpy as np
+
+    if isinstance(parts[0], Ratio):
+        return Ratio(*(joined_value(list(column)) for column in zip(*parts, strict=True)))
+    if not isinstance(parts[0], np.ndarray):
+        return parts[0]
+    return np.concatenate(parts)

@@ -1,0 +1,1 @@
+"""The page: one display list in millimetres, and the files written from it."""

@@ -1,0 +1,333 @@
+"""The marks of steps: each value of the trace placed on the page, under its action's own look."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import degrees, hypot
+from typing import Any
+
+from graphkin.paper.drawing import Drawing, place_of
+from graphkin.paper.field import XY, Field, clipped
+from graphkin.paper.labels import Board, Label
+from graphkin.paper.layout import SWEEP, Layout
+from graphkin.paper.marks import Arc, Circle, Line
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.symbols import SHORT, arrow, bearing, square_mark
+from graphkin.plane import Ratio
+from graphkin.steps.program import Part, Plane, Step
+
+DOT = 0.7
+"""Radius of a point of a plan in mm."""
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Where steps of one drawing are put down: board, field, and the sheet's material."""
+
+    board: Board
+    field: Field
+    drawing: Drawing
+    layout: Layout
+
+    @property
+    def colour(self) -> str:
+        """The class that colours this sheet's plan."""
+        return self.drawing.kind
+
+
+Put = Callable[[Desk, int, Step, Any], None]
+
+
+def draw_mechanism_steps(desk: Desk, *, found: bool) -> None:
+    """Put down the steps on the mechanism: those that found its points, or all the others."""
+    for number, step, value in desk.drawing.mechanism_steps():
+        if (step.part is Part.POSITION) is found:
+            put_step(desk, number, step, value)
+
+
+def draw_plan_steps(desk: Desk) -> None:
+    """Put down every step of the plan, in order."""
+    for number, step, value in desk.drawing.steps(desk.drawing.plane):
+        put_step(desk, number, step, value)
+
+
+def put_step(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """Put down one step in the look of its action, if it has one."""
+    key = step.action.key if step.action else "given"
+    plane = Plane.MECHANISM if step.plane is Plane.MECHANISM else Plane.NUMBERS
+    put = PUTS.get((plane, key))
+    if put:
+        put(desk, number, step, value)
+
+
+def put_line(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A construction line, as far as the layout says, with what it is to its bar."""
+    ends = line_ends(desk, number, value)
+    if ends is None:
+        return
+    name = line_name(step)
+    desk.board.marks.append(Line(*ends[0], *ends[1], "construction", name, number))
+    markup = line_label(desk, step)
+    if markup:
+        desk.board.labels.append(
+            Label(markup, "construction", ends, 1.8, name, number, priority=-1)
+        )
+
+
+def line_ends(desk: Desk, number: int, value: Any) -> tuple[XY, XY] | None:
+    """Both ends of the drawn part of a line, within its field."""
+    low, high = desk.layout.spans[number]
+    unit = value.along / abs(value.along) / desk.field.mm
+    start, end = desk.field(value.point + low * unit), desk.field(value.point + high * unit)
+    return clipped(start, end, desk.field.rect)
+
+
+def line_name(step: Step) -> str:
+    """Name of a construction line: what it is drawn through and what it is square to."""
+    key = step.action.key if step.action else ""
+    sign = {"square-to": "⊥", "parallel-to": "∥"}.get(key, "")
+    return sign + step.says.get("p", step.says.get("g", "")) + step.says.get("q", "")
+
+
+def line_label(desk: Desk, step: Step) -> str:
+    """What is written along a construction line of a plan."""
+    key = step.action.key if step.action else ""
+    if key == "square-to":
+        return f"⊥ {bar(step.says['p'], step.says['q'])}"
+    if key == "parallel-to":
+        return f"∥ {desk.drawing.words('page.guide_of', g=step.says['g'])}"
+    return ""
+
+
+def put_arc(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The part of a compass arc that finds a point."""
+    if number not in desk.layout.spans:
+        return
+    name = step.says["p"] + step.says["q"]
+    centre, radius = desk.field(value.centre), value.radius * desk.field.mm
+    span = desk.layout.spans[number]
+    desk.board.marks.append(Arc(*centre, radius, *span, "compass", name, number))
+
+
+def put_point(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A named point of a plan."""
+    if not step.name:
+        return
+    at = desk.field(value)
+    desk.board.marks.append(Circle(*at, DOT, f"point {desk.colour}", step.name, number))
+    desk.board.labels.append(
+        Label(symbol(step.name), desk.colour, at, 3.5, step.name, number, priority=2, radius=DOT)
+    )
+
+
+def put_pole(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The pole of a plan."""
+    at = desk.field(value)
+    desk.board.marks.append(Circle(*at, 1.1, f"pole {desk.colour}", step.name, number))
+    desk.board.labels.append(
+        Label(symbol(step.name), desk.colour, at, 3.5, step.name, number, priority=3, radius=1.1)
+    )
+
+
+def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A vector with its symbol; a very short one without head, named at the end of a leader."""
+    tail, tip = desk.field(value.tail), desk.field(value.tip)
+    length = hypot(tip[0] - tail[0], tip[1] - tail[1])
+    cls = arrow_class(step, desk)
+    if length > 0:
+        desk.board.marks += arrow(tail, tip, cls, step.name, number)
+    subject = (tail, tip) if length >= SHORT else tip
+    desk.board.labels.append(
+        Label(symbol(step.says["symbol"]), cls, subject, 2.5, step.name, number, priority=1)
+    )
+
+
+def arrow_class(step: Step, desk: Desk) -> str:
+    """The look of a vector: normal and tangential components, relative and absolute ones."""
+    kind = {"ν": "normal", "τ": "tangential"}.get(step.says.get("kind", ""))
+    if kind:
+        return kind
+    relative = len(step.says["symbol"].partition("_")[2]) > 1 and step.name[0] != desk.drawing.pole
+    starts_at_pole = step.name.startswith(desk.drawing.pole) or step.plane is Plane.MECHANISM
+    return f"relative-{desk.colour}" if relative and not starts_at_pole else desk.colour
+
+
+# --- the right triangle on the mechanism ---------------------------------------------------------
+
+
+def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The relative velocity set at its pin, b″ at its tip, and the line that joins it with A."""
+    pin = desk.drawing.positions[step.says["q"]]
+    tail, tip = desk.field(pin), desk.field(value)
+    if hypot(tip[0] - tail[0], tip[1] - tail[1]) > 0:
+        symbol_name = "v_" + step.says["i"]
+        desk.board.marks += arrow(tail, tip, "relative-velocity", symbol_name, number)
+        subject = (tail, tip)
+        desk.board.labels.append(
+            Label(symbol(symbol_name), "relative-velocity", subject, 2.5, symbol_name, number)
+        )
+    put_construction_point(desk, number, step, value)
+
+
+def put_triangle_edge(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """From the pivot to b″, and at b″ square to it as far as the bar's line."""
+    pivot = desk.field(desk.drawing.positions[step.says["p"]])
+    corner = desk.field(value.point)
+    desk.board.marks.append(Line(*pivot, *corner, "construction", step.name, number))
+    ends = line_ends(desk, number, value)
+    if ends:
+        desk.board.marks.append(Line(*ends[0], *ends[1], "construction", step.name, number))
+    back = hypot(pivot[0] - corner[0], pivot[1] - corner[1])
+    if back > 6:
+        first = ((pivot[0] - corner[0]) / back, (pivot[1] - corner[1]) / back)
+        second = desk.field.way(value.along)
+        low, high = desk.layout.spans[number]
+        if -low > high:
+            second = (-second[0], -second[1])
+        desk.board.marks.append(square_mark(corner, first, second))
+
+
+def put_bar_line(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The bar produced beyond its pin."""
+    ends = line_ends(desk, number, value)
+    if ends:
+        desk.board.marks.append(Line(*ends[0], *ends[1], "construction", step.name, number))
+
+
+def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """b‴ turned over into b⁗, and the normal component from the pin to b⁗."""
+    pin = desk.drawing.positions[step.says["q"]]
+    at, end = desk.field(pin), desk.field(value)
+    radius = hypot(end[0] - at[0], end[1] - at[1])
+    name = f"a_{step.says['i']}^ν"
+    if radius > SHORT:
+        middle = bearing((end[0] - at[0], end[1] - at[1]))
+        half = min(degrees(SWEEP / radius / 2), 60.0)
+        span = (middle - half, middle + half)
+        desk.board.marks.append(Arc(*at, radius, *span, "compass", step.name, number))
+    if radius > 0:
+        desk.board.marks += arrow(at, end, "normal", name, number)
+    subject = (at, end) if radius >= SHORT else end
+    desk.board.labels.append(Label(symbol(name), "normal", subject, 2.5, name, number))
+    put_construction_point(desk, number, step, value)
+
+
+def put_construction_point(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A small named point of the right triangle."""
+    at = desk.field(value)
+    name = short_name(desk, step)
+    desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
+    desk.board.labels.append(
+        Label(symbol(name), "construction", at, 1.8, step.name, number, radius=0.5)
+    )
+
+
+def short_name(desk: Desk, step: Step) -> str:
+    """The name of a triangle's point, its index left out where its pin has only one triangle."""
+    base = step.name.partition("_")[0]
+    same = [
+        other
+        for _, other, _ in desk.drawing.steps(Plane.MECHANISM)
+        if other.part is Part.NORMAL and other.name.partition("_")[0] == base
+    ]
+    return base if len(same) == 1 else step.name
+
+
+# --- poles and centres ---------------------------------------------------------------------------
+
+
+def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """An instantaneous centre or acceleration pole; one off its field by its way and distance."""
+    point = place_of(value) if isinstance(value, Ratio) else value
+    if point is not None and desk.field.holds(point, 2.0):
+        at = desk.field(point)
+        x, y = at
+        desk.board.marks += (
+            Circle(x, y, 1.3, f"centre {desk.colour}", step.name, number),
+            Line(x - 2.2, y, x + 2.2, y, f"centre {desk.colour}", step.name, number),
+            Line(x, y - 2.2, x, y + 2.2, f"centre {desk.colour}", step.name, number),
+        )
+        desk.board.labels.append(
+            Label(
+                symbol(step.name), desk.colour, at, 3.5, step.name, number, priority=2, radius=2.2
+            )
+        )
+        return
+    put_far_centre(desk, number, step, value)
+
+
+def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A centre off the field: a ray towards it to the field's edge, direction and distance."""
+    start = desk.field(value.start)
+    way = value.shift / value.size if value.size else value.shift
+    if way == 0:
+        return
+    u, v = desk.field.way(way)
+    part = clipped(start, (start[0] + 2000 * u, start[1] + 2000 * v), inset(desk.field.rect, 3))
+    if part is None:
+        return
+    desk.board.marks += arrow(*part, f"ray {desk.colour}", step.name, number)
+    words, degrees = desk.drawing.words, bearing((u, v)) % 360
+    key = "page.far_centre" if value.size else "page.centre_at_infinity"
+    distance = words.significant(100 * abs(way), 3) if value.size else ""
+    text = words(
+        key,
+        name=symbol(step.name),
+        p=symbol(step.says["p"]),
+        distance=distance,
+        angle=words.fixed(degrees, 0),
+    )
+    desk.board.labels.append(Label(text, desk.colour, part[1], 2.5, step.name, number, priority=2))
+
+
+def inset(rect: tuple[float, float, float, float], by: float) -> tuple[float, float, float, float]:
+    """A rectangle made smaller on all sides."""
+    return rect[0] + by, rect[1] + by, rect[2] - by, rect[3] - by
+
+
+def put_ray(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A ray that finds a centre or a pole."""
+    ends = line_ends(desk, number, value)
+    if ends:
+        desk.board.marks.append(Line(*ends[0], *ends[1], "ray", line_name(step), number))
+
+
+def put_driver_ray(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The line at the driver's angle; guides are drawn with their symbols."""
+    if "g" not in step.says:
+        put_line(desk, number, step, value)
+
+
+def put_crossing(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A crossing on the mechanism: b‴ of a triangle; the others have their own marks."""
+    if step.part is Part.NORMAL:
+        put_construction_point(desk, number, step, value)
+
+
+PUTS: dict[
+    tuple[Plane, str], Put
+] = {  # the look of each action on the mechanism, and on a plan (NUMBERS)
+    (Plane.MECHANISM, "meet"): put_crossing,
+    (Plane.MECHANISM, "compass"): put_arc,
+    (Plane.MECHANISM, "ray"): put_driver_ray,
+    (Plane.MECHANISM, "set-velocity"): put_triangle_velocity,
+    (Plane.MECHANISM, "square-at"): put_triangle_edge,
+    (Plane.MECHANISM, "bar-line"): put_bar_line,
+    (Plane.MECHANISM, "turn-over"): put_turned,
+    (Plane.MECHANISM, "set-on"): put_arrow,
+    (Plane.MECHANISM, "set-on-twice"): put_arrow,
+    (Plane.MECHANISM, "velocity-normal"): put_ray,
+    (Plane.MECHANISM, "pole-ray"): put_ray,
+    (Plane.MECHANISM, "instant-centre"): put_centre,
+    (Plane.MECHANISM, "acceleration-pole"): put_centre,
+    (Plane.NUMBERS, "pole"): put_pole,
+    (Plane.NUMBERS, "square-to"): put_line,
+    (Plane.NUMBERS, "parallel-to"): put_line,
+    (Plane.NUMBERS, "join"): put_arrow,
+    (Plane.NUMBERS, "turned-velocity"): put_point,
+    (Plane.NUMBERS, "meet"): put_point,
+    (Plane.NUMBERS, "similar-point"): put_point,
+    (Plane.NUMBERS, "centripetal"): put_point,
+    (Plane.NUMBERS, "driven-tangential"): put_point,
+}

@@ -1,0 +1,161 @@
+"""What is given, in words: parameters, driver, lengths, fixed points, sides and guides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.paper.richtext import escape
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.scene.model import (
+    Angled,
+    Apart,
+    At,
+    Driver,
+    Link,
+    OnLine,
+    Placing,
+    Polar,
+    Scene,
+    Side,
+    Slide,
+    Triangle,
+    Way,
+)
+from graphkin.scene.quantity import Quantity
+from graphkin.text import Words
+
+UNIT_MARKS = {"deg": "°", "rev/min": " rev/min"}
+
+
+def given(scene: Scene, words: Words) -> list[str]:
+    """The data of a scene as short pieces of markup, in the order of the scene."""
+    return [
+        *(
+            f"*{escape(name)}* = {words.decimal(str(value))}"
+            for name, value in scene.values.items()
+        ),
+        *(piece for driver in scene.drivers for piece in of_driver(scene, words, driver)),
+        *lengths(scene, words),
+        *fixed_points(scene, words),
+        *plates(scene, words),
+        *sides(scene, words),
+        *(
+            of_guide(scene, words, link, slide)
+            for link in scene.links.values()
+            for slide in link.slides
+        ),
+    ]
+
+
+def written(scene: Scene, words: Words, quantity: Quantity) -> str:
+    """A quantity as printed: in its written unit, in the language's own way."""
+    unit = words(f"unit.{quantity.unit}") if words.has(f"unit.{quantity.unit}") else quantity.unit
+    return words.decimal(quantity.written(scene.values)) + ("" if unit == "°" else " ") + unit
+
+
+def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
+    """Position, speed and acceleration of a driver."""
+    angle, speed = ("*φ*", "*n*") if driver.kind == "turn" else ("*s*", "*v*")
+    if not driver.speed.unit.startswith("rev"):
+        speed = "*ω*" if driver.kind == "turn" else "*v*"
+    index = f"_{{{escape(driver.link)}}}"
+    yield f"{angle} = {written(scene, words, driver.position)}"
+    steady = driver.acceleration.is_zero()
+    tail = f" = {words('page.constant')}" if steady else ""
+    sense = ""
+    if driver.kind == "turn":
+        turning = float(driver.speed.si(scene.values))
+        sense = ", " + words(
+            "page.turning_anticlockwise" if turning > 0 else "page.turning_clockwise"
+        )
+    yield f"{speed}{index} = {written(scene, words, driver.speed)}{tail}{sense}"
+    if not steady:
+        yield f"*ε*{index} = {written(scene, words, driver.acceleration)}"
+
+
+def lengths(scene: Scene, words: Words) -> Iterator[str]:
+    """The lengths of bars, those of equal length together."""
+    equal: dict[str, list[str]] = {}
+    for link in scene.links.values():
+        for placing in link.placings:
+            for p, q, length in stated(placing):
+                equal.setdefault(written(scene, words, length), []).append(bar(p, q))
+    for length, bars in equal.items():
+        yield " = ".join([*bars, length])
+
+
+def stated(placing: Placing) -> list[tuple[str, str, Quantity]]:
+    """The bars whose lengths a placing states."""
+    match placing:
+        case Apart(point, start, length) | Polar(point, start, length, _):
+            return [(start, point, length)]
+        case Triangle(point, first, second, from_first, from_second, _):
+            return [(first, point, from_first), (second, point, from_second)]
+        case OnLine(point, _, _, start, length, _):
+            return [(start, point, length)]
+    return []
+
+
+def fixed_points(scene: Scene, words: Words) -> Iterator[str]:
+    """The coordinates of the frame's points."""
+    for placing in scene.frame.placings:
+        if isinstance(placing, At):
+            x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
+            yield f"{symbol(placing.point)} ({x}; {y}) {placing.x.unit}"
+
+
+def plates(scene: Scene, words: Words) -> Iterator[str]:
+    """Points of links that are given by coordinates or by an angle."""
+    for link in scene.links.values():
+        for placing in link.placings:
+            point = symbol(placing.point)
+            if isinstance(placing, At) and not (placing.x.is_zero() and placing.y.is_zero()):
+                x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
+                yield f"{point} ({x}; {y}) {placing.x.unit}, {words('page.on_link', k=link.name)}"
+            elif isinstance(placing, Polar):
+                turn = written(scene, words, placing.angle)
+                yield words("page.polar", bar=bar(placing.start, placing.point), angle=turn)
+            elif isinstance(placing, Angled):
+                turn = written(scene, words, placing.angle)
+                corner = f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point}"
+                yield f"{corner} = {turn}, {written(scene, words, placing.length)}"
+
+
+def sides(scene: Scene, words: Words) -> Iterator[str]:
+    """The sides on which points lie, of plates and of closures."""
+    for link in scene.links.values():
+        for placing in link.placings:
+            if isinstance(placing, Triangle):
+                yield side(words, placing.point, placing.first, placing.second, placing.side)
+            elif isinstance(placing, OnLine):
+                line = bar(placing.first, placing.second)
+                key = "page.on_line" if placing.sense > 0 else "page.beyond"
+                yield words(key, point=symbol(placing.point), bar=line)
+    for point, branch in scene.branches.items():
+        if isinstance(branch, Side):
+            yield side(words, point, branch.first, branch.second, branch.side)
+
+
+def side(words: Words, point: str, p: str, q: str, sign: int) -> str:
+    """Words for the side of a directed line."""
+    key = "page.left_handed" if sign > 0 else "page.right_handed"
+    return words(key, point=symbol(point), p=symbol(p), q=symbol(q))
+
+
+def of_guide(scene: Scene, words: Words, link: Link, slide: Slide) -> str:
+    """Words for a block's guide, and for which of the two crossings it stands at."""
+    branch = scene.branches.get(link.name)
+    forward = not isinstance(branch, Way) or branch.way > 0
+    fields = {
+        "point": symbol(link.points[0]),
+        "way": words("page.forward" if forward else "page.backward"),
+    }
+    if slide.along:
+        return words("page.guide_along", bar=bar(*slide.along), **fields)
+    assert slide.angle is not None
+    fields["angle"] = words.decimal(slide.angle.written(scene.values))
+    if isinstance(slide.through, str):
+        return words("page.guide", through=symbol(slide.through), **fields)
+    assert slide.through is not None
+    x, y = (words.decimal(q.written(scene.values)) for q in slide.through)
+    return words("page.guide_xy", x=x, y=y, unit=slide.through[0].unit, **fields)

@@ -1,0 +1,129 @@
+"""What a sheet is drawn from: the scene, the trace of the steps it needs, scales and words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphkin.paper.scale import Extent, Scales, extent_of
+from graphkin.plane import Circle, Line, Ratio, Vector
+from graphkin.scene.model import Scene
+from graphkin.steps.program import Part, Plane, Step
+from graphkin.steps.run import Trace
+from graphkin.steps.solution import Verdict
+from graphkin.text import Words
+
+TRIANGLE = ("set-velocity", "square-at", "bar-line", "meet", "turn-over")
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps."""
+
+    kind: str
+    scene: Scene
+    trace: Trace
+    scales: Scales
+    verdict: Verdict
+    words: Words
+
+    @property
+    def plane(self) -> Plane:
+        """The plan that this sheet shows."""
+        return Plane.VELOCITIES if self.kind == "velocity" else Plane.ACCELERATIONS
+
+    @property
+    def pole(self) -> str:
+        """Name of the plan's pole."""
+        return "o" if self.kind == "velocity" else "o′"
+
+    def steps(self, *planes: Plane) -> Iterator[tuple[int, Step, Any]]:
+        """The steps of some planes that were run, in order, with their values."""
+        for number, value in self.trace.values.items():
+            step = self.trace.program.steps[number]
+            if step.plane in planes:
+                yield number, step, value
+
+    def mechanism_steps(self) -> Iterator[tuple[int, Step, Any]]:
+        """The steps that this sheet draws on the mechanism."""
+        own = (
+            (Part.POSITION, Part.NORMAL, Part.POLE)
+            if self.kind == "acceleration"
+            else (Part.POSITION, Part.CENTRE)
+        )
+        arrows = Part.ACCELERATION if self.kind == "acceleration" else Part.VELOCITY
+        for number, step, value in self.steps(Plane.MECHANISM):
+            if step.part in (*own, arrows):
+                yield number, step, value
+
+    @cached_property
+    def positions(self) -> Mapping[str, complex]:
+        """Where each point of the mechanism stands, in metres."""
+        targets = self.trace.program.targets
+        return {
+            of: self.trace.values[number]
+            for (quantity, of), number in targets.items()
+            if quantity == "position" and number in self.trace.values
+        }
+
+    @cached_property
+    def children(self) -> Mapping[int, tuple[int, ...]]:
+        """The steps that use each step, among those that were run."""
+        found: dict[int, list[int]] = {}
+        for number in self.trace.values:
+            for arg in self.trace.program.steps[number].args:
+                found.setdefault(arg, []).append(number)
+        return {number: tuple(users) for number, users in found.items()}
+
+    @cached_property
+    def results(self) -> Mapping[int, int]:
+        """For the last step of a hand's way, the composite step that it gives."""
+        steps = self.trace.program.steps
+        return {
+            hand: number
+            for number in self.trace.values
+            if (hand := steps[number].by_hand) is not None
+        }
+
+    def at_scale(self, plane: Plane, value: complex) -> complex:
+        """A value of a plan in metres of the mechanism, drawn side by side with it."""
+        seconds = self.scales.seconds
+        power = {Plane.VELOCITIES: 1, Plane.ACCELERATIONS: 2}.get(plane, 0)
+        return value * seconds**power
+
+    def plan_extent(self) -> Extent:
+        """The box of the plan at the mechanism's scale."""
+        return extent_of(
+            [
+                self.at_scale(self.plane, point)
+                for _, _, value in self.steps(self.plane)
+                for point in ends(value)
+            ]
+        )
+
+    def mechanism_extent(self) -> Extent:
+        """The box of the mechanism and what is drawn on it; centres and poles do not count."""
+        points = list(self.positions.values())
+        for _, step, value in self.mechanism_steps():
+            if step.part not in (Part.CENTRE, Part.POLE):
+                points += ends(value)
+        return extent_of(points)
+
+
+def ends(value: Any) -> tuple[complex, ...]:
+    """The points that a drawn value takes up by itself; lines and arcs take up none."""
+    if isinstance(value, Vector):
+        return value.tail, value.tip
+    if isinstance(value, Line | Circle | Ratio) or not isinstance(value, complex):
+        return ()
+    return (value,)
+
+
+def place_of(ratio: Ratio) -> complex | None:
+    """The point of a ratio, None at infinity."""
+    if ratio.size == 0:
+        return None
+    point = ratio.start + ratio.shift / ratio.size
+    return complex(point)

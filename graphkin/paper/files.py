@@ -1,0 +1,81 @@
+"""Files written whole or not at all: checked first, written aside, then put in their places."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+
+from graphkin.errors import PageError, Problem
+
+RESERVED = frozenset(
+    ["CON", "PRN", "AUX", "NUL"] + [f"{port}{i}" for port in ("COM", "LPT") for i in range(10)]
+)
+"""Names that Windows keeps for devices, whatever follows their first dot."""
+LONGEST = 60
+"""Characters of one part of a file name."""
+
+
+def file_part(text: str) -> str:
+    """A name or value as part of a file name: what a file system may not like becomes _."""
+    part = re.sub(r"[^\w.+-]+", "_", text).strip("._")[:LONGEST].rstrip(".")
+    return f"_{part}" if part.partition(".")[0].upper() in RESERVED else part or "_"
+
+
+def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Path]:
+    """Write all files into a folder, made if missing; raises PageError before any is touched.
+
+    Files that exist are replaced only by ``force``. Each is written aside first, so that a full
+    disk or a folder that cannot be written leaves what was there.
+    """
+    targets = {folder / name: data for name, data in files.items()}
+    try:
+        refuse_existing(folder, list(targets), force)
+        folder.mkdir(parents=True, exist_ok=True)
+        put_in_place(targets)
+    except OSError as error:
+        raise cannot_write(str(folder), error) from error
+    return list(targets)
+
+
+def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
+    """Raise PageError with every target that is in the way."""
+    if folder.exists() and not folder.is_dir():
+        hint = "name another folder with -o"
+        raise PageError(Problem(str(folder), "is a file", "a folder", hint))
+    problems = []
+    for target in targets:
+        if target.is_dir():
+            problems.append(Problem(str(target), "is a folder", "a place for a file"))
+        elif not force and os.path.lexists(target):
+            hint = "--force replaces it, -o names another folder"
+            problems.append(Problem(str(target), "exists already", "a new file", hint))
+    if problems:
+        raise PageError(problems)
+
+
+def put_in_place(targets: Mapping[Path, bytes]) -> None:
+    """Write every file aside, then rename them one after the other; after a failure none is new."""
+    aside = {target: target.with_name(f".{target.name}.{os.getpid()}.part") for target in targets}
+    new: list[Path] = []
+    try:
+        for target, data in targets.items():
+            aside[target].write_bytes(data)
+        for target, written in aside.items():
+            if not target.exists():
+                new.append(target)
+            written.replace(target)
+    except BaseException:
+        for path in (*aside.values(), *new):
+            with suppress(OSError):
+                path.unlink()
+        raise
+
+
+def cannot_write(place: str, error: OSError) -> PageError:
+    """The error for a file or folder that the system does not let us write."""
+    reason = error.strerror or str(error)
+    found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
+    return PageError(Problem(place, found, "a folder that can be written", "name one with -o"))

@@ -1,0 +1,126 @@
+"""Labels of a drawing: wished for while its marks are made, placed together at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from math import ceil, cos, radians, sin
+
+from graphkin.errors import PageError, Problem
+from graphkin.paper.field import XY, Rect
+from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, reach
+from graphkin.paper.place import Spot, Wish, place
+from graphkin.paper.richtext import extent, plain
+
+NUMBER = 2.3
+"""Radius of the circle around a link's number, in mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A text that wants a place at a subject; ``ring`` puts it into a circle (a link's number)."""
+
+    markup: str
+    cls: str
+    subject: XY | tuple[XY, XY]
+    height: float = 2.5
+    name: str = ""
+    step: int | None = None
+    away: XY | None = None
+    priority: int = 0
+    radius: float = 0.0
+    ring: bool = False
+
+    def wish(self) -> Wish:
+        """The box that the label needs, and where."""
+        width, top, bottom = extent(self.markup, self.height)
+        if self.ring:
+            width, top, bottom = 2 * NUMBER, -2 * NUMBER, 0.0
+        return Wish(width, bottom - top, self.subject, self.away, self.priority, 0.9, self.radius)
+
+    def marks(self, spot: Spot) -> Iterable[Mark]:
+        """The label at its place, with its leader or circle."""
+        width, top, bottom = extent(self.markup, self.height)
+        if spot.leader:
+            (x0, y0), (x1, y1) = spot.leader
+            yield Line(x0, y0, x1, y1, f"leader {self.cls}".strip(), self.name, self.step)
+        if self.ring:
+            yield Circle(spot.x, spot.y, NUMBER, f"number {self.cls}".strip(), self.name)
+        x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
+        yield Text(
+            x,
+            y,
+            self.markup,
+            f"label {self.cls}".strip(),
+            self.height,
+            "start",
+            self.name,
+            self.step,
+        )
+
+
+@dataclass
+class Board:
+    """One field of the page while it is drawn: its marks, and the labels still to be placed."""
+
+    rect: Rect
+    marks: list[Mark] = field(default_factory=list)
+    labels: list[Label] = field(default_factory=list)
+    taken: list[Rect] = field(default_factory=list)
+
+    def finish(self) -> list[Mark]:
+        """The marks with every label at a free place. Raises PageError when one finds none."""
+        lines = [segment for mark in self.marks for segment in segments(mark)]
+        boxes = [*self.taken, *(reach(mark) for mark in self.marks if isinstance(mark, Text))]
+        wishes = [label.wish() for label in self.labels]
+        spots = place(wishes, lines, boxes, self.rect)
+        refuse_crowds(self.labels, spots)
+        placed = [
+            mark
+            for label, spot in zip(self.labels, spots, strict=True)
+            for mark in label.marks(spot)
+        ]
+        return [*self.marks, *placed]
+
+
+def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:
+    """Raise PageError naming every label for which there was no free place."""
+    crowded = [
+        plain(label.markup) for label, spot in zip(labels, spots, strict=True) if not spot.free
+    ]
+    if crowded:
+        raise PageError(
+            Problem(
+                "labels",
+                "does not fit: no free place for " + ", ".join(crowded),
+                "room for every name",
+                "choose a larger scale, or ask for less on one sheet",
+            )
+        )
+
+
+def segments(mark: Mark) -> list[tuple[float, float, float, float]]:
+    """The straight pieces of a mark, for labels to keep clear of; arcs as short chords."""
+    if isinstance(mark, Line):
+        return [(mark.x1, mark.y1, mark.x2, mark.y2)]
+    if isinstance(mark, Polyline):
+        points = [*mark.points, mark.points[0]] if mark.closed else list(mark.points)
+        return chained(points)
+    if isinstance(mark, Circle):
+        return chained(arc_chords(mark.cx, mark.cy, mark.r, 0, 360))
+    if isinstance(mark, Arc):
+        return chained(arc_chords(mark.cx, mark.cy, mark.r, mark.start, mark.end))
+    return []
+
+
+def chained(points: Sequence[XY]) -> list[tuple[float, float, float, float]]:
+    """The segments between points that follow one another."""
+    return [(*points[i], *points[i + 1]) for i in range(len(points) - 1)]
+
+
+def arc_chords(x: float, y: float, r: float, start: float, end: float) -> list[XY]:
+    """Points along an arc, so close that a chord leaves it by less than a tenth of a millimetre."""
+    turn = abs(end - start)
+    count = max(2, ceil(turn / 8 * max(1.0, (r / 20) ** 0.5)))
+    angles = (radians(start + (end - start) * i / count) for i in range(count + 1))
+    return [(x + r * cos(a), y - r * sin(a)) for a in angles]

@@ -1,0 +1,141 @@
+"""Where drawings stand on an A3 sheet, and how far construction lines and arcs are drawn.
+
+The layout is made once from a trace; the marks then follow the values alone, so that a value that
+moves takes with it exactly what depends on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import degrees
+from cmath import phase
+from typing import Any
+
+from graphkin.errors import PageError, Problem
+from graphkin.paper.drawing import Drawing, place_of
+from graphkin.paper.field import Field, Rect
+from graphkin.paper.frame import A3_AREA, A3_TITLE_BLOCK
+from graphkin.paper.scale import Extent
+from graphkin.plane import Circle, Line, Ratio
+from graphkin.steps.program import Part, Plane
+
+MARGIN = 15.0
+"""Room left and right of a drawing for symbols, ends of lines and labels, in mm."""
+ABOVE = 12.0
+"""Room above and below a drawing, in mm."""
+HEADER = 21.0
+"""Height of the sheet's heading with the data, below the frame's upper edge, in mm."""
+FOOT = 201.0
+"""Where the tables below the drawings begin, in mm from the page's upper edge."""
+BEYOND = 7.0
+"""How far a construction line is drawn beyond the last point on it, in mm."""
+SWEEP = 7.0
+"""Half the length of a compass arc drawn where it is needed, in mm."""
+
+AREA: Rect = (A3_AREA[0] + 2, A3_AREA[1] + HEADER, A3_AREA[2] - 2, FOOT)
+"""The part of the sheet for the mechanism and the plan side by side."""
+WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
+BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
+"""The part for steps, tables and check bar."""
+TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)
+"""The table above the title block."""
+
+Spans = Mapping[int, tuple[float, float]]
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The two fields, and the part of each line (mm from its anchor) or arc (degrees) drawn."""
+
+    mechanism: Field
+    plan: Field
+    spans: Spans
+
+
+def lay_out(drawing: Drawing) -> Layout:
+    """Fields side by side, poles and centres inside where there is room for them."""
+    mechanism, plan = drawing.mechanism_extent(), drawing.plan_extent()
+    mm = 1000 / drawing.scales.kL
+    split = AREA[0] + shared_width(mechanism.width * mm, plan.width * mm)
+    left = (AREA[0], AREA[1], split, AREA[3])
+    right = (split, AREA[1], AREA[2], AREA[3])
+    wider = with_poles(drawing, mechanism, mm, left)
+    seconds = drawing.scales.seconds ** (1 if drawing.plane is Plane.VELOCITIES else 2)
+    fields = Layout(
+        Field(left, mm, wider.middle, centre(left)),
+        Field(right, mm * seconds, plan.middle / seconds, centre(right)),
+        {},
+    )
+    return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
+
+
+def shared_width(mechanism: float, plan: float) -> float:
+    """Width of the mechanism's field: each drawing gets what it needs and half of what is left."""
+    spare = WIDTH - mechanism - plan
+    if spare < -1e-6:
+        raise PageError(
+            Problem(
+                "sheet",
+                f"does not fit: the drawings are {-spare:.0f} mm wider than the sheet",
+                "a larger kL",
+                "leave [sheet] scale out, or give a larger number",
+            )
+        )
+    return mechanism + 2 * MARGIN + spare * 0.5
+
+
+def centre(rect: Rect) -> tuple[float, float]:
+    """The middle of a rectangle."""
+    return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
+
+
+def with_poles(drawing: Drawing, extent: Extent, mm: float, rect: Rect) -> Extent:
+    """The box of the mechanism, grown by each centre and pole for which the field has room."""
+    room = rect[2] - rect[0] - 1.4 * MARGIN, rect[3] - rect[1] - 1.4 * MARGIN
+    for _, step, value in drawing.mechanism_steps():
+        if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
+            point = place_of(value)
+            grown = extent.grown([point]) if point is not None else extent
+            if grown.width * mm <= room[0] and grown.height * mm <= room[1]:
+                extent = grown
+    return extent
+
+
+def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:
+    """How much of each line and arc is drawn: from the points on it, and a little beyond."""
+    found: dict[int, tuple[float, float]] = {}
+    for number, step, value in drawing.steps(Plane.MECHANISM, drawing.plane):
+        mm = (fields.mechanism if step.plane is Plane.MECHANISM else fields.plan).mm
+        points = points_on(drawing, number)
+        if isinstance(value, Line):
+            found[number] = line_span(value, points, mm)
+        elif isinstance(value, Circle) and points:
+            found[number] = arc_span(value, points, mm)
+    return found
+
+
+def points_on(drawing: Drawing, number: int) -> list[complex]:
+    """The points that were found on a line or an arc."""
+    points = []
+    for child in drawing.children.get(number, ()):
+        value: Any = drawing.trace.values[drawing.results.get(child, child)]
+        if isinstance(value, Ratio):
+            value = place_of(value)
+        if isinstance(value, complex):
+            points.append(value)
+    return points
+
+
+def line_span(line: Line, points: Sequence[complex], mm: float) -> tuple[float, float]:
+    """The part of a line from its anchor to the points on it, in mm, a little beyond each end."""
+    unit = line.along / abs(line.along)
+    along = [0.0, *(((p - line.point) * unit.conjugate()).real * mm for p in points)]
+    return min(along) - BEYOND, max(along) + BEYOND
+
+
+def arc_span(circle: Circle, points: Sequence[complex], mm: float) -> tuple[float, float]:
+    """The part of a circle about the points on it, in degrees."""
+    half = min(degrees(SWEEP / (circle.radius * mm)), 60.0)
+    angles = [degrees(phase(point - circle.centre)) for point in points]
+    return min(angles) - half, max(angles) + half

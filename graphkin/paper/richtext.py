@@ -1,0 +1,156 @@
+r"""A tiny markup for formulas and labels, laid out into runs at absolute places.
+
+``*v*`` is italic, ``_{BA}`` or ``_2`` a subscript, ``^{ν}`` or ``^2`` a superscript; a subscript
+and a superscript directly after one another start at the same place. A backslash takes the next
+sign as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import NamedTuple
+
+from graphkin.errors import PageError, Problem
+from graphkin.paper.glyphs import advance, ink, known, size_for
+
+SUB, SUP, SMALL = 0.24, -0.48, 0.70  # em: shifts (y down) and size of scripts
+SPECIAL = "\\*_^{}"
+TOKEN = re.compile(r"[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|.", re.DOTALL)
+WORDS = re.compile(r"[^ ]+(?: [^ ]+)* ?")
+
+
+class Run(NamedTuple):
+    """A piece of text in one face and size: offsets of its baseline's start and font size in mm."""
+
+    text: str
+    x: float
+    y: float
+    size: float
+    italic: bool
+
+
+class Piece(NamedTuple):
+    """A piece of marked-up text before it is placed; level −1 subscript, 1 superscript."""
+
+    text: str
+    italic: bool
+    level: int
+
+
+def escape(text: str) -> str:
+    """Make plain text safe to stand in markup."""
+    return "".join("\\" + sign if sign in SPECIAL else sign for sign in text)
+
+
+def plain(markup: str) -> str:
+    """Give the words of a markup without its signs."""
+    return "".join(piece.text for piece in pieces(markup))
+
+
+def broken(markup: str, found: str) -> PageError:
+    """Tell that a markup cannot be read."""
+    hint = "write \\* \\_ \\^ \\{ \\} for the signs themselves"
+    return PageError(Problem(f"markup “{markup}”", found, hint=hint))
+
+
+def pieces(markup: str) -> list[Piece]:
+    """Cut a markup into pieces of one face and one level."""
+    found: list[Piece] = []
+    italic, level = False, 0
+    for token in TOKEN.findall(markup):
+        if token == "*":
+            italic = not italic
+        elif token == "}" and level:
+            level = 0
+        elif token[0] in "_^":
+            if level:
+                raise broken(markup, "a script within a script")
+            level = -1 if token[0] == "_" else 1
+            if token[1:] != "{":
+                add(found, Piece(literal(markup, token[1:]), italic, level))
+                level = 0
+        else:
+            add(found, Piece(literal(markup, token), italic, level))
+    if italic or level:
+        raise broken(markup, "an italic or a script that does not end")
+    return found
+
+
+def literal(markup: str, token: str) -> str:
+    """Give the signs that a token stands for."""
+    if token in ("", "*", "_", "^", "\\"):
+        raise broken(markup, "a sign of the markup that stands alone")
+    return known(token[1:] if token[0] == "\\" else token)
+
+
+def add(found: list[Piece], piece: Piece) -> None:
+    """Append a piece, joined to the last one if face and level are the same."""
+    if found and found[-1][1:] == piece[1:]:
+        piece = Piece(found.pop().text + piece.text, piece.italic, piece.level)
+    found.append(piece)
+
+
+@lru_cache(maxsize=4096)
+def laid(markup: str, height: float) -> tuple[tuple[Run, ...], float]:
+    """Place the pieces of a markup one after another; give the runs and the whole width in mm."""
+    full = size_for(height)
+    shift = {0: 0.0, -1: SUB * full, 1: SUP * full}
+    x = 0.0  # where the next piece on the line starts
+    ends = {-1: 0.0, 1: 0.0}  # where each script ends
+    start = 0.0  # where scripts start
+    found: list[Run] = []
+    for text, italic, level in pieces(markup):
+        size = full * SMALL if level else full
+        if level:
+            begin = max(start, ends[level])
+            ends[level] = begin + advance(text, italic) * size
+            x = max(x, ends[level])
+        else:
+            begin = x
+            x = start = begin + advance(text, italic) * size
+            ends = {-1: start, 1: start}
+        found.append(Run(text, begin, shift[level], size, italic))
+    return tuple(found), x
+
+
+@lru_cache(maxsize=4096)
+def spaced_runs(markup: str, height: float) -> tuple[Run, ...]:
+    """Give the runs with at most one blank at an end, so that words stay apart when searched."""
+    found: list[Run] = []
+    for run in laid(markup, height)[0]:
+        if run.text[0] == " " and found and not found[-1].text.endswith(" "):
+            found[-1] = found[-1]._replace(text=found[-1].text + " ")
+        if run.text[0] == " " or "  " in run.text:
+            found += split(run)
+        else:
+            found.append(run)
+    return tuple(found)
+
+
+def split(run: Run) -> Iterator[Run]:
+    """Split a run at double blanks and drop leading ones; what is left stays in its place."""
+    for match in WORDS.finditer(run.text):
+        skipped = advance(run.text[: match.start()], run.italic) * run.size
+        yield Run(match[0], run.x + skipped, run.y, run.size, run.italic)
+
+
+@lru_cache(maxsize=4096)
+def runs(markup: str, height: float) -> tuple[Run, ...]:
+    """Give the runs of a markup for capitals ``height`` mm high, without blanks at their ends."""
+    stripped = (run._replace(text=run.text.rstrip(" ")) for run in spaced_runs(markup, height))
+    return tuple(run for run in stripped if run.text)
+
+
+@lru_cache(maxsize=4096)
+def extent(markup: str, height: float) -> tuple[float, float, float]:
+    """Tell the width, top and bottom of the ink in mm from the baseline's start (y down)."""
+    placed, width = laid(markup, height)
+    tops, bottoms = [], []
+    for run in placed:
+        found = ink(run.text, run.italic)
+        if found:
+            tops.append(run.y - found[1] * run.size)
+            bottoms.append(run.y - found[0] * run.size)
+    return width, min(tops, default=0.0), max(bottoms, default=0.0)

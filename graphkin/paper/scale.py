@@ -1,0 +1,119 @@
+"""Scale factors: kL from the preferred scales, kv and ka so that the right triangle holds.
+
+The drawing is as large as its fields allow. ka = kv²/kL always, because the right-triangle trick
+needs it; with one turning driver kv = omega·kL, so that its bar and its velocity are drawn alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from math import floor, log10
+
+from graphkin.errors import PageError, Problem
+
+STEPS = (1.0, 2.0, 5.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Scales:
+    """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper)."""
+
+    kL: float  # noqa: N815
+    seconds: float
+
+    @property
+    def kv(self) -> float:
+        """Velocity that one metre of paper stands for."""
+        return self.kL / self.seconds
+
+    @property
+    def ka(self) -> float:
+        """Acceleration that one metre of paper stands for: kv²/kL."""
+        return self.kv / self.seconds
+
+    @property
+    def words(self) -> str:
+        """The scale as a drawing writes it, 1:5 or 2:1."""
+        return f"1:{self.kL:g}" if self.kL >= 1 else f"{1 / self.kL:g}:1"
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """The upright box that a set of points takes up, in metres of the mechanism."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+    @property
+    def width(self) -> float:
+        """From left to right."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """From bottom to top."""
+        return self.top - self.bottom
+
+    @property
+    def middle(self) -> complex:
+        """Its middle."""
+        return complex(self.left + self.right, self.bottom + self.top) / 2
+
+    def grown(self, points: Iterable[complex]) -> Extent:
+        """The box that also holds some more points."""
+        return extent_of([*points, complex(self.left, self.bottom), complex(self.right, self.top)])
+
+
+def extent_of(points: Sequence[complex]) -> Extent:
+    """The upright box around points."""
+    xs, ys = [p.real for p in points], [p.imag for p in points]
+    return Extent(min(xs), min(ys), max(xs), max(ys))
+
+
+def preferred(smallest: float) -> Iterator[float]:
+    """The preferred numbers 1, 2, 5 times a power of ten, upwards from one not less than given."""
+    power = floor(log10(smallest)) if smallest > 0 else 0
+    while True:
+        for step in STEPS:
+            number = step * 10.0**power if power >= 0 else step / 10.0**-power
+            if number >= smallest * (1 - 1e-12):
+                yield number
+        power += 1
+
+
+def fitting_scale(needs: Sequence[tuple[Extent, Extent]], width: float, height: float) -> float:
+    """The smallest preferred kL at which mechanism and plan stand side by side on every sheet.
+
+    ``needs`` holds, for each sheet, the extents of its mechanism and of its plan drawn at the
+    mechanism's scale; the room's width and height are in mm.
+    """
+    across = max(mechanism.width + plan.width for mechanism, plan in needs)
+    down = max(max(mechanism.height, plan.height) for mechanism, plan in needs)
+    least = 1000 * max(across / width, down / height)
+    if not least > 0:
+        raise PageError(Problem("scale", "the mechanism has no extent", "points apart"))
+    return next(preferred(least))
+
+
+def kept_scale(
+    stated: float,
+    needs: Sequence[tuple[Extent, Extent]],
+    width: float,
+    height: float,
+    margin: float,
+) -> float:
+    """The scale that a scene asks for. Raises PageError with the one that would fit."""
+    least = fitting_scale(needs, width, height)
+    if stated < least * (1 - 1e-12):
+        raise PageError(
+            Problem(
+                "sheet.scale",
+                f"does not fit: at 1:{stated:g} the drawing leaves its fields",
+                f"1:{least:g} or smaller",
+                f"write scale = {least:g}, or leave it out",
+            )
+        )
+    return stated

@@ -1,0 +1,210 @@
+"""An A3 sheet: mechanism and plan side by side, data above, construction and tables below."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from graphkin.errors import PageError, Problem
+from graphkin.paper import construct, mechanism
+from graphkin.paper.construct import Desk
+from graphkin.paper.data import given
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.field import Rect
+from graphkin.paper.frame import A3_AREA, TitleBlock, check_bar, sheet_frame
+from graphkin.paper.labels import Board
+from graphkin.paper.layout import AREA, BELOW, TABLES, Layout, lay_out
+from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.richtext import escape, extent
+from graphkin.paper.sentences import sentences
+from graphkin.paper.tables import tables
+
+LEADING = 4.6
+"""Distance of lines of text in mm."""
+
+
+def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None) -> Page:
+    """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
+    layout = layout or lay_out(drawing)
+    marks: list[Mark] = [
+        *sheet_frame(title_block(drawing, view, number)),
+        *heading(drawing),
+        *left_board(drawing, layout, view).finish(),
+        *right_board(drawing, layout, view).finish(),
+        Line(layout.plan.rect[0], AREA[1] + 2, layout.plan.rect[0], AREA[3] - 2, "panel"),
+        Line(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
+        *below(drawing, view),
+    ]
+    title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
+    page = Page(420, 297, tuple(marks), title, drawing.words.language)
+    page.check()
+    return page
+
+
+def title_of(drawing: Drawing) -> str:
+    """The scene's title in the sheet's language."""
+    return drawing.scene.titles.get(drawing.words.language, drawing.scene.title)
+
+
+def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
+    """The fields of the title block."""
+    words, sheet = drawing.words, drawing.scene.sheet
+    fields = (
+        "legal_owner",
+        "title",
+        "creator",
+        "approved_by",
+        "document_type",
+        "identification",
+        "date_of_issue",
+        "sheet",
+        "language",
+        "scale",
+        "revision",
+    )
+    return TitleBlock(
+        legal_owner=sheet.owner,
+        title=title_of(drawing),
+        creator=sheet.author,
+        approved_by=sheet.approved,
+        document_type=words(f"sheet.document_{drawing.kind}", view=words(f"sheet.{view}")),
+        identification=sheet.number,
+        date_of_issue=sheet.date,
+        sheet=number,
+        language=words.language,
+        scale=drawing.scales.words,
+        labels={name: words(f"block.{name}") for name in fields},
+    )
+
+
+def heading(drawing: Drawing) -> list[Mark]:
+    """The sheet's title and the data, in as many lines as they need."""
+    words = drawing.words
+    left, top = AREA[0] + 2, A3_AREA[1]
+    name = f"{words('sheet.' + drawing.kind)} – {title_of(drawing)}"
+    marks: list[Mark] = [Text(left, top + 8.5, escape(name), "title", 5, name="title")]
+    pieces = given(drawing.scene, words)
+    lines = flowed(
+        [f"{words('page.data')}: {pieces[0]}", *pieces[1:]], "; ", AREA[2] - left - 3, 2.5
+    )
+    marks += check_bar(AREA[2] - 106, top + 7, "")
+    bar = words("page.check_bar")
+    marks.append(Text(AREA[2] - 109, top + 7, bar, "check-bar", 1.8, "end"))
+    if len(lines) > 2:
+        raise PageError(
+            Problem(
+                "data",
+                f"does not fit: {len(lines)} lines",
+                "two lines above the drawing",
+                "shorten names or split the scene",
+            )
+        )
+    for i, line in enumerate(lines):
+        marks.append(Text(left, top + 14 + i * 4.3, line, "caption", 2.5, name="data"))
+    return marks
+
+
+def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:
+    """Pieces of markup joined by a mark into lines no wider than a width in mm."""
+    lines: list[str] = []
+    for i, piece in enumerate(pieces):
+        text = piece + (mark.rstrip() if i < len(pieces) - 1 else "")
+        longer = f"{lines[-1]} {text}" if lines else text
+        if lines and extent(longer, height)[0] <= width:
+            lines[-1] = longer
+        else:
+            lines.append(text)
+    return lines
+
+
+def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
+    """The mechanism's field."""
+    field = layout.mechanism
+    board = Board(field.rect)
+    words = drawing.words
+    kL = words.decimal(f"{drawing.scales.kL:g}")
+    caption = words("page.mechanism_heading", scale=drawing.scales.words, kL=kL)
+    board.marks.append(headline(field.rect, caption))
+    if view == "task":
+        for link in drawing.scene.links.values():
+            mechanism.draw_guide_line(board, drawing, field, link)
+        mechanism.draw_frame(board, drawing, field)
+        return board
+    desk = Desk(board, field, drawing, layout)
+    mechanism.draw_plates(board, drawing, field)
+    construct.draw_mechanism_steps(desk, found=True)
+    mechanism.draw_bars(board, drawing, field)
+    mechanism.draw_frame(board, drawing, field)
+    construct.draw_mechanism_steps(desk, found=False)
+    if drawing.kind == "velocity":
+        mechanism.draw_drivers(board, drawing, field)
+    mechanism.draw_pins(board, drawing, field)
+    return board
+
+
+def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
+    """The plan's field."""
+    field = layout.plan
+    board = Board(field.rect)
+    words, scales = drawing.words, drawing.scales
+    factor = scales.kv if drawing.kind == "velocity" else scales.ka
+    k = words.significant(factor / 1000, 5)
+    board.marks.append(headline(field.rect, words(f"page.{drawing.kind}_heading", k=k)))
+    desk = Desk(board, field, drawing, layout)
+    if view == "task":
+        for number, step, value in drawing.steps(drawing.plane):
+            if step.action and step.action.key == "pole":
+                construct.put_pole(desk, number, step, value)
+        return board
+    construct.draw_plan_steps(desk)
+    return board
+
+
+def headline(rect: Rect, caption: str) -> Mark:
+    """The caption of a field, at its upper left."""
+    return Text(rect[0] + 3, rect[1] + 4.5, caption, "caption", 3.5)
+
+
+def below(drawing: Drawing, view: str) -> list[Mark]:
+    """The construction in words, the tables, the check bar and the witness's verdict."""
+    words = drawing.words
+    left, top = BELOW[0] + 2, BELOW[1]
+    marks: list[Mark] = []
+    width = TABLES[0] - left - 5
+    bottom = BELOW[3] - 3.5
+    if view == "key":
+        marks.append(Text(left, top + 4.5, words("page.construction"), "caption", 3.5))
+        marks += listed(drawing, left, top + 10.5, width, bottom)
+    marks += tables(drawing, TABLES, empty=view == "task")
+    if view == "key":
+        worst = words.significant(drawing.verdict.largest_difference, 2)
+        text = words("page.verified", difference=worst)
+        marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
+    return marks
+
+
+def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
+    """The numbered sentences of the construction, in lettering that fits."""
+    said = sentences(drawing)
+    for height, leading in ((3.5, 6.0), (2.5, 5.6), (2.5, LEADING), (2.5, 4.1), (1.8, 3.4)):
+        lines = [
+            (number if i == 0 else "", line)
+            for number, sentence in enumerate(said, 1)
+            for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width - 7, height))
+        ]
+        if y + (len(lines) - 1) * leading <= bottom:
+            break
+    else:
+        raise PageError(
+            Problem(
+                "construction",
+                f"does not fit: {len(lines)} lines",
+                "a shorter construction",
+                "ask for less on one sheet",
+            )
+        )
+    marks: list[Mark] = []
+    for i, (number, line) in enumerate(lines):
+        if number:
+            marks.append(Text(x + 5, y + i * leading, f"{number}.", "caption", height, "end"))
+        marks.append(Text(x + 7, y + i * leading, line, "caption", height))
+    return marks

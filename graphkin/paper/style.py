@@ -1,0 +1,110 @@
+"""How each class of mark looks: line width in mm, colour, dashes and fill, in two inks.
+
+Widths follow line group 0.5 of ISO 128 (thick 0.5, thin 0.25), the mechanism's links stand out
+with 0.7. The first class of a mark decides. A style without a colour of its own takes that of the
+mark's next class: ``arrowhead velocity`` and ``label velocity`` are drawn in the velocity's blue.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Literal
+
+Ink = Literal["colour", "black"]
+
+BLACK = "#000000"
+GREY = "#6a6a6a"
+BLUE = "#0b4f9e"
+TEAL = "#006d77"
+RED = "#b3260e"
+PURPLE = "#6d2a8c"
+LIGHT = "#e9edf2"
+PALE = "#f5f6f8"
+WHITE = "#ffffff"
+NEXT = ""  # the colour of the mark's next class
+
+DASHED = (2.4, 0.8)
+CHAIN = (5.0, 0.8, 0.4, 0.8)
+SHORT_CHAIN = (3.2, 0.7, 0.7, 0.7)
+DOTTED = (0.7, 0.7)
+DOUBLE_CHAIN = (3.2, 0.6, 0.6, 0.6, 0.6, 0.6)
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """Line width in mm (0: no line), colour, dashes in mm, fill colour ("ink": the line's)."""
+
+    width: float
+    colour: str = BLACK
+    dash: tuple[float, ...] = ()
+    fill: str = ""
+    round: bool = False
+
+
+STYLES: dict[str, Style] = {
+    # sheet
+    "frame": Style(0.7),
+    "border": Style(0.35),
+    "field": Style(0.35, fill="ink"),
+    "title": Style(0.35, fill="ink"),
+    "table": Style(0.25, fill="ink"),
+    "check-bar": Style(0.25, fill="ink"),
+    "caption": Style(0.25, fill="ink"),
+    "panel": Style(0.25, GREY),
+    "white": Style(0, WHITE, fill="ink"),
+    "shade": Style(0, PALE, fill="ink"),
+    # mechanism
+    "link": Style(0.7, round=True),
+    "plate": Style(0.5, fill=LIGHT, round=True),
+    "ground": Style(0.25),
+    "guide": Style(0.5),
+    "slider": Style(0.5, fill=WHITE),
+    "pin": Style(0.35, fill=WHITE),
+    "fixed-pivot": Style(0.5, fill=WHITE, round=True),
+    "dimension": Style(0.25, fill="ink"),
+    "angle": Style(0.25),
+    "sense": Style(0.35, NEXT),
+    "trajectory": Style(0.25, GREY, DOUBLE_CHAIN),
+    "centre-line": Style(0.25, GREY, CHAIN),
+    # construction
+    "construction": Style(0.18, GREY),
+    "ray": Style(0.18, GREY, DASHED),
+    "compass": Style(0.18, GREY),
+    "square-mark": Style(0.18, GREY),
+    "parallel-mark": Style(0.25, GREY),
+    # plans
+    "velocity": Style(0.5, BLUE),
+    "relative-velocity": Style(0.4, TEAL),
+    "acceleration": Style(0.5, RED),
+    "relative-acceleration": Style(0.4, RED),
+    "normal": Style(0.4, RED, DASHED),
+    "tangential": Style(0.4, RED, SHORT_CHAIN),
+    "coriolis": Style(0.4, PURPLE, DOTTED),
+    "arrowhead": Style(0, NEXT, fill="ink"),
+    "pole": Style(0.35, NEXT, fill=WHITE),
+    "point": Style(0.25, NEXT, fill=WHITE),
+    "centre": Style(0.35, NEXT),
+    # lettering
+    "label": Style(0, NEXT, fill="ink"),
+    "leader": Style(0.18, NEXT),
+    "number": Style(0.25, NEXT, fill=WHITE),
+}
+
+
+@lru_cache(maxsize=512)
+def style_of(cls: str, ink: Ink = "colour") -> Style:
+    """Give the style of a mark's classes, fill and colour resolved; unknown classes: KeyError."""
+    names = cls.split()
+    first = STYLES[names[0]]
+    colours = (STYLES[name].colour for name in names if name in STYLES)
+    colour = next((found for found in colours if found), BLACK)
+    fill = colour if first.fill == "ink" else first.fill
+    if ink == "black":
+        colour, fill = black(colour), black(fill) if fill == colour else fill
+    return replace(first, colour=colour, fill=fill)
+
+
+def black(colour: str) -> str:
+    """Turn every ink black; white and the light fills stay."""
+    return colour if colour in ("", WHITE, LIGHT, PALE) else BLACK

@@ -1,0 +1,95 @@
+"""Where a mechanism closes: why a step fails, by how much, and for which driver angles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from graphkin.arithmetic import batch_kind
+from graphkin.errors import ClosureError, Problem
+from graphkin.scene.model import Scene
+from graphkin.scene.quantity import shortest
+from graphkin.steps.program import Part, Program
+from graphkin.steps.run import StepFailed, miss, run_batch
+
+SAMPLES = 7200
+"""Driver angles tried in one turn: every twentieth of a degree."""
+DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
+
+
+def does_not_close(
+    scene: Scene, program: Program, needed: Sequence[int], failed: StepFailed
+) -> ClosureError:
+    """The error for a step that cannot be drawn: which, by how much, and where it could be."""
+    step = failed.step
+    letters = "-".join(step.says[key] for key in ("p", "q") if key in step.says)
+    what = " of ".join(part for part in (step.part.value, step.name or letters) if part)
+    early = step.part in (Part.SHAPE, Part.POSITION)
+    return ClosureError(
+        Problem(
+            f"step {failed.number} ({what})",
+            f"{step.name or 'a value'} cannot be found: {why(failed)}",
+            "loci that cross",
+            where_it_closes(scene, program, needed) if early else DEAD,
+        )
+    )
+
+
+def why(failed: StepFailed) -> str:
+    """Words for what hinders a step: loci that miss each other, or parallel lines."""
+    missed = miss(failed.step, failed.args_found)
+    if missed is None:
+        return "its two lines are parallel"
+    loci = "the arcs miss each other" if "q" in failed.step.says else "the arc misses the guide"
+    return f"{loci} by {shortest(float(f'{1e3 * missed:.4g}'))} mm"
+
+
+def where_it_closes(scene: Scene, program: Program, needed: Sequence[int]) -> str:
+    """Words for the driver angles at which every position can be drawn."""
+    turning = [driver for driver in scene.drivers if driver.kind == "turn"]
+    if len(turning) != 1:
+        return "check lengths, sides and the drivers' positions"
+    ranges = closing_ranges(program, needed, scene)
+    if not ranges:
+        return "it closes for no angle of the driver: check the lengths"
+    words = ", ".join(f"{low:.2f}° to {high:.2f}°" for low, high in ranges)
+    return f"it closes for driver angles {words}"
+
+
+def closing_ranges(
+    program: Program, needed: Sequence[int], scene: Scene
+) -> list[tuple[float, float]]:
+    """The ranges of the driver's angle (degrees, from 0) for which all positions can be drawn."""
+    import numpy as np
+
+    degrees = np.arange(SAMPLES) * (360 / SAMPLES)
+    closed = closes_at(program, needed, scene, degrees)
+    if closed.all():
+        return [(0.0, 360.0)]
+    if not closed.any():
+        return []
+    starts = np.flatnonzero(closed & ~np.roll(closed, 1))
+    ends = np.flatnonzero(closed & ~np.roll(closed, -1))
+    if ends[0] < starts[0]:
+        ends = np.roll(ends, -1)
+    return [
+        (float(degrees[low]), float(degrees[high] + (360 if high < low else 0)))
+        for low, high in zip(starts, ends, strict=True)
+    ]
+
+
+def closes_at(program: Program, needed: Sequence[int], scene: Scene, degrees: Any) -> Any:
+    """Whether all positions can be drawn, for each of an array of driver angles in degrees."""
+    import numpy as np
+
+    kind = batch_kind()
+    early = (Part.SHAPE, Part.POSITION)
+    steps = [n for n in needed if program.steps[n].part in early and not program.steps[n].hand]
+    angle = {n: kind.direction(degrees) for n in steps if program.steps[n].name == "phi"}
+    with np.errstate(all="ignore"):
+        trace = run_batch(program, steps, dict(scene.values), kind, steps, overrides=angle)
+    closed = np.ones(len(degrees), dtype=bool)
+    for value in trace.values.values():
+        if isinstance(value, np.ndarray):
+            closed &= np.isfinite(value)
+    return closed

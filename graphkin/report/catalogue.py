@@ -1,0 +1,75 @@
+"""The texts of list and explain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from graphkin import labs
+from graphkin.report.table import labelled, listed, table
+from graphkin.scene.model import Ask, Parameter, Scene
+from graphkin.scene.parameters import range_words
+
+if TYPE_CHECKING:
+    from graphkin.mechanism import Mechanism
+
+ASKED = (
+    ("velocity", "velocity of"),
+    ("acceleration", "acceleration of"),
+    ("omega", "ω of"),
+    ("epsilon", "ε of"),
+    ("slides", "sliding of"),
+    ("centres", "instantaneous centres of"),
+    ("poles", "acceleration poles of"),
+    ("centrodes", "centrodes of"),
+)
+
+
+def labs_lines() -> Iterator[str]:
+    """Every shipped lab: its title, parameters with their ranges, and what it asks."""
+    from graphkin.scene.read import read_scene
+
+    for name in labs.names():
+        yield from lab_lines(read_scene(labs.find(name)))
+        yield ""
+
+
+def lab_lines(scene: Scene) -> list[str]:
+    """One lab."""
+    parameters = [parameter_words(parameter) for parameter in scene.parameters.values()]
+    return [
+        scene.name,
+        *labelled("", [scene.titles.get("en", scene.title)], 2),
+        *labelled("  set", parameters or ["nothing"], 9),
+        *labelled("  asked", [ask_words(scene.ask)], 9),
+    ]
+
+
+def parameter_words(parameter: Parameter) -> str:
+    """A parameter with its range, and the value it has unless it is set."""
+    return f"{range_words(parameter)} ({parameter.value.written({})} unless set)"
+
+
+def ask_words(ask: Ask) -> str:
+    """What a scene asks for, in words."""
+    wanted = [(words, getattr(ask, key)) for key, words in ASKED]
+    return "; ".join(f"{words} {listed(names)}" for words, names in wanted if names) or "nothing"
+
+
+def effects_lines(mechanism: Mechanism) -> Iterator[str]:
+    """Which effects are in the construction of what is asked, which are out, and why."""
+    from graphkin.effects import BY_HAND, effects
+
+    found = effects(mechanism)
+    counted = sum(effect.steps for effect in found if effect.name != BY_HAND)
+    scene, whole = mechanism.scene, len(mechanism.program.needed(mechanism.program.targets))
+    yield f"{scene.title} ({scene.name})"
+    yield f"asked: {ask_words(scene.ask)}"
+    yield ""
+    rows = [
+        (effect.name, "in" if effect.included else "out", f"{effect.steps:5d}", effect.reason)
+        for effect in found
+    ]
+    yield from table(("effect", "", "steps", "why"), rows)
+    yield ""
+    yield f"{counted} steps give what is asked; {whole} would give everything."

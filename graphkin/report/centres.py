@@ -1,0 +1,123 @@
+"""Centres and poles of links: at a point, at infinity, or none where the link is at rest."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from math import degrees
+
+from graphkin.plane import Ratio
+from graphkin.report.table import NOISE, number
+from graphkin.scene.model import FRAME, Scene
+from graphkin.steps.solution import LinkMotion, PointMotion, Solution
+
+FAR = 1e9
+"""Breadths of the mechanism beyond which a centre counts as at infinity."""
+
+
+def place_of(ratio: Ratio | None, breadth: float) -> complex | None:
+    """The point that a ratio names (m); None at infinity, and where no point is singled out."""
+    if ratio is None or abs(ratio.shift) >= FAR * breadth * abs(ratio.size):
+        return None
+    return complex(ratio.start + ratio.shift / ratio.size)
+
+
+def breadth_of(solution: Solution) -> float:
+    """Half the perimeter of the box around all points (m), 1 when they all coincide."""
+    places = [p.position for p in solution.points.values() if p.position is not None]
+    xs, ys = [z.real for z in places], [z.imag for z in places]
+    return (max(xs) - min(xs) + max(ys) - min(ys) if places else 0.0) or 1.0
+
+
+def largest(values: Iterable[complex | None]) -> float:
+    """The largest magnitude among values; nought when there is none."""
+    return max((abs(value) for value in values if value is not None), default=0.0)
+
+
+def completed(scene: Scene, solution: Solution) -> Solution:
+    """The solution with every moving link in it: a block turns as its guide does.
+
+    A link whose points all stand still has neither centre nor pole, for each of its points is one.
+    """
+    speeds = largest(point.velocity for point in solution.points.values())
+    rates = largest(point.acceleration for point in solution.points.values())
+    links = {}
+    for name in scene.links:
+        motion = solution.links.get(name) or carried(scene, name, solution)
+        points = [solution.points[p] for p in scene.links[name].points if p in solution.points]
+        if still((p.velocity for p in points), speeds):
+            motion = replace(motion, instant_centre=None)
+        if still((p.acceleration for p in points), rates):
+            motion = replace(motion, acceleration_pole=None)
+        links[name] = motion
+    return replace(solution, links=links)
+
+
+def still(values: Iterable[complex | None], biggest: float) -> bool:
+    """True when every value is known and nothing beside the largest of its kind."""
+    found = list(values)
+    return bool(found) and all(z is not None and abs(z) <= NOISE * biggest for z in found)
+
+
+def carried(scene: Scene, name: str, solution: Solution) -> LinkMotion:
+    """Motion of a block that turns with its guide: on the frame it does not turn."""
+    point = next((p for p in scene.links[name].points if p in solution.points), None)
+    motion = solution.points[point] if point is not None else PointMotion()
+    omega, epsilon = turning_of_guide(scene, name, solution)
+    if motion.position is None or omega is None:
+        return LinkMotion(omega, epsilon)
+    centre = pole = None
+    if motion.velocity is not None:
+        centre = Ratio(motion.position, 1j * motion.velocity, omega)
+    if motion.acceleration is not None and epsilon is not None:
+        pole = Ratio(motion.position, -motion.acceleration, 1j * epsilon - omega * omega)
+    return LinkMotion(omega, epsilon, centre, pole)
+
+
+def turning_of_guide(
+    scene: Scene, name: str, solution: Solution
+) -> tuple[float | None, float | None]:
+    """ω and ε of the link that carries the guides under a block, however many lie between."""
+    for link in guides_under(scene, name):
+        if link == FRAME:
+            return 0.0, 0.0
+        if link in solution.links:
+            return solution.links[link].omega, solution.links[link].epsilon
+    return None, None
+
+
+def guides_under(scene: Scene, name: str) -> Iterator[str]:
+    """The link under a block, the one under that, and so on to one that does not slide."""
+    seen: set[str] = set()
+    while name != FRAME and name not in seen and scene.links[name].slides:
+        seen.add(name)
+        name = scene.links[name].slides[0].on
+        yield name
+
+
+def centre_words(ratio: Ratio | None, breadth: float) -> str:
+    """Where an instantaneous centre lies (m), or the direction in which it is at infinity."""
+    place = place_of(ratio, breadth)
+    if place is not None:
+        return point_words(place)
+    if ratio is None or ratio.shift == 0:
+        return "every point: the link is at rest"
+    return f"at infinity, in direction {number(degrees(phase(ratio.shift)) % 180)}°"
+
+
+def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float) -> str:
+    """Where an acceleration pole lies (m), or the common direction when it is at infinity."""
+    place = place_of(ratio, breadth)
+    if place is not None:
+        return point_words(place)
+    if ratio is None or not acceleration:
+        return "every point: none of them accelerates"
+    return f"at infinity: all accelerate alike, towards {number(degrees(phase(acceleration)))}°"
+
+
+def point_words(place: complex) -> str:
+    """A point's coordinates in brackets."""
+    largest_part = max(abs(place.real), abs(place.imag))
+    x, y = (0.0 if abs(part) <= NOISE * largest_part else part for part in (place.real, place.imag))
+    return f"({number(x)}, {number(y)})"

@@ -1,0 +1,158 @@
+"""The text of solve: tables of points, links, centres and slides, the scales and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from graphkin.report.centres import breadth_of, centre_words, completed, pole_words
+from graphkin.report.record import Record, settings_words
+from graphkin.report.table import Cell, cleaned, number, table
+from graphkin.scene.model import Scene
+from graphkin.steps.solution import Solution, Verdict
+
+FAIR = 1e-4
+"""Sine of a crossing below which an answer is no longer fair to ask of a drawing."""
+POINT_HEADS = {
+    "position": ("x, m", "y, m"),
+    "velocity": ("vx, m/s", "vy, m/s", "v, m/s"),
+    "acceleration": ("ax, m/s²", "ay, m/s²", "a, m/s²"),
+}
+
+
+def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
+    """Everything that a record holds, in aligned tables."""
+    parts = [
+        [heading(scene, found)],
+        points_table(found["points"]),
+        turning_table(found["links"]),
+        centres_table(scene, solution, found["links"]),
+        slides_table(found["slides"]),
+        scale_lines(found["scales"]),
+        [f"witness  {verdict_words(verdict)}"],
+    ]
+    return "\n\n".join("\n".join(lines) for lines in parts if lines)
+
+
+def heading(scene: Scene, found: Record) -> str:
+    """Title and name of the scene, and its parameters as set."""
+    settings = settings_words(found["parameters"])
+    return f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
+
+
+def points_table(points: Mapping[str, Record]) -> list[str]:
+    """Position, velocity and acceleration of each point, with magnitudes."""
+    known = [key for key in POINT_HEADS if any(key in point for point in points.values())]
+    if not known:
+        return []
+    biggest = {key: max(size(point.get(key)) for point in points.values()) for key in known}
+    rows: list[list[Cell]] = []
+    for name, point in points.items():
+        row: list[Cell] = [name]
+        for key in known:
+            row += components(point.get(key), biggest[key], len(POINT_HEADS[key]))
+        rows.append(row)
+    return table(["point", *(head for key in known for head in POINT_HEADS[key])], rows)
+
+
+def size(pair: list[float] | None) -> float:
+    """Magnitude of a pair of components."""
+    return abs(complex(*pair)) if pair is not None else 0.0
+
+
+def components(pair: list[float] | None, biggest: float, columns: int) -> list[Cell]:
+    """The two components of a vector, and its magnitude where there is a third column."""
+    if pair is None:
+        return [None] * columns
+    return [cleaned(value, biggest) for value in (*pair, size(pair))[:columns]]
+
+
+def turning_table(links: Mapping[str, Record]) -> list[str]:
+    """ω and ε of each link, with their senses in words."""
+    heads: list[str] = ["link"]
+    columns: list[list[Cell]] = [list(links)]
+    for key, head in (("omega", "ω, rad/s"), ("epsilon", "ε, rad/s²")):
+        if not any(key in link for link in links.values()):
+            continue
+        biggest = max(abs(link.get(key) or 0.0) for link in links.values())
+        values = [link.get(key) for link in links.values()]
+        clean = [None if value is None else cleaned(value, biggest) for value in values]
+        heads += [head, f"sense of {head[0]}"]
+        columns += [list(clean), [sense(value) for value in clean]]
+    rows = zip(*columns, strict=True)
+    return table(heads, [row for row in rows if any(cell is not None for cell in row[1:])])
+
+
+def sense(value: float | None) -> str | None:
+    """Which way a link turns, in words."""
+    if value is None:
+        return None
+    return "none" if value == 0 else "counter-clockwise" if value > 0 else "clockwise"
+
+
+def centres_table(scene: Scene, solution: Solution, links: Mapping[str, Record]) -> list[str]:
+    """Instantaneous centre and acceleration pole of each link that has them reported."""
+    full, breadth = completed(scene, solution), breadth_of(solution)
+    kinds = {
+        "instant_centre": "instantaneous centre, m",
+        "acceleration_pole": "acceleration pole, m",
+    }
+    known = [key for key in kinds if any(key in link for link in links.values())]
+    rows: list[list[Cell]] = []
+    for name, link in links.items():
+        cells: dict[str, Cell] = {
+            "instant_centre": centre_words(full.links[name].instant_centre, breadth),
+            "acceleration_pole": pole_words(
+                full.links[name].acceleration_pole, acceleration_of(scene, full, name), breadth
+            ),
+        }
+        if any(key in link for key in known):
+            rows.append([name, *(cells[key] if key in link else None for key in known)])
+    return table(["link", *(kinds[key] for key in known)], rows) if rows else []
+
+
+def acceleration_of(scene: Scene, solution: Solution, link: str) -> complex | None:
+    """Acceleration of the first known point of a link."""
+    points = (solution.points.get(name) for name in scene.links[link].points)
+    return next((p.acceleration for p in points if p is not None), None)
+
+
+def slides_table(slides: Mapping[str, Record]) -> list[str]:
+    """Motion of each block along its guide, and its Coriolis vector."""
+    heads = [
+        "block",
+        "position, m",
+        "speed, m/s",
+        "acceleration, m/s²",
+        "Coriolis x, m/s²",
+        "y, m/s²",
+    ]
+    keys = ("position", "speed", "acceleration")
+    rows: list[list[Any]] = [
+        [name, *(slide[key] for key in keys), *slide["coriolis"]] for name, slide in slides.items()
+    ]
+    return table(heads, rows) if rows else []
+
+
+def scale_lines(scales: Mapping[str, float]) -> list[str]:
+    """The scale factors of the largest drawing that fits the sheet."""
+    kL, kv, ka = scales["kL"], scales["kv"], scales["ka"]
+    drawn = f"1 : {kL:g}" if kL >= 1 else f"{1 / kL:g} : 1"
+    return [
+        f"scale    kL = {kL:g}, drawn {drawn}",
+        f"         kv = {number(kv)} m/s per metre of paper, {number(kv / 1000)} m/s per mm",
+        f"         ka = {number(ka)} m/s² per metre of paper, {number(ka / 1000)} m/s² per mm",
+    ]
+
+
+def verdict_words(verdict: Verdict | None) -> str:
+    """What the independent route says of the construction."""
+    if verdict is None:
+        return "could not judge"
+    where = f" at {verdict.quantity}" if verdict.quantity else ""
+    says = "agrees" if verdict.agrees else "DOES NOT AGREE"
+    words = f"{says}: largest difference {verdict.largest_difference:.1e}{where}"
+    words += f", limit {verdict.limit:.1e}"
+    if verdict.branches:
+        words += "; these branches do not hold: " + ", ".join(verdict.branches)
+    return words

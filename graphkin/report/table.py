@@ -1,0 +1,79 @@
+"""Numbers in words and columns: six significant digits, decimal points one under the other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from graphkin.steps.program import Program
+
+DIGITS = 6
+NOISE = 1e-12
+"""Share of the largest magnitude of its kind below which a printed number is rounding."""
+
+Cell = str | float | None
+
+
+def number(value: float) -> str:
+    """A number with six significant digits, never minus nought."""
+    if value == 0:
+        return "0"
+    return f"{value:#.{DIGITS}g}".rstrip(".")
+
+
+def cleaned(value: float, largest: float) -> float:
+    """The value, or nought where it is rounding beside the largest of its kind."""
+    return 0.0 if abs(value) <= NOISE * largest else value
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[Cell]]) -> list[str]:
+    """Lines of a table: numbers aligned at their decimal points, texts at the left."""
+    body = [tuple(row) for row in rows]
+    columns = [
+        column(head, [row[i] for row in body]) for i, head in enumerate(heads) if head is not None
+    ]
+    return ["  ".join(cells).rstrip() for cells in zip(*columns, strict=True)]
+
+
+def column(head: str, cells: Sequence[Cell]) -> list[str]:
+    """One column, its head first, all of one width."""
+    if any(isinstance(cell, float) for cell in cells):
+        texts = at_the_point(["–" if cell is None else worded(cell) for cell in cells])
+        width = max(map(len, [head, *texts]))
+        return [text.rjust(width) for text in [head, *texts]]
+    plain = [head, *("–" if cell is None else str(cell) for cell in cells)]
+    width = max(map(len, plain))
+    return [text.ljust(width) for text in plain]
+
+
+def worded(cell: Cell) -> str:
+    """The text of a cell."""
+    return number(cell) if isinstance(cell, float) else str(cell)
+
+
+def at_the_point(texts: Sequence[str]) -> list[str]:
+    """Numbers padded at the right so that their points stand one under the other."""
+    tails = [len(text) - (text.find(".") if "." in text else len(text)) for text in texts]
+    most = max(tails, default=0)
+    return [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
+
+
+def labelled(label: str, lines: Sequence[str], width: int = 11) -> list[str]:
+    """Lines with a label before the first and the others below it."""
+    return [f"{label if i == 0 else '':<{width}}{line}".rstrip() for i, line in enumerate(lines)]
+
+
+def listed(names: Iterable[str], most: int = 12) -> str:
+    """Names with commas, the last after ``and``; a long list is cut with its number."""
+    known = list(names)
+    if len(known) > most:
+        known = [*known[:most], f"{len(known) - most} more"]
+    return " and ".join([", ".join(known[:-1]), known[-1]]) if len(known) > 1 else "".join(known)
+
+
+def step_words(program: Program, number: int) -> str:
+    """How a step is called where its drawing is judged: its action, its letter, its part."""
+    step = program.steps[number]
+    key = step.action.key if step.action is not None else "given"
+    letters = "-".join(step.says[k] for k in ("p", "q") if step.says.get(k))
+    name = step.name or letters
+    return f"step {number}, {key}{' ' + name if name else ''} ({step.part.value})"

@@ -1,0 +1,192 @@
+"""What the parts of a scene say of each other: every name that is used is one that is written."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection
+
+from graphkin.scene.findings import Findings, listed, nearest, numbered
+from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Side, Slide
+
+
+def check_scene(scene: Scene, findings: Findings) -> None:
+    """Note every name that is unknown or used for two things, and every link left alone."""
+    check_namespace(scene, findings)
+    for link in (scene.frame, *scene.links.values()):
+        check_link(scene, link, findings)
+    check_alone(scene, findings)
+    for driver in scene.drivers:
+        check_driver(scene, driver, driver.position.place.rpartition(".")[0], findings)
+    check_repeated(scene, findings)
+    check_branches(scene, findings)
+    check_ask(scene, findings)
+
+
+def all_points(scene: Scene) -> dict[str, None]:
+    """Every point of every link, once, in the order written."""
+    every = (scene.frame, *scene.links.values())
+    return dict.fromkeys(point for link in every for point in link.points)
+
+
+def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
+    """The link of a name; None, with a problem noted, when there is none."""
+    if name == FRAME or name in scene.links:
+        return scene.link(name)
+    found = f"link {name} is not in [links]"
+    findings.add(place, found, listed((FRAME, *scene.links)), nearest(name, scene.links))
+    return None
+
+
+def known_point(
+    name: str, points: Collection[str], where: str, place: str, findings: Findings
+) -> bool:
+    """Whether a point is among those of ``where``; a problem is noted when it is not."""
+    if name not in points:
+        expected = listed(points) or "a point that is written"
+        findings.add(place, f"{name} is no point of {where}", expected, nearest(name, points))
+    return name in points
+
+
+def check_namespace(scene: Scene, findings: Findings) -> None:
+    """One name, one thing: a point and a link do not share it."""
+    points = all_points(scene)
+    for name in scene.links:
+        if name in points:
+            findings.add(f"links.{name}", f"{name} is a point too", "one name for one thing")
+
+
+def check_link(scene: Scene, link: Link, findings: Findings) -> None:
+    """Guides, tracks and wheels of a link name points and links that are there."""
+    place = "frame" if link.name == FRAME else f"links.{link.name}"
+    for index, wheel in enumerate(link.wheels):
+        where = numbered(f"{place}.wheel", index, len(link.wheels))
+        if wheel.centre:
+            known_point(wheel.centre, link.points, "this link", f"{where}.centre", findings)
+    for index, slide in enumerate(link.slides):
+        where = numbered(f"{place}.slides", index, len(link.slides))
+        check_guide(scene, link, slide, where, findings)
+    for index, rolling in enumerate(link.rolls):
+        where = numbered(f"{place}.rolls", index, len(link.rolls))
+        check_rolling(scene, link, rolling, where, findings)
+
+
+def check_alone(scene: Scene, findings: Findings) -> None:
+    """Every moving link has points and touches another: by a pin, a guide, a track or a wheel."""
+    links = (scene.frame, *scene.links.values())
+    carriers = {slide.on for link in links for slide in link.slides}
+    carriers |= {rolling.on for link in links for rolling in link.rolls}
+    shared = Counter(point for link in links for point in link.points)
+    for link in scene.links.values():
+        place = f"links.{link.name}"
+        if findings.inside(place):
+            continue
+        pinned = any(shared[point] > 1 for point in link.points)
+        if not link.points:
+            findings.add(place, "a link without points", "points, such as P = [0, 0] or P-Q = 30")
+        elif not (pinned or link.slides or link.rolls or link.name in carriers):
+            found = f"link {link.name} touches no other"
+            findings.add(place, found, "a point that another link has too, slides or rolls")
+
+
+def check_guide(
+    scene: Scene, link: Link, joint: Slide | Rolling, place: str, findings: Findings
+) -> None:
+    """A guide or a track is on another link, and the points it names are that link's."""
+    if joint.on == link.name:
+        findings.add(f"{place}.on", f"link {link.name} itself", "another link")
+        return
+    on = known_link(scene, joint.on, f"{place}.on", findings)
+    if on is None:
+        return
+    where = "the frame" if joint.on == FRAME else f"link {joint.on}"
+    if isinstance(joint.through, str):
+        known_point(joint.through, on.points, where, f"{place}.through", findings)
+    if isinstance(joint, Slide) and joint.along:
+        for point in joint.along:
+            known_point(point, on.points, where, f"{place}.along", findings)
+
+
+def check_rolling(
+    scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings
+) -> None:
+    """A wheel rolls on a line, or on a wheel of another link; its start names known links."""
+    check_guide(scene, link, rolling, place, findings)
+    if not link.wheels:
+        expected = 'wheel = { centre = "P", radius = … }'
+        findings.add(place, f"link {link.name} has no wheel", expected)
+    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
+    if rolling.through is None and on is not None and not on.wheels and on is not link:
+        expected = "a wheel there, or through and angle for a straight track"
+        findings.add(place, f"link {rolling.on} has no wheel to roll on", expected)
+    for name in rolling.start:
+        known_link(scene, name, f"{place}.start.{name}", findings)
+
+
+def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -> None:
+    """A driver moves a known link against another, along a guide or a track that is there."""
+    link = known_link(scene, driver.link, f"{place}.{driver.kind}", findings)
+    against = known_link(scene, driver.against, f"{place}.against", findings)
+    if link is None or against is None:
+        return
+    if driver.link == driver.against:
+        what = "the frame, which is at rest" if driver.link == FRAME else "itself"
+        findings.add(f"{place}.{driver.kind}", f"against {what}", "a link that moves")
+        return
+    for point in driver.of or ():
+        known_point(point, link.points, f"link {link.name}", f"{place}.of", findings)
+    if driver.kind == "turn":
+        return
+    straight = [joint.on for joint in link.rolls if joint.through is not None]
+    tracks = straight if driver.kind == "roll" else [joint.on for joint in link.slides]
+    if driver.against not in tracks:
+        verb = "slides" if driver.kind == "slide" else "rolls straight"
+        found = f"link {link.name} {verb} on {' and '.join(tracks) or 'nothing'}"
+        hint = f"write against = {tracks[0]}" if tracks else ""
+        findings.add(place, f"{found}, not on {driver.against}", f"a link that {verb}", hint)
+
+
+def check_repeated(scene: Scene, findings: Findings) -> None:
+    """No motion is given twice."""
+    seen = Counter((driver.kind, driver.link, driver.against) for driver in scene.drivers)
+    for (kind, link, against), times in seen.items():
+        if times > 1:
+            found = f"{kind} = {link} against {against} is given {times} times"
+            findings.add("drivers", found, "one driver for one motion")
+
+
+def check_branches(scene: Scene, findings: Findings) -> None:
+    """A side is chosen for a point, a way or a closure for a link."""
+    points = all_points(scene)
+    for name, branch in scene.branches.items():
+        place = f"branches.{name}"
+        if name not in points and name not in scene.links:
+            known = [*points, *scene.links]
+            findings.add(place, f"{name} is no point or link", listed(known), nearest(name, known))
+        elif isinstance(branch, Side):
+            if name not in points:
+                findings.add(place, f"a side for link {name}", '"forward", "backward", "closure 1"')
+            for point in (branch.first, branch.second):
+                known_point(point, points, "the mechanism", place, findings)
+            if name in (branch.first, branch.second):
+                findings.add(place, f"{name} on a side of itself", "a line of two other points")
+        elif name not in scene.links:
+            expected = '"left of P-Q" or "right of P-Q"'
+            findings.add(place, f"forward, backward or a closure for point {name}", expected)
+
+
+def check_ask(scene: Scene, findings: Findings) -> None:
+    """Only known points and links are asked for, and slides only of links that slide."""
+    points = all_points(scene)
+    for key in ("velocity", "acceleration"):
+        for index, asked in enumerate(getattr(scene.ask, key)):
+            place = f"ask.{key}[{index}]"
+            point, _, link = asked.partition("@")
+            known_point(point, points, "the mechanism", place, findings)
+            if link:
+                known_link(scene, link, place, findings)
+    for key in ("omega", "epsilon", "poles", "centres", "centrodes", "slides"):
+        for index, name in enumerate(getattr(scene.ask, key)):
+            place = f"ask.{key}[{index}]"
+            link_asked = known_link(scene, name, place, findings)
+            if key == "slides" and link_asked is not None and not link_asked.slides:
+                findings.add(place, f"link {name} does not slide", "a link with slides")

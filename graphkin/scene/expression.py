@@ -1,0 +1,197 @@
+"""Expressions as a lecturer writes them ("30 + 2*n"), read into a small tree and never executed.
+
+Python's own parser gives the shape; only numbers, names, + - * / **, a leading minus, brackets and
+four functions are let through, and every number keeps the digits it was written with.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from decimal import Decimal, InvalidOperation
+from fractions import Fraction
+from typing import NamedTuple, NoReturn
+
+from graphkin.scene.findings import shown, visible
+
+FUNCTIONS = ("sqrt", "sin", "cos", "tan")
+"""Functions of one number; sine, cosine and tangent take degrees."""
+CONSTANT = "pi"
+TIME = "t"
+RESERVED = frozenset((*FUNCTIONS, CONSTANT, TIME))
+"""Names that no parameter may have."""
+
+LONGEST = 500
+DEEPEST = 60
+WIDEST = 1000
+"""Largest number of bits above or below the fraction bar of a number."""
+FARTHEST = 60
+"""Largest power of ten of a number as written."""
+DIGITS = 60
+HEAVIEST = 2000
+"""Largest number of parts of a law of time and of its first derivative."""
+
+MARKS = "_.+-*/() \t\r\n"
+JUXTAPOSED = re.compile(
+    r"(?<![A-Za-z0-9_.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z_(]", re.ASCII
+)
+DECIMAL = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
+
+
+class UnreadableError(ValueError):
+    """An expression or a number that cannot be read: what was found, and a hint."""
+
+    def __init__(self, found: str, hint: str = "") -> None:
+        super().__init__(found)
+        self.found = found
+        self.hint = hint
+
+
+class Number(NamedTuple):
+    """An exact number."""
+
+    value: Fraction
+
+
+class Name(NamedTuple):
+    """A parameter, the time ``t`` or ``pi``."""
+
+    name: str
+
+
+class Minus(NamedTuple):
+    """The negative of what follows."""
+
+    inner: Tree
+
+
+class Pair(NamedTuple):
+    """Two parts joined by one of + - * / **."""
+
+    sign: str
+    left: Tree
+    right: Tree
+
+
+class Call(NamedTuple):
+    """A function of one number; the angle of a sine is in degrees."""
+
+    function: str
+    inner: Tree
+
+
+Tree = Number | Name | Minus | Pair | Call
+
+
+def parse(text: str) -> Tree:
+    """The tree of an expression; UnreadableError says what could not be read."""
+    if len(text) > LONGEST:
+        raise UnreadableError(f"an expression of {len(text)} characters", f"at most {LONGEST}")
+    refuse_foreign(text)
+    flat = " ".join(text.split())
+    try:
+        body = ast.parse(flat, mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise UnreadableError(f"{shown(flat)} is not an expression") from None
+    return convert(body, flat, 0)
+
+
+def refuse_foreign(text: str) -> None:
+    """Refuse characters and shapes that no expression has, each with the way to write it."""
+    foreign = next((c for c in text if not (c.isascii() and c.isalnum()) and c not in MARKS), "")
+    if foreign:
+        hints = {"^": "write a power as **", ",": "write a decimal point", "°": "leave out °"}
+        raise UnreadableError(f"{foreign!a} in an expression", hints.get(foreign, ""))
+    if not text.strip():
+        raise UnreadableError("an empty expression")
+    joined = JUXTAPOSED.search(text)
+    if joined:
+        hint = (
+            "write plain digits"
+            if joined.group()[-1] in "_xXoObBjJ"
+            else "write a product with *: 2*n"
+        )
+        raise UnreadableError(f'"{joined.group()}" in an expression', hint)
+
+
+def convert(node: ast.expr, text: str, depth: int) -> Tree:
+    """Our tree for a part of Python's, if it is on the short list of what is allowed."""
+    if depth > DEEPEST:
+        raise UnreadableError(f"an expression nested more than {DEEPEST} deep")
+    match node:
+        case ast.Constant():
+            return Number(decimal(text[node.col_offset : node.end_col_offset]))
+        case ast.Name(id=name):
+            return Name(name)
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return Minus(convert(inner, text, depth + 1))
+        case ast.UnaryOp(op=ast.UAdd(), operand=inner):
+            return convert(inner, text, depth + 1)
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in SIGNS:
+            sign = SIGNS[type(op)]
+            return Pair(sign, convert(left, text, depth + 1), convert(right, text, depth + 1))
+        case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in FUNCTIONS:
+            return Call(name, convert(inner, text, depth + 1))
+    return refuse(node, text)
+
+
+def refuse(node: ast.expr, text: str) -> NoReturn:
+    """Say which part of an expression is not allowed."""
+    part = visible(text[node.col_offset : node.end_col_offset])
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        raise UnreadableError(
+            f'"{part}" in an expression', f"functions of one number are {', '.join(FUNCTIONS)}"
+        )
+    raise UnreadableError(
+        f'"{part}" in an expression', "it may hold + - * / **, brackets and functions"
+    )
+
+
+def decimal(text: str) -> Fraction:
+    """The exact value of a decimal number as written; underscores, nan and inf are refused."""
+    bare = text.lstrip("+-")
+    if not DECIMAL.fullmatch(bare):
+        raise UnreadableError(f"{text[:40]} is not a finite decimal number")
+    try:
+        number = Decimal(text)
+    except InvalidOperation:
+        raise UnreadableError(f"{text[:40]} is not a finite decimal number") from None
+    if len(number.as_tuple().digits) > DIGITS:
+        raise UnreadableError(f"a number of more than {DIGITS} digits")
+    if number and abs(number.adjusted()) > FARTHEST:
+        raise UnreadableError(
+            f"{text[:40]} is out of range", f"numbers lie between 1e-{FARTHEST} and 1e{FARTHEST}"
+        )
+    return Fraction(number) if number else Fraction(0)
+
+
+def integer(value: int) -> Fraction:
+    """The exact value of a whole number, refused when it has too many digits."""
+    if value.bit_length() > FARTHEST * 10 // 3:
+        raise UnreadableError("a whole number with too many digits", f"at most 1e{FARTHEST}")
+    return Fraction(value)
+
+
+def size(tree: Tree) -> int:
+    """Number of parts of an expression."""
+    match tree:
+        case Number() | Name():
+            return 1
+        case Minus(inner) | Call(_, inner):
+            return 1 + size(inner)
+        case Pair(_, left, right):
+            return 1 + size(left) + size(right)
+
+
+def names(tree: Tree) -> frozenset[str]:
+    """Names used in an expression: parameters and the time, but not ``pi``."""
+    match tree:
+        case Number():
+            return frozenset()
+        case Name(name):
+            return frozenset((name,)) - {CONSTANT}
+        case Minus(inner) | Call(_, inner):
+            return names(inner)
+        case Pair(_, left, right):
+            return names(left) | names(right)

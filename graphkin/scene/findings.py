@@ -1,0 +1,169 @@
+"""Problems gathered while a scene is read, so that all of them are told at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from graphkin.errors import Problem, SceneError
+
+MOST = 100
+"""Problems told at once; a file with more is not read further."""
+LISTED = 12
+
+
+class Findings:
+    """All problems found so far in one scene."""
+
+    def __init__(self) -> None:
+        self.problems: list[Problem] = []
+
+    def add(self, place: str, found: str, expected: str = "", hint: str = "") -> None:
+        """Note one problem, unless it was noted before; with too many, stop."""
+        problem = Problem(place, found, expected, hint)
+        if problem not in self.problems:
+            self.problems.append(problem)
+        if len(self.problems) >= MOST:
+            self.problems.append(Problem("", "and perhaps more problems"))
+            self.stop()
+
+    def extend(self, error: SceneError) -> None:
+        """Note the problems of an error that was raised further in."""
+        self.problems.extend(error.problems)
+
+    def inside(self, place: str) -> bool:
+        """Whether something was found at a place or within it."""
+        return any(
+            problem.place == place or problem.place.startswith((f"{place}.", f"{place}["))
+            for problem in self.problems
+        )
+
+    def stop(self) -> None:
+        """Raise SceneError when anything was found."""
+        if self.problems:
+            raise SceneError(self.problems)
+
+
+class Table:
+    """A table of the file whose keys are taken one by one; what is left over is unknown."""
+
+    def __init__(self, place: str, raw: dict[str, object], findings: Findings) -> None:
+        self.place = place
+        self.findings = findings
+        self.raw = raw
+        self.known: list[str] = []
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.raw
+
+    def at(self, key: str) -> str:
+        """The place of one key."""
+        return f"{self.place}.{shown_key(key)}" if self.place else shown_key(key)
+
+    def take(self, key: str) -> object:
+        """The raw value of a key, None where it is not written."""
+        self.known.append(key)
+        return self.raw.get(key)
+
+    def text(self, key: str, default: str = "") -> str:
+        """A string without control characters; newlines and tabs are kept."""
+        raw = self.take(key)
+        return default if raw is None else plain_text(self.at(key), raw, self.findings)
+
+    def flag(self, key: str) -> bool:
+        """True or false; false where it is not written."""
+        raw = self.take(key)
+        if raw is None or isinstance(raw, bool):
+            return raw is True
+        self.findings.add(self.at(key), shown(raw), "true or false")
+        return False
+
+    def table(self, key: str) -> Table:
+        """A table within this one, empty where it is not written."""
+        raw = self.take(key)
+        if raw is not None and not isinstance(raw, dict):
+            self.findings.add(self.at(key), shown(raw), "a table")
+        return Table(self.at(key), raw if isinstance(raw, dict) else {}, self.findings)
+
+    def finish(self) -> None:
+        """Note each key that nobody asked for, with the nearest known one."""
+        for key in self.raw:
+            if key not in self.known:
+                hint = nearest(key, self.known)
+                self.findings.add(self.at(key), "unknown key", listed(self.known), hint)
+
+
+def plain_text(place: str, raw: object, findings: Findings) -> str:
+    """A text to be printed, in composed letters (NFC), refused with control or bidi characters."""
+    import unicodedata
+
+    if not isinstance(raw, str):
+        findings.add(place, shown(raw), "a text in quotes")
+        return ""
+    if raw.isascii() and raw.isprintable():
+        return raw
+    for character in raw:
+        if character not in "\n\t" and unicodedata.category(character) in ("Cc", "Cf", "Cs"):
+            findings.add(place, f"the control character {character!a}", "printable text")
+            return ""
+    return unicodedata.normalize("NFC", raw)
+
+
+def one_or_many(raw: object) -> list[object]:
+    """A value that may be written alone or as a list, as a list; absent is empty."""
+    if raw is None:
+        return []
+    return raw if isinstance(raw, list) else [raw]
+
+
+def numbered(place: str, index: int, count: int) -> str:
+    """The place of one of several; one alone has no number."""
+    return f"{place}[{index}]" if count > 1 else place
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A hint with the known name nearest to one that is not known, empty when none is near."""
+    from difflib import get_close_matches
+
+    folded = {candidate.lower(): candidate for candidate in known}
+    close = get_close_matches(name[:60].lower(), folded, n=1, cutoff=0.5)
+    return f"did you mean {folded[close[0]]}?" if close else ""
+
+
+def listed(names: Iterable[str]) -> str:
+    """A short list of names: one of A, B, C."""
+    every = sorted(dict.fromkeys(names), key=natural)
+    some = ", ".join(every[:LISTED]) + (", …" if len(every) > LISTED else "")
+    return f"one of {some}" if len(every) > 1 else some
+
+
+def natural(name: str) -> tuple[bool, int, str]:
+    """Key that puts numbered links in order of number, before names."""
+    return (False, int(name), "") if name.isdigit() else (True, 0, name)
+
+
+def shown(raw: object) -> str:
+    """A raw value as an error shows it: short, on one line, with nothing invisible."""
+    match raw:
+        case bool():
+            return str(raw).lower()
+        case str():
+            return f'"{visible(raw)}"'
+        case int():
+            return str(raw) if raw.bit_length() < 200 else "a very large whole number"
+        case list():
+            return f"a list of {len(raw)}"
+        case dict():
+            return "a table"
+    return visible(str(raw))
+
+
+def shown_key(key: str) -> str:
+    """A key as an error shows it, in quotes when it is not a bare one."""
+    bare = key.isascii() and all(c.isalnum() or c in "-_" for c in key) and key
+    return key if bare and len(key) <= 60 else f'"{visible(key)}"'
+
+
+def visible(text: str) -> str:
+    """A text cut to 60 characters, invisible ones written as escapes."""
+    cut = text if len(text) <= 60 else text[:57] + "…"
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in cut)

@@ -1,0 +1,79 @@
+"""From bytes to tables: what a file may be before anything in it is read."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+from graphkin.errors import Problem, SceneError
+from graphkin.scene.measures import FloatText
+
+LARGEST = 256 * 1024
+"""Bytes of a scene file."""
+LONGEST_LINE = 4000
+DOTTED = r"(?<![\w\"'.-])(?>[\w\"'-]+[ \t]*\.[ \t]*){16}"
+WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
+
+
+def read_bytes(path: Path) -> bytes:
+    """The bytes of a file, no more than a scene may have; SceneError when there are none."""
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "cannot be opened"
+        raise SceneError(Problem(str(path), f"the scene cannot be read: {reason}")) from None
+    return data
+
+
+def decoded(data: bytes) -> str:
+    """The text of a scene file: UTF-8, with or without a byte order mark."""
+    if len(data) > LARGEST:
+        raise SceneError(Problem("", "the file is too large", f"at most {LARGEST // 1024} KiB"))
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        found = f"the byte 0x{data[error.start]:02x} is not UTF-8"
+        raise SceneError(Problem(f"line {line}", found, "a text saved as UTF-8")) from None
+
+
+def tables_of(text: str) -> dict[str, object]:
+    """The tables of a TOML text; SceneError with the line where it is not TOML."""
+    text = text.removeprefix("\ufeff")
+    refuse_bombs(text)
+    try:
+        return tomllib.loads(text, parse_float=FloatText)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(syntax_problem(str(error), text)) from None
+    except (RecursionError, MemoryError):
+        raise SceneError(Problem("", "lists or tables nested too deeply")) from None
+    except (ValueError, OverflowError) as error:
+        found = "a number or a date that cannot be read"
+        raise SceneError(Problem("", found, hint=str(error)[:80])) from None
+
+
+def refuse_bombs(text: str) -> None:
+    """Refuse what would take long to read: too much text, too long a line, too long a key."""
+    if len(text) > LARGEST:
+        raise SceneError(Problem("", "the scene is too large", f"at most {LARGEST // 1024} KiB"))
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > LONGEST_LINE:
+            found = f"a line of {len(line)} characters"
+            raise SceneError(Problem(f"line {number}", found, f"at most {LONGEST_LINE}"))
+        if line.count(".") >= 16 and re.search(DOTTED, line):
+            found = "a key of very many parts"
+            raise SceneError(Problem(f"line {number}", found, "at most 16 parts"))
+
+
+def syntax_problem(message: str, text: str) -> Problem:
+    """What the TOML reader found, at its line."""
+    where = re.search(WHERE, message)
+    found = message[: where.start()] if where else message
+    found = f"{found[:1].lower()}{found[1:160]}"
+    line = where[1] if where and where[1] else str(len(text.splitlines()) or 1)
+    hint = ""
+    if found.startswith("cannot overwrite") or "twice" in found:
+        hint = "the same key or table is written above"
+    return Problem(f"line {line}", f"not TOML: {found}", hint=hint)

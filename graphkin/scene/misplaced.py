@@ -1,0 +1,87 @@
+"""Why the points of a link cannot be placed, or are placed twice, in words that help to mend it."""
+
+from __future__ import annotations
+
+from graphkin.scene.findings import Findings, listed, nearest
+from graphkin.scene.model import Side
+from graphkin.scene.sketch import Sketch
+
+
+def explain(sketch: Sketch, waiting: list[str], placed: set[str], findings: Findings) -> None:
+    """Note, for each point left over, what it lacks; points that only wait for those are passed."""
+    before = len(findings.problems)
+    for point in waiting:
+        found, expected, hint = missing(sketch, point, placed)
+        if found:
+            findings.add(f"{sketch.place}.{point}", found, expected, hint)
+    if len(findings.problems) == before:
+        names = ", ".join(waiting)
+        findings.add(
+            sketch.place,
+            f"nothing places {names}",
+            "each point by points written before it",
+            "give coordinates [x, y], or lengths and a side",
+        )
+
+
+def missing(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str]:
+    """What one point lacks: found, expected and hint; empty when it only waits for another."""
+    polar, words = sketch.polars.get(point), sketch.words.get(point)
+    if polar is not None:
+        return unknown(sketch, "from", [polar.start])
+    if words is not None:
+        return missing_lengths(sketch, point, placed)
+    ends = [end for end in sketch.points if end in placed and sketch.between(end, point)]
+    if len(ends) >= 2:
+        a, b = ends[:2]
+        return (
+            f"{point} has the lengths {a}-{point} and {b}-{point} but no side",
+            f'{point} = "left of {a}-{b}" or "right of {a}-{b}"',
+            "",
+        )
+    if len(ends) == 1:
+        return (
+            f"one length, {ends[0]}-{point}, does not place {point}",
+            "a second length and a side, an angle, or coordinates [x, y]",
+            "",
+        )
+    return ("", "", "")
+
+
+def missing_lengths(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str]:
+    """What a point with a side or a line lacks."""
+    words = sketch.words[point]
+    ends = (words.first, words.second)
+    lost = unknown(sketch, f"{words.first}-{words.second}", ends)
+    if lost[0]:
+        return lost
+    if any(end not in placed for end in ends):
+        return ("", "", "")
+    bare = [f"{end}-{point}" for end in ends if sketch.between(end, point) is None]
+    if isinstance(words, Side):
+        return (f"{point} has a side but not the length {' and '.join(bare)}", "both lengths", "")
+    return (f"{point} is on a line but nothing says how far", f"the length {' or '.join(bare)}", "")
+
+
+def unknown(sketch: Sketch, what: str, ends: tuple[str, ...] | list[str]) -> tuple[str, str, str]:
+    """A point named in a placing that this link does not have."""
+    for end in ends:
+        if end not in sketch.points:
+            hint = nearest(end, sketch.points)
+            return (f"{what} names {end}, no point of this link", listed(sketch.points), hint)
+    return ("", "", "")
+
+
+def spare(
+    sketch: Sketch, used: set[frozenset[str] | tuple[str, str, str]], findings: Findings
+) -> None:
+    """Note each length and angle that no placing needs: what it says is settled already."""
+    left = [(pair, quantity) for pair, quantity in sketch.lengths.items() if pair not in used]
+    turns = [(three, quantity) for three, quantity in sketch.angles.items() if three not in used]
+    for _, quantity in (*left, *turns):
+        findings.add(
+            quantity.place,
+            "one measure too many: its points are placed without it",
+            "as many measures as place each point once",
+            "leave it out, or leave out another",
+        )

@@ -1,0 +1,245 @@
+"""What a lecturer wrote, as frozen records: numbers exact and in their written units.
+
+Nothing here is solved. A link's points come as *placings*, in an order in which each uses only
+points before it; where a link is put in the plane is for the construction to find.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from graphkin.scene.quantity import Quantity
+
+FRAME = "0"
+"""Name of the fixed link."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A number that a variant may change, with the range it may take."""
+
+    name: str
+    value: Quantity
+    minimum: Quantity | None = None
+    maximum: Quantity | None = None
+    step: Quantity | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """``P = [x, y]``: a point by its coordinates in the link's axes."""
+
+    point: str
+    x: Quantity
+    y: Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Polar:
+    """``P = {from, length, angle}``: so far from a point, at an angle to the link's x axis."""
+
+    point: str
+    start: str
+    length: Quantity
+    angle: Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Apart:
+    """``P-Q = l`` for the link's first two points: Q at that distance along the x axis."""
+
+    point: str
+    start: str
+    length: Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Triangle:
+    """Two lengths and ``P = "left of A-B"``: side +1 left of the way from A to B, -1 right."""
+
+    point: str
+    first: str
+    second: str
+    from_first: Quantity
+    from_second: Quantity
+    side: int
+
+
+@dataclass(frozen=True, slots=True)
+class OnLine:
+    """``P = "on A-B"`` or ``"beyond B on A-B"``: at a distance from ``start`` along A to B.
+
+    sense +1 steps from ``start`` the way from ``first`` to ``second``, -1 the other way.
+    """
+
+    point: str
+    first: str
+    second: str
+    start: str
+    length: Quantity
+    sense: int
+
+
+@dataclass(frozen=True, slots=True)
+class Angled:
+    """``P-Q-R`` with ``Q-R``: R at that distance from Q, turned counter-clockwise from QP."""
+
+    point: str
+    vertex: str
+    arm: str
+    length: Quantity
+    angle: Quantity
+
+
+Placing = At | Polar | Apart | Triangle | OnLine | Angled
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """A block on a straight guide of link ``on``.
+
+    The guide passes ``through`` a point of that link (a name, or coordinates) at an angle to its
+    x axis, or ``along`` two of its points (zero of the coordinate at the first, positive towards
+    the second). The block's first point keeps the distance ``offset`` to the left of the guide.
+    """
+
+    on: str
+    through: str | tuple[Quantity, Quantity] | None
+    angle: Quantity | None
+    along: tuple[str, str] | None
+    offset: Quantity
+    pin: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Wheel:
+    """A circle of a link about one of its points; ``inside`` for a ring with inner teeth."""
+
+    centre: str
+    radius: Quantity | None
+    teeth: Quantity | None = None
+    inside: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Rolling:
+    """A wheel that rolls without slip on a straight or circular track of link ``on``."""
+
+    on: str
+    through: str | tuple[Quantity, Quantity] | None
+    angle: Quantity | None
+    start: Mapping[str, Quantity]
+    side: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A rigid body: its points in the order written, how they are placed, what it slides on."""
+
+    name: str
+    points: tuple[str, ...]
+    placings: tuple[Placing, ...]
+    slides: tuple[Slide, ...] = ()
+    wheels: tuple[Wheel, ...] = ()
+    rolls: tuple[Rolling, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Driver:
+    """A motion that is given: link ``link`` turns, slides or rolls ``against`` another.
+
+    ``of`` names the line (from, to) of the link whose angle is meant; without it the link's x axis.
+    """
+
+    kind: Literal["turn", "slide", "roll"]
+    link: str
+    against: str
+    position: Quantity
+    speed: Quantity
+    acceleration: Quantity
+    of: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """``B = "right of A-O2"``: +1 left, -1 right of the way from ``first`` to ``second``."""
+
+    first: str
+    second: str
+    side: int
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """``5 = "forward"``: +1 the larger, -1 the smaller slide coordinate of the two closures."""
+
+    way: int
+
+
+@dataclass(frozen=True, slots=True)
+class Closure:
+    """``2 = "closure 1"``: the number of a closure of a group of higher class."""
+
+    number: int
+
+
+Branch = Side | Way | Closure
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """What is asked of the mechanism; points may be written ``A@3``."""
+
+    velocity: tuple[str, ...] = ()
+    acceleration: tuple[str, ...] = ()
+    omega: tuple[str, ...] = ()
+    epsilon: tuple[str, ...] = ()
+    poles: tuple[str, ...] = ()
+    centres: tuple[str, ...] = ()
+    centrodes: tuple[str, ...] = ()
+    slides: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """What the title block and the page say beyond the drawing."""
+
+    owner: str = ""
+    author: str = ""
+    approved: str = ""
+    date: str = ""
+    number: str = ""
+    language: str = "en"
+    scale: Quantity | None = None
+    sheets: int = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A planar mechanism in one position, with what is asked of it.
+
+    ``titles`` and ``notes`` hold texts per language; ``values`` the parameters as set, exact.
+    """
+
+    name: str
+    title: str
+    units: Mapping[str, str]
+    parameters: Mapping[str, Parameter]
+    frame: Link
+    links: Mapping[str, Link]
+    drivers: tuple[Driver, ...]
+    branches: Mapping[str, Branch]
+    ask: Ask
+    sheet: Sheet = field(default_factory=Sheet)
+    time: Quantity | None = None
+    titles: Mapping[str, str] = field(default_factory=dict)
+    notes: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, object] = field(default_factory=dict)
+    source: Path | None = None
+
+    def link(self, name: str) -> Link:
+        """The link of a name, the frame included."""
+        return self.frame if name == FRAME else self.links[name]

@@ -1,0 +1,167 @@
+"""A number of a scene: as written, exact, in its written unit, and only later of some kind."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from decimal import Context, Decimal
+from fractions import Fraction
+from typing import Any
+
+from graphkin.arithmetic import FLOAT, Kind, Point, Real
+from graphkin.errors import Problem, SceneError
+from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Tree, names, parse, size
+from graphkin.scene.findings import shown
+from graphkin.scene.reckon import UnreckonableError, differentiated, reckon
+
+LENGTHS = {
+    "mm": Fraction(1, 1000),
+    "cm": Fraction(1, 100),
+    "m": Fraction(1),
+    "in": Fraction(254, 10000),
+}
+TURNS = {"rad": (Fraction(1), False), "deg": (Fraction(1, 180), True)}
+
+
+def si_factors() -> dict[str, tuple[Fraction, bool]]:
+    """What one of each unit is in metres, radians and seconds, and whether pi multiplies it."""
+    bases = {unit: (factor, False) for unit, factor in LENGTHS.items()} | TURNS
+    per_second = {f"{unit}/s": factor for unit, factor in bases.items()}
+    per_square = {f"{unit}/s²": factor for unit, factor in bases.items()}
+    others = {"": (Fraction(1), False), "s": (Fraction(1), False)}
+    return bases | per_second | per_square | others | {"rev/min": (Fraction(1, 30), True)}
+
+
+SI = si_factors()
+SHOWN = 12
+"""Significant digits of a number that does not end."""
+ENDING = 17
+"""Significant digits up to which a number that ends is written in full."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number as written, perhaps an expression in parameters, with its unit.
+
+    ``place`` is the key it was read from, for errors; two quantities are equal without it.
+    """
+
+    text: str
+    tree: Tree
+    unit: str = ""
+    place: str = field(default="", compare=False)
+
+    def uses(self) -> frozenset[str]:
+        """Names of the parameters in it, and ``t`` if it is a law of time."""
+        return names(self.tree)
+
+    def is_zero(self) -> bool:
+        """True when it is nought whatever the parameters."""
+        return not self.uses() and self.number({}) == 0
+
+    def number(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
+        """Value in the written unit: a Fraction while exact, else a real of the kind.
+
+        Raises SceneError where it does not exist; an array has NaN or inf there instead.
+        """
+        if isinstance(self.tree, Number):
+            return self.tree.value
+        try:
+            value = reckoned(self.tree, values, kind)
+        except (UnreckonableError, OverflowError) as error:
+            raise SceneError(self.problem(str(error), values)) from None
+        except KeyError as error:
+            raise SceneError(self.problem(f"no value for {error.args[0]}", values)) from None
+        if isinstance(value, float) and not math.isfinite(value):
+            raise SceneError(self.problem("a number that grows without bound", values))
+        return value
+
+    def si(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
+        """Value in metres, radians and seconds: exact up to one last conversion to the kind."""
+        factor, of_pi = SI[self.unit]
+        value = self.number(values, kind)
+        if isinstance(value, Fraction):
+            real = kind.number(value * factor)
+        elif factor.numerator == 1:
+            real = value / kind.number(factor.denominator)
+        else:
+            real = value * kind.number(factor)
+        return real * kind.pi if of_pi else real
+
+    def direction(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Point:
+        """Unit vector at this angle; whole quarters of a turn in degrees are exact."""
+        value = self.number(values, kind)
+        if self.unit == "rad":
+            return kind.radians(kind.number(value) if isinstance(value, Fraction) else value)
+        if isinstance(value, Fraction | float) or hasattr(value, "shape"):
+            return kind.direction(value)
+        return kind.radians(value * (kind.pi / 180))
+
+    def written(self, values: Mapping[str, Any]) -> str:
+        """The value as printed on a sheet: ``44``, ``0.25``; 12 digits when it does not end."""
+        return shortest(self.number(values))
+
+    def derivative(self, name: str) -> Quantity:
+        """The exact derivative by a name; by the time ``t`` its unit becomes per second."""
+        if size(self.tree) > HEAVIEST:
+            raise SceneError(self.problem("a derivative of too many parts", {}))
+        try:
+            tree = differentiated(self.tree, name)
+        except UnreckonableError as error:
+            raise SceneError(self.problem(str(error), {})) from None
+        unit = per_second(self.unit) if name == TIME else self.unit
+        return Quantity(f"d({self.text})/d{name}", tree, unit, self.place)
+
+    def negative(self) -> Quantity:
+        """The same number with the other sign."""
+        return Quantity(f"-({self.text})", Minus(self.tree), self.unit, self.place)
+
+    def problem(self, what: str, values: Mapping[str, Any]) -> Problem:
+        """What is wrong with this number, with the parameters it was reckoned with."""
+        known = [f"{name} = {values[name]}" for name in sorted(self.uses()) if name in values]
+        given = f" with {', '.join(known)}" if known else ""
+        return Problem(self.place, f"{shown(self.text)} gives {what}{given}")
+
+
+def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
+    """Value of a tree; in a batch what does not exist is masked without a warning."""
+    if not any(hasattr(value, "shape") for value in values.values()):
+        return reckon(tree, values, kind)
+    import numpy as np
+
+    with np.errstate(all="ignore"):
+        return reckon(tree, values, kind)
+
+
+def per_second(unit: str) -> str:
+    """The unit of a derivative by the time: deg, deg/s, deg/s²; SceneError beyond."""
+    rate = f"{unit}²" if unit.endswith("/s") else f"{unit}/s"
+    if rate not in SI:
+        raise SceneError(Problem("", f"no unit for the derivative of a number in {unit or '1'}"))
+    return rate
+
+
+def exact(value: int | Fraction, unit: str = "", place: str = "") -> Quantity:
+    """A quantity that is an exact number."""
+    number = Fraction(value)
+    return Quantity(shortest(number), Number(number), unit, place)
+
+
+def expression(text: str, unit: str = "", place: str = "") -> Quantity:
+    """A quantity from an expression as written; UnreadableError when it is none."""
+    return Quantity(text, parse(text), unit, place)
+
+
+def shortest(value: Real) -> str:
+    """Shortest decimal text of a number: all digits when it ends within 17, else 12 of them."""
+    if isinstance(value, Fraction):
+        top, bottom = Decimal(value.numerator), Decimal(value.denominator)
+        full = Context(prec=ENDING).divide(top, bottom)
+        ends = Fraction(full) == value
+    else:
+        full, ends = Decimal(float(value)), False
+    number = (full if ends else Context(prec=SHOWN).plus(full)).normalize(Context(prec=ENDING))
+    if not number:
+        return "0"
+    return f"{number:f}" if -6 <= number.adjusted() < 15 else f"{number:e}"

@@ -1,0 +1,165 @@
+"""A scene from its file: every problem in it is found before one error tells them all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+
+from graphkin.errors import Problem, SceneError
+from graphkin.scene.check import check_scene
+from graphkin.scene.drivers import read_drivers
+from graphkin.scene.expression import TIME
+from graphkin.scene.findings import Findings, Table, listed, nearest, shown
+from graphkin.scene.joints import read_rolls, read_slides, read_wheels
+from graphkin.scene.limits import decoded, read_bytes, tables_of
+from graphkin.scene.measures import Measures
+from graphkin.scene.model import FRAME, Link, Scene
+from graphkin.scene.parameters import read_parameters, set_values
+from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
+from graphkin.scene.shapes import read_shape
+from graphkin.scene.wishes import read_ask, read_branches, read_languages, read_sheet
+from graphkin.scene.words import FRAME_WORD, LONGEST_NAME, is_link_name
+
+FORMAT = 1
+"""Version of the scene format that is read."""
+MOST_LINKS = 500
+UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "rad/s")}
+NO_SETTINGS: Mapping[str, object] = {}
+
+
+def read_scene(path: Path, settings: Mapping[str, object] = NO_SETTINGS) -> Scene:
+    """The scene in a file, its parameters set; SceneError with every problem found.
+
+    The scene is named after its file, or after its folder when the file is ``scene.toml``.
+    """
+    path = Path(path)
+    name = path.stem if path.stem != "scene" else path.absolute().parent.name or path.stem
+    return read_text(decoded(read_bytes(path)), name, path, settings)
+
+
+def read_text(
+    text: str, name: str, source: Path | None = None, settings: Mapping[str, object] = NO_SETTINGS
+) -> Scene:
+    """The scene in a TOML text, its parameters set; SceneError with every problem found."""
+    findings = Findings()
+    top = Table("", tables_of(text), findings)
+    check_version(top, findings)
+    scene = assembled(top, name, source, settings, findings)
+    top.finish()
+    check_scene(scene, findings)
+    findings.stop()
+    return scene
+
+
+def check_version(top: Table, findings: Findings) -> None:
+    """The format is ours; a newer one stops the reading at once."""
+    version = top.take("graphkin")
+    if version is None:
+        findings.add("graphkin", "no version of the format", f"graphkin = {FORMAT}, the first line")
+    elif isinstance(version, bool) or not isinstance(version, int) or version < 1:
+        findings.add("graphkin", shown(version), f"graphkin = {FORMAT}")
+    elif version > FORMAT:
+        found = f"{shown(version)}: this scene is written for a newer graphkin"
+        raise SceneError(Problem("graphkin", found, f"graphkin = {FORMAT}", "update graphkin"))
+
+
+def assembled(
+    top: Table,
+    name: str,
+    source: Path | None,
+    settings: Mapping[str, object],
+    findings: Findings,
+) -> Scene:
+    """All parts of a scene; where one cannot be read a problem is noted and another stands in."""
+    units = read_units(top.table("units"), findings)
+    parameters = read_parameters(top.table("parameters"), findings)
+    values = set_values(parameters, settings, findings)
+    time = read_time(top, Measures(findings, units, values), values)
+    measures = Measures(findings, units, values)
+    module = read_module(top, measures)
+    return Scene(
+        name=name,
+        title=top.text("title", name),
+        units=units,
+        parameters=parameters,
+        frame=read_link(FRAME, top.table(FRAME_WORD), measures, module),
+        links=read_links(top, measures, module),
+        drivers=read_drivers(top, measures),
+        branches=read_branches(top.table("branches"), findings),
+        ask=read_ask(top.table("ask"), findings),
+        sheet=read_sheet(top.table("sheet"), measures),
+        time=time,
+        titles=read_languages(top.table("titles"), findings),
+        notes=read_languages(top.table("notes"), findings),
+        values=values,
+        source=source,
+    )
+
+
+def read_units(table: Table, findings: Findings) -> dict[str, str]:
+    """The units of lengths, angles and turning speeds; each must be written."""
+    units = {}
+    lost = findings.inside(table.place)
+    for key, choices in UNITS.items():
+        raw = table.take(key)
+        units[key] = raw if isinstance(raw, str) and raw in choices else choices[0]
+        if raw is None and not lost:
+            findings.add(table.at(key), f"no unit of {key}", listed(choices))
+        elif raw is not None and raw != units[key]:
+            hint = nearest(raw, choices) if isinstance(raw, str) else ""
+            findings.add(table.at(key), shown(raw), listed(choices), hint)
+    table.finish()
+    return units
+
+
+def read_time(top: Table, measures: Measures, values: dict[str, Fraction]) -> Quantity | None:
+    """The moment at which laws of time are taken, in seconds; it joins the values as ``t``."""
+    raw = top.take("time")
+    if raw is None:
+        return None
+    time = measures.number("time", raw, "s")
+    values[TIME] = Fraction(time.number(values))
+    return time
+
+
+def read_module(top: Table, measures: Measures) -> Quantity | None:
+    """The module of all wheels given by teeth."""
+    raw = top.take("module")
+    return None if raw is None else measures.length("module", raw, positive=True)
+
+
+def read_links(top: Table, measures: Measures, module: Quantity | None) -> dict[str, Link]:
+    """The moving links, by name."""
+    table = top.table("links")
+    if not table.raw and not measures.findings.inside(table.place):
+        measures.findings.add("links", "no link", "a table [links.NAME] for each moving link")
+    if len(table.raw) > MOST_LINKS:
+        found = f"{len(table.raw)} links"
+        raise SceneError(Problem("links", found, f"at most {MOST_LINKS}"))
+    links = {}
+    for name, raw in table.raw.items():
+        place = table.at(name)
+        if name in (FRAME, FRAME_WORD):
+            measures.findings.add(place, "the frame among the links", "[frame]")
+        elif not is_link_name(name):
+            expected = f"a number, or a letter and letters, digits or _, at most {LONGEST_NAME}"
+            measures.findings.add(place, "no name of a link", expected)
+        elif not isinstance(raw, dict):
+            measures.findings.add(place, shown(raw), "a table with its points")
+        else:
+            links[name] = read_link(name, Table(place, raw, measures.findings), measures, module)
+    return links
+
+
+def read_link(name: str, table: Table, measures: Measures, module: Quantity | None) -> Link:
+    """One link: its points and their placings, its guides, wheels and tracks."""
+    points, placings = read_shape(table, measures)
+    wheels = read_wheels(table, measures, module)
+    if name == FRAME:
+        for key in ("slides", "rolls"):
+            if table.take(key) is not None:
+                measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
+        return Link(FRAME, points, placings, (), wheels)
+    slides, rolls = read_slides(table, measures), read_rolls(table, measures)
+    return Link(name, points, placings, slides, wheels, rolls)

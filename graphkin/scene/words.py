@@ -1,0 +1,141 @@
+"""The few words of a scene: names, and phrases such as "left of A-B" or "closure 1"."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphkin.scene.findings import Findings, shown, shown_key
+from graphkin.scene.model import FRAME, Branch, Closure, Side, Way
+
+FRAME_WORD = "frame"
+LONGEST_NAME = 40
+KEYWORDS = frozenset(("slides", "rolls", "wheel", "wheels"))
+SIDES = {"left": 1, "right": -1}
+WAYS = {"forward": 1, "backward": -1}
+
+
+def is_name(text: str) -> bool:
+    """Whether a text is a letter, then letters, digits or underscores, and not too long."""
+    return (
+        text.isascii() and text[:1].isalpha() and text.isidentifier() and len(text) <= LONGEST_NAME
+    )
+
+
+def is_link_name(text: str) -> bool:
+    """Whether a text is a name, or a whole number that does not begin with nought."""
+    digits = text.isascii() and text.isdigit() and text[0] != "0"
+    return is_name(text) or (digits and len(text) <= LONGEST_NAME)
+
+
+def line(text: str) -> tuple[str, str] | None:
+    """The two points of ``P-Q``; None when it is no such thing."""
+    first, _, second = text.partition("-")
+    return (first, second) if is_name(first) and is_name(second) and first != second else None
+
+
+@dataclass(frozen=True, slots=True)
+class OnWords:
+    """``"on A-B"``, or ``"beyond B on A-B"`` with ``beyond`` one of the two ends."""
+
+    first: str
+    second: str
+    beyond: str | None = None
+
+
+def point_name(place: str, name: object, findings: Findings) -> str | None:
+    """The name of a point; None, with a problem noted, when it cannot be one."""
+    if isinstance(name, str) and is_name(name):
+        if name.lower() == FRAME_WORD:
+            findings.add(place, f"a point named {name}", "a name that is not the frame's")
+            return None
+        return name
+    findings.add(
+        place,
+        f"{shown(name)} is no name of a point",
+        f"a letter, then letters, digits or _, at most {LONGEST_NAME}",
+    )
+    return None
+
+
+def link_name(place: str, raw: object, findings: Findings) -> str | None:
+    """The name of a link written as a text or a whole number; ``frame`` and 0 are the frame."""
+    if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 10**6:
+        return str(raw)
+    if isinstance(raw, str):
+        if raw in (FRAME, FRAME_WORD):
+            return FRAME
+        if is_link_name(raw):
+            return raw
+    found = "nothing" if raw is None else shown(raw)
+    findings.add(place, f"{found} is no name of a link", "a number or a name, as in [links]")
+    return None
+
+
+def asked_point(place: str, raw: object, findings: Findings) -> str | None:
+    """A point of which something is asked: ``A``, or ``A@3`` for the point of link 3 under A."""
+    if isinstance(raw, str) and "@" in raw:
+        point, _, link = raw.partition("@")
+        known = point_name(place, point, findings), link_name(place, link, findings)
+        return f"{known[0]}@{known[1]}" if None not in known else None
+    return point_name(place, raw, findings)
+
+
+def line_words(place: str, raw: object, findings: Findings) -> tuple[str, str] | None:
+    """``"P-Q"``: the line from one point to another."""
+    ends = line(phrase(raw)[0]) if isinstance(raw, str) and len(phrase(raw)) == 1 else None
+    if ends is not None:
+        return ends
+    findings.add(place, shown(raw), 'two points with a dash, such as "A-B"')
+    return None
+
+
+def phrase(text: str) -> list[str]:
+    """The words of a phrase, a line ``P - Q`` being one word."""
+    return text.replace(" - ", "-").split()
+
+
+def side_words(text: str) -> Side | None:
+    """``"left of A-B"`` or ``"right of A-B"``; None when it is neither."""
+    match phrase(text):
+        case ["left" | "right" as side, "of", word] if ends := line(word):
+            return Side(*ends, SIDES[side])
+    return None
+
+
+def on_words(text: str) -> OnWords | None:
+    """``"on B-C"`` or ``"beyond C on B-C"``; None when it is neither."""
+    match phrase(text):
+        case ["on", word] if ends := line(word):
+            return OnWords(*ends)
+        case ["beyond", end, "on", word] if (ends := line(word)) and end in ends:
+            return OnWords(*ends, end)
+    return None
+
+
+def branch_words(text: str) -> Branch | None:
+    """A branch of assembly: a side, ``forward``, ``backward`` or ``closure 1``."""
+    match phrase(text):
+        case ["forward" | "backward" as way]:
+            return Way(WAYS[way])
+        case ["closure", number] if is_link_name(number) and number.isdigit() and len(number) < 5:
+            return Closure(int(number))
+    return side_words(text)
+
+
+def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | None:
+    """Points of a link's key: ``P``, ``P-Q`` or ``P-Q-R``; None, with a problem, if no such key."""
+    parts = key.split("-")
+    if len(parts) > 3 or not all(is_name(part) for part in parts):
+        findings.add(
+            place,
+            f"{shown_key(key)} is no key of a link",
+            "P, P-Q (a length), P-Q-R (an angle at Q), slides, rolls or wheel",
+        )
+        return None
+    names = [point_name(place, part, findings) for part in parts]
+    if None in names:
+        return None
+    if len(set(parts)) < len(parts):
+        findings.add(place, f"{key} names one point twice", "different points")
+        return None
+    return tuple(parts)

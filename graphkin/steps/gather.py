@@ -1,0 +1,49 @@
+"""From a trace to the solution: each quantity under the point or link that it belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from graphkin.arithmetic import Real, pick
+from graphkin.steps.program import Part
+from graphkin.steps.run import Trace
+from graphkin.steps.solution import LinkMotion, PointMotion, SlideMotion, Solution
+
+POINT = ("position", "velocity", "acceleration")
+LINK = ("omega", "epsilon", "centre", "pole")
+SLIDE = ("slide", "slide speed", "slide acceleration", "coriolis")
+
+
+def gathered(trace: Trace) -> Solution:
+    """The solution that a trace holds; quantities that were not run are None."""
+    return Solution(
+        points={name: PointMotion(*found) for name, found in of_kind(trace, POINT)},
+        links={name: LinkMotion(*found) for name, found in of_kind(trace, LINK)},
+        slides={name: SlideMotion(*found) for name, found in of_kind(trace, SLIDE)},
+        margin=smallest_margin(trace),
+    )
+
+
+def of_kind(trace: Trace, quantities: tuple[str, ...]) -> Iterable[tuple[str, list[Any]]]:
+    """The values of some quantities of each point or link that has any of them."""
+    names = dict.fromkeys(of for quantity, of in trace.program.targets if quantity in quantities)
+    for name in names:
+        found = [trace.value(quantity, name) for quantity in quantities]
+        if any(value is not None for value in found):
+            yield name, found
+
+
+def smallest_margin(trace: Trace) -> Real:
+    """The smallest sine of crossing among the steps that were run; 1 when nothing crossed."""
+    smallest: Real = 1.0
+    for number, margin in trace.margins.items():
+        if not trace.program.steps[number].hand:
+            smallest = pick(margin < smallest, margin, smallest)
+    return smallest
+
+
+def crossings(trace: Trace, part: Part) -> dict[int, Real]:
+    """The margins of one part of the work, by step."""
+    steps = trace.program.steps
+    return {number: sine for number, sine in trace.margins.items() if steps[number].part is part}

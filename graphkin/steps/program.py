@@ -1,0 +1,130 @@
+"""The drawing as a straight line of steps, each using only steps before it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+from graphkin.arithmetic import Kind, pick
+from graphkin.steps.vocabulary import Action
+
+
+class Part(Enum):
+    """The part of the work to which a step belongs, in the order of the work."""
+
+    SHAPE = "shape"
+    POSITION = "position"
+    VELOCITY = "velocity"
+    NORMAL = "normal"
+    ACCELERATION = "acceleration"
+    CENTRE = "centre"
+    POLE = "pole"
+    RESULT = "result"
+
+
+class Plane(Enum):
+    """The drawing in which a step's value lies; numbers are drawn nowhere."""
+
+    NUMBERS = "numbers"
+    MECHANISM = "mechanism"
+    VELOCITIES = "velocities"
+    ACCELERATIONS = "accelerations"
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A value that the scene states: quantities, and how they make a number or a point."""
+
+    form: str
+    quantities: tuple[Any, ...]
+
+    def value(self, values: Mapping[str, Any], kind: Kind) -> Any:
+        """The given value in SI, as a number of a kind."""
+        if self.form == "one":
+            return 1.0
+        first = self.quantities[0]
+        match self.form:
+            case "direction":
+                return first.direction(values, kind)
+            case "point":
+                return first.si(values, kind) + 1j * self.quantities[1].si(values, kind)
+            case "seconds":
+                speed = abs(first.si(values, kind))
+                return 1 / pick(speed == 0, 1.0, speed)
+            case _:
+                return first.si(values, kind)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step: an action on earlier steps, or a given value, with the words its sentence needs.
+
+    ``by_hand`` is the step that gives the same value in the hand's way; ``hand`` marks steps that
+    only that way uses, ``arrow`` those that are only drawn. ``name`` is the letter on
+    the drawing, ``says`` the names in the sentence.
+    """
+
+    action: Action | None
+    args: tuple[int, ...]
+    part: Part
+    plane: Plane
+    name: str = ""
+    extra: tuple[int, ...] = ()
+    given: Given | None = None
+    by_hand: int | None = None
+    hand: bool = False
+    arrow: bool = False
+    says: Mapping[str, str] = field(default_factory=dict)
+
+
+Target = tuple[str, str]
+"""What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """Steps in drawing order, and which of them carries each quantity.
+
+    ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism.
+    """
+
+    steps: tuple[Step, ...]
+    targets: Mapping[Target, int]
+    seconds: int | None = None
+
+    def needed(self, targets: Iterable[Target], *, by_hand: bool = False) -> tuple[int, ...]:
+        """Numbers of the steps that the targets need, in order: the backward slice.
+
+        With ``by_hand`` the hand's way of each composite step comes with it, and every arrow
+        between points that are there.
+        """
+        wanted = {self.targets[target] for target in targets}
+        for number in range(len(self.steps) - 1, -1, -1):
+            if number not in wanted:
+                continue
+            step = self.steps[number]
+            wanted.update(step.args)
+            if by_hand and step.by_hand is not None:
+                wanted.add(step.by_hand)
+        if by_hand:
+            wanted |= self._arrows(wanted)
+        return tuple(sorted(wanted))
+
+    def _arrows(self, wanted: set[int]) -> set[int]:
+        """The arrows whose ends are all there, with the given values that they need."""
+        found: set[int] = set()
+        for number, step in enumerate(self.steps):
+            givens = {arg for arg in step.args if self.steps[arg].given is not None}
+            if step.arrow and wanted.issuperset(set(step.args) - givens):
+                found |= {number, *givens}
+        return found
+
+    def descendants(self, number: int) -> frozenset[int]:
+        """The steps whose values depend on a step, itself included."""
+        found = {number}
+        for later in range(number + 1, len(self.steps)):
+            if found.intersection(self.steps[later].args):
+                found.add(later)
+        return frozenset(found)

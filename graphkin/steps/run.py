@@ -1,0 +1,161 @@
+"""Running a program: every value and margin, on one scene (errors raised) or a batch (masked)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.arithmetic import Kind, is_finite
+from graphkin.plane import Circle, Line
+from graphkin.steps.program import Program, Step
+
+Values = Mapping[str, Any]
+Hook = Callable[[int, Step, Any], Any]
+
+
+class StepFailed(Exception):  # noqa: N818
+    """A step that cannot be drawn on one scene, with the values it was to be drawn from."""
+
+    def __init__(self, number: int, step: Step, args: tuple[Any, ...]) -> None:
+        self.number, self.step, self.args_found = number, step, args
+        super().__init__(f"step {number} cannot be drawn")
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """The value of each step that was run, and the margin of each crossing among them."""
+
+    program: Program
+    values: Mapping[int, Any]
+    margins: Mapping[int, Any]
+
+    def value(self, quantity: str, of: str) -> Any:
+        """The value of a target, or None where it was not run."""
+        return self.values.get(self.program.targets.get((quantity, of), -1))
+
+
+def run(
+    program: Program,
+    needed: Sequence[int],
+    values: Values,
+    kind: Kind,
+    *,
+    hook: Hook | None = None,
+    overrides: Mapping[int, Any] | None = None,
+    by_hand: bool = False,
+) -> Trace:
+    """Run the needed steps on one scene, with a margin for every crossing.
+
+    ``hook`` may replace each value as it comes (a pencil's error); ``overrides`` gives values to
+    use in place of a step's own; ``by_hand`` lets composite steps take the hand's value.
+    A step that only the hand's way uses and that cannot be drawn here (the normal to a velocity
+    that is nought) is left out, and what would follow from it. Raises StepFailed at any other.
+    """
+    found: dict[int, Any] = {}
+    margins: dict[int, Any] = {}
+    overrides = overrides or {}
+    for number in needed:
+        step = program.steps[number]
+        if number in overrides:
+            value = overrides[number]
+        elif by_hand and step.by_hand is not None and step.by_hand in found:
+            value = found[step.by_hand]
+        elif step.hand and not found.keys() >= set(step.args):
+            continue
+        else:
+            try:
+                value = evaluate(step, number, found, values, kind, margins)
+            except StepFailed:
+                if step.hand:
+                    continue
+                raise
+        found[number] = hook(number, step, value) if hook else value
+    return Trace(program, found, margins)
+
+
+def evaluate(
+    step: Step,
+    number: int,
+    found: Mapping[int, Any],
+    values: Values,
+    kind: Kind,
+    margins: dict[int, Any],
+) -> Any:
+    """Value of one step on one scene; its margin is put beside it. Raises StepFailed."""
+    if step.given is not None:
+        return step.given.value(values, kind)
+    assert step.action is not None
+    args = (*(found[arg] for arg in step.args), *step.extra)
+    try:
+        value = step.action.value(*args)
+        if step.action.margin is not None:
+            margins[number] = step.action.margin(*args)
+    except (ZeroDivisionError, ValueError, OverflowError) as reason:
+        raise StepFailed(number, step, args) from reason
+    if isinstance(value, complex) and not is_finite(value):
+        raise StepFailed(number, step, args)
+    return value
+
+
+def run_batch(
+    program: Program,
+    needed: Sequence[int],
+    values: Values,
+    kind: Kind,
+    keep: Sequence[int],
+    *,
+    margins: bool = False,
+    overrides: Mapping[int, Any] | None = None,
+) -> Trace:
+    """Run the needed steps on arrays; only the values in ``keep`` outlive their last use.
+
+    What cannot be drawn becomes NaN; the caller wraps the call in numpy's errstate.
+    """
+    found: dict[int, Any] = {}
+    sines: dict[int, Any] = {}
+    overrides = overrides or {}
+    for number, dying in schedule(program, needed, keep):
+        step = program.steps[number]
+        if number in overrides:
+            found[number] = overrides[number]
+        elif step.given is not None:
+            found[number] = step.given.value(values, kind)
+        else:
+            assert step.action is not None
+            args = (*(found[arg] for arg in step.args), *step.extra)
+            found[number] = step.action.value(*args)
+            if margins and step.action.margin is not None:
+                sines[number] = step.action.margin(*args)
+        for dead in dying:
+            del found[dead]
+    return Trace(program, found, sines)
+
+
+def schedule(
+    program: Program, needed: Sequence[int], keep: Sequence[int]
+) -> list[tuple[int, tuple[int, ...]]]:
+    """Each needed step with the steps whose values die after it."""
+    last = {number: number for number in needed}
+    for number in needed:
+        for arg in program.steps[number].args:
+            last[arg] = number
+    dying: dict[int, list[int]] = {}
+    for number, end in last.items():
+        if number not in keep:
+            dying.setdefault(end, []).append(number)
+    return [(number, tuple(dying.get(number, ()))) for number in needed]
+
+
+def miss(step: Step, args: tuple[Any, ...]) -> float | None:
+    """By how many metres the two loci of a failed step miss each other; None when parallel."""
+    match args:
+        case (Circle() as m, Circle() as n, int()):
+            apart = abs(n.centre - m.centre)
+            return float(max(apart - m.radius - n.radius, abs(m.radius - n.radius) - apart))
+        case (Line() as line, Circle() as circle, int()):
+            unit = line.along / abs(line.along)
+            return float(
+                abs(((circle.centre - line.point) * unit.conjugate()).imag) - circle.radius
+            )
+    return None

@@ -1,0 +1,73 @@
+"""What came out, as plain records: the motion of points, links and slides, and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from graphkin.arithmetic import Point, Real
+from graphkin.plane import Ratio
+
+
+@dataclass(frozen=True, slots=True)
+class PointMotion:
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point; None where not asked."""
+
+    position: Point | None = None
+    velocity: Point | None = None
+    acceleration: Point | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LinkMotion:
+    """Angular velocity (rad/s) and acceleration (rad/s²), counter-clockwise positive, and centres.
+
+    A centre is a Ratio, so that it may lie at infinity; None where it was not asked for.
+    """
+
+    omega: Real | None = None
+    epsilon: Real | None = None
+    instant_centre: Ratio | None = None
+    acceleration_pole: Ratio | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SlideMotion:
+    """Coordinate (m), speed and acceleration of a block along its guide, and Coriolis vector."""
+
+    position: Real | None = None
+    speed: Real | None = None
+    acceleration: Real | None = None
+    coriolis: Point | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """The motion of a mechanism in one position, or of a batch of variants as arrays.
+
+    ``margin`` is the smallest sine of crossing among the steps run.
+    """
+
+    points: Mapping[str, PointMotion]
+    links: Mapping[str, LinkMotion]
+    slides: Mapping[str, SlideMotion] = field(default_factory=dict)
+    margin: Real = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """How far the independent route lies from the construction.
+
+    ``largest_difference`` is the largest absolute difference over the largest magnitude of that
+    quantity in the scene; ``quantity`` names where it was found; ``limit`` is what was allowed.
+    ``residual`` (m) is the closure error before the first iteration, ``moved`` (m) the way that
+    Newton's method then went. ``branches`` lists the branch conditions that do not hold.
+    """
+
+    agrees: bool
+    largest_difference: float
+    quantity: str
+    limit: float
+    residual: float
+    moved: float
+    branches: tuple[str, ...] = ()

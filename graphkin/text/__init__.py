@@ -1,0 +1,73 @@
+"""The sentences of steps, sheets and pages in each language, by key."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from math import floor, log10
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+LANGUAGES = ("en", "ro")
+MINUS = "\N{MINUS SIGN}"
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True)
+class Words:
+    """The sentences of one language, and how it writes numbers."""
+
+    language: str
+    sentences: Mapping[str, str]
+
+    def __call__(self, key: str, **fields: object) -> str:
+        """The sentence under a key, with its fields filled in. Raises KeyError when missing."""
+        return self.sentences[key].format_map(fields)
+
+    def has(self, key: str) -> bool:
+        """True when there is a sentence under a key."""
+        return key in self.sentences
+
+    def decimal(self, text: str) -> str:
+        """A number written with a point, as this language writes it, with a true minus sign."""
+        return text.replace("-", MINUS).replace(".", self.sentences["decimal_mark"])
+
+    def fixed(self, number: float, places: int) -> str:
+        """A number with so many places after the mark; never minus nought."""
+        return self.decimal(f"{round(number, places) + 0.0:.{places}f}")
+
+    def significant(self, number: float, digits: int = 4) -> str:
+        """A number rounded to so many significant digits, by powers of ten when far from one."""
+        if number == 0:
+            return "0"
+        rounded = float(f"{number:.{digits - 1}e}")
+        power = floor(log10(abs(rounded)))
+        if -4 <= power < 6:
+            return self.decimal(f"{rounded:.{max(digits - 1 - power, 0)}f}")
+        mantissa = rounded / 10**power
+        return (
+            self.decimal(f"{mantissa:.{digits - 1}f}") + f"·10{str(power).translate(SUPERSCRIPTS)}"
+        )
+
+
+@lru_cache(maxsize=8)
+def words(language: str) -> Words:
+    """The sentences of a language by its code. Raises KeyError for a language without any."""
+    if language not in LANGUAGES:
+        raise KeyError(language)
+    tree = tomllib.loads((HERE / f"{language}.toml").read_text(encoding="utf-8"))
+    return Words(language, dict(flattened(tree)))
+
+
+def flattened(tree: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:
+    """All sentences of a tree of tables, under dotted keys."""
+    found: list[tuple[str, str]] = []
+    for key, value in tree.items():
+        if isinstance(value, Mapping):
+            found += flattened(value, f"{prefix}{key}.")
+        else:
+            found.append((prefix + key, value))
+    return found

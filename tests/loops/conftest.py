@@ -1,0 +1,100 @@
+"""Scenes from their text; what the loops found as a solution to be held against them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphkin.loops.equations import equations
+from graphkin.loops.solve import LoopSolution, solve
+from graphkin.plane import Ratio
+from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.read import read_scene, read_text
+from graphkin.steps.solution import LinkMotion, PointMotion, SlideMotion, Solution
+
+SHEETS = Path(__file__).parents[2] / "sheets"
+HEAD = """graphkin = 1
+title = "test"
+units = { length = "m", angle = "deg", speed = "rad/s" }
+"""
+ROUGH = {"A": 0.21 + 0.21j, "B": -0.115 - 0.015j, "C": 0.13 + 0.03j, "D": 0.335 + 0.005j}
+
+
+@pytest.fixture
+def read() -> Callable[..., Scene]:
+    """A scene in metres, degrees and rad/s from the rest of its text."""
+
+    def reader(text: str, **settings: object) -> Scene:
+        return read_text(HEAD + text, "test", None, settings)
+
+    return reader
+
+
+@pytest.fixture
+def sheet() -> Callable[..., Scene]:
+    """A scene that is shipped."""
+
+    def reader(name: str, **settings: object) -> Scene:
+        return read_scene(SHEETS / name / "scene.toml", settings)
+
+    return reader
+
+
+@pytest.fixture
+def pump_start() -> dict[str, complex]:
+    """The pump at n = 7, read off a drawing to about a centimetre."""
+    return ROUGH
+
+
+@pytest.fixture
+def solved() -> Callable[..., LoopSolution]:
+    """The loops of a scene closed from rough positions."""
+
+    def solver(
+        scene: Scene, values: Mapping[str, Any] | None = None, **start: complex
+    ) -> LoopSolution:
+        slides = {name[1:]: s.real for name, s in start.items() if name.startswith("_")}
+        places = {name: z for name, z in start.items() if not name.startswith("_")}
+        return solve(equations(scene, values), places, slides)
+
+    return solver
+
+
+@pytest.fixture
+def written() -> Callable[[LoopSolution], Solution]:
+    """The loops' motion as a solution, with every centre and pole, as the construction gives it."""
+    return as_solution
+
+
+def as_solution(found: LoopSolution) -> Solution:
+    motion = found.motion
+    single = found.loops.numbers.single
+
+    def own(array: Any) -> Any:
+        return array[0].item() if single else array
+
+    points = {
+        name: PointMotion(*(own(row[:, i]) for row in motion.points))
+        for name, i in motion.names.items()
+    }
+    links = {name: link_motion(motion, i, own) for name, i in motion.index.items() if name != FRAME}
+    slides = {
+        guide.block: SlideMotion(*map(own, motion.slide(j)))
+        for j, guide in enumerate(found.loops.guides)
+        if guide.first
+    }
+    return Solution(points, links, slides, 0.5 if single else abs(motion.omega[:, 0]) * 0 + 0.5)
+
+
+def link_motion(motion: Any, i: int, own: Callable[[Any], Any]) -> LinkMotion:
+    start, velocity, acceleration = (own(row[:, i]) for row in motion.origin)
+    omega, epsilon = own(motion.omega[:, i]), own(motion.epsilon[:, i])
+    return LinkMotion(
+        omega,
+        epsilon,
+        Ratio(start, 1j * velocity, omega),
+        Ratio(start, acceleration, omega**2 - 1j * epsilon),
+    )

@@ -1,0 +1,103 @@
+"""Groups from the joints alone, and the closures of a group of higher class in their order."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from graphkin.loops.equations import equations
+from graphkin.loops.groups import groups
+from graphkin.scene.model import Closure
+from graphkin.witness import compare
+
+RAPID_RETURN = """
+[frame]
+O = [0, 0]
+G = [-2, 2]
+[links.1]
+O-A = 1
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "P-Q" }
+[links.3]
+P-Q = 6
+[links.4]
+P = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[links.5]
+Q = [0, 0]
+slides = { on = 0, through = "G", angle = 20 }
+[links.6]
+Q-R = 12
+[links.7]
+R = [0, 0]
+slides = { on = 0, through = [0, 4], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 35
+speed = 3
+[branches]
+2 = "closure 1"
+7 = "forward"
+"""
+
+
+def residual(theta):
+    """Height of the lever's end over its guide, the lever through the crank pin at 35 degrees."""
+    q = math.radians(35)
+    low = math.sin(q) - math.cos(q) * math.tan(theta)
+    x, y = 6 * math.cos(theta), low + 6 * math.sin(theta)
+    return (y - 2) - (x + 2) * math.tan(math.radians(20))
+
+
+def roots():
+    """Angles of the lever from 0 to 360 degrees, by a scan and bisection."""
+    found, steps = [], 7200
+    for i in range(steps):
+        a, b = 2 * math.pi * i / steps, 2 * math.pi * (i + 1) / steps
+        if residual(a) * residual(b) < 0 and abs(residual(a)) < 1:
+            for _ in range(60):
+                middle = (a + b) / 2
+                a, b = (a, middle) if residual(a) * residual(middle) <= 0 else (middle, b)
+            found.append((a + b) / 2)
+    return found
+
+
+def test_groups_of_the_pump(sheet):
+    scene = sheet("pump", n=7)
+    found = groups(scene, equations(scene))
+    assert [set(group.links) for group in found] == [{"2", "3"}, {"4", "5"}]
+    assert all(group.is_dyad for group in found)
+
+
+def test_a_group_of_class_three_and_the_dyad_behind_it(read):
+    scene = read(RAPID_RETURN)
+    found = groups(scene, equations(scene))
+    assert [set(group.links) for group in found] == [{"2", "3", "4", "5"}, {"6", "7"}]
+    assert [group.is_dyad for group in found] == [False, True]
+
+
+@pytest.mark.parametrize("number", range(1, len(roots()) + 1))
+def test_closures_are_counted_by_the_angle_of_the_lever(number, read, solved, written):
+    theta = roots()[number - 1]
+    q = math.radians(35)
+    low = complex(0, math.sin(q) - math.cos(q) * math.tan(theta))
+    bar = complex(math.cos(theta), math.sin(theta))
+    end = low + 6 * bar
+    assert abs(4 - end.imag) < 12
+    rod = complex(math.sqrt(144 - (4 - end.imag) ** 2), 4 - end.imag)
+    scene = read(RAPID_RETURN)
+    start = {"A": complex(math.cos(q), math.sin(q)), "P": low, "Q": end, "R": end + rod}
+    solution = written(solved(scene, **start))
+    stated = replace(scene, branches={**scene.branches, "2": Closure(number)})
+    assert compare(stated, solution).agrees
+    other = replace(scene, branches={**scene.branches, "2": Closure(number % 4 + 1)})
+    verdict = compare(other, solution)
+    assert verdict.branches == ("2",)
+    assert not verdict.agrees
+
+
+def test_the_lever_has_several_closures():
+    assert len(roots()) in (2, 4)

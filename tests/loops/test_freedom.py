@@ -1,0 +1,170 @@
+"""True mobility: what the count by Grübler gets wrong, the rank gets right."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import pytest
+
+from graphkin.errors import StructureError
+from graphkin.freedom import true_mobility
+
+CRANKS = """
+[frame]
+A = [0, 0]
+D = [3, 0]
+F = [1, 0]
+[links.1]
+A-B = 2
+[links.2]
+B-C = 3
+B-E = 1
+E = "on B-C"
+[links.3]
+D-C = 2
+[links.4]
+F-E = 2
+[[drivers]]
+turn = 1
+angle = 60
+speed = 3
+"""
+TRAMMEL = """
+[frame]
+O = [0, 0]
+[links.1]
+A-B = 2
+A-M = 1
+M = "on A-B"
+[links.2]
+A = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[links.4]
+O-M = 1
+[[drivers]]
+slide = 2
+position = 1
+speed = 1
+"""
+WEDGES = """
+[frame]
+O = [0, 0]
+[links.1]
+P = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.2]
+Q = [0, 0]
+slides = [{ on = 0, through = [1, 0], angle = 90 }, { on = 1, through = "P", angle = 30 }]
+[[drivers]]
+slide = 1
+position = 0
+speed = 2
+"""
+
+
+def on_circle(centre, radius, degrees):
+    return centre + cmath.rect(radius, math.radians(degrees))
+
+
+def test_third_parallel_crank(read, solved):
+    scene = read(CRANKS)
+    start = {"B": on_circle(0, 2, 60), "C": on_circle(3, 2, 60), "E": on_circle(1, 2, 60)}
+    assert true_mobility(scene, start) == 1
+    motion = solved(scene, **start).motion
+    for link, omega in (("1", 3), ("2", 0), ("3", 3), ("4", 3)):
+        assert motion.omega[0, motion.index[link]] == pytest.approx(omega, abs=1e-12)
+
+
+def test_bar_to_the_middle_of_the_trammel(read):
+    start = {"A": 1 + 0j, "B": 1j * math.sqrt(3), "M": 0.5 + 0.5j * math.sqrt(3)}
+    assert true_mobility(read(TRAMMEL), start) == 1
+
+
+def test_wedges(read, solved):
+    scene = read(WEDGES)
+    assert true_mobility(scene, {"P": 0j, "Q": 1 + 1j / math.sqrt(3)}) == 1
+    motion = solved(scene, P=0j, Q=1 + 0.6j).motion
+    assert motion.point("Q").velocity[0] == pytest.approx(-2j / math.sqrt(3))
+
+
+def test_pump_five_bar_and_a_frame(sheet, read, pump_start):
+    assert true_mobility(sheet("pump", n=7), pump_start) == 1
+    chain = "[frame]\nO = [0, 0]\n[links.1]\nO-A = 2\n[links.2]\nA-B = 1\n"
+    drivers = "[[drivers]]\nturn = 1\nangle = 0\nspeed = 1\n"
+    assert true_mobility(read(chain + drivers), {"A": 2 + 0j, "B": 3 + 0j}) == 2
+    truss = chain.replace("O = [0, 0]\n", "O = [0, 0]\nB = [2, 2]\n", 1)
+    assert true_mobility(read(truss + drivers), {"A": 2 + 1j}) == 0
+
+
+def test_rolling_is_refused_for_now(read):
+    scene = read(
+        """
+[frame]
+O = [0, 0]
+[links.1]
+C = [0, 0]
+wheel = { centre = "C", radius = 1 }
+rolls = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+roll = 1
+position = 0
+speed = 1
+"""
+    )
+    with pytest.raises(StructureError, match="rolling and gear pairs are not covered"):
+        true_mobility(scene, {"C": 1j})
+
+
+def test_an_angle_that_the_scene_does_not_say_is_named(read):
+    """A cross on the slots of two turning discs: its second slot has no angle to the first."""
+    scene = read(
+        """
+[frame]
+A = [0, 0]
+B = [1, 0]
+[links.1]
+A = [0, 0]
+[links.2]
+B = [0, 0]
+[links.3]
+P = [0, 0]
+slides = [{ on = 1, through = "A", angle = 0 }, { on = 2, through = "B", angle = 90 }]
+[[drivers]]
+turn = 1
+angle = 30
+speed = 1
+"""
+    )
+    with pytest.raises(StructureError, match="write link 2 as the block that slides on 3"):
+        true_mobility(scene, {"P": 0.75 + 0.43j})
+
+
+def test_oldham_turns_alike_at_both_ends(read, solved):
+    scene = read(
+        """
+[frame]
+A = [0, 0]
+B = [1, 0]
+[links.1]
+A = [0, 0]
+slides = { on = 3, through = "P", angle = 0 }
+[links.2]
+B = [0, 0]
+slides = { on = 3, through = "P", angle = 90 }
+[links.3]
+P = [0, 0]
+[[drivers]]
+turn = 1
+angle = 30
+speed = 5
+"""
+    )
+    found = solved(scene, P=0.75 + 0.43j)
+    omega = found.motion.omega[0]
+    assert omega[2] == omega[3] == pytest.approx(5)
+    sliding = max(abs(found.motion.slide(j).speed[0]) for j in (0, 1))
+    assert sliding <= 5 * 1 + 1e-12

@@ -1,0 +1,290 @@
+"""The witness: agreement of the right, and every kind of wrong found out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from graphkin.errors import StructureError, WitnessError
+from graphkin.plane import Ratio
+from graphkin.steps.solution import PointMotion, Solution
+from graphkin.witness import compare, compare_batch
+
+
+@pytest.fixture
+def pump(sheet, solved, written, pump_start):
+    scene = sheet("pump", n=7)
+    return scene, written(solved(scene, **pump_start))
+
+
+def moved(solution, point, **changes):
+    """The solution with one point's motion changed."""
+    return replace(
+        solution, points={**solution.points, point: replace(solution.points[point], **changes)}
+    )
+
+
+def test_agreement(pump):
+    verdict = compare(*pump)
+    assert verdict.agrees
+    assert verdict.largest_difference < 1e-14
+    assert verdict.residual < 1e-15
+    assert verdict.moved < 1e-15
+    assert verdict.branches == ()
+    assert verdict.limit == 1e-9
+
+
+def test_only_what_is_present_is_compared(pump):
+    scene, solution = pump
+    points = {name: PointMotion(solution.points[name].position) for name in "ABD"}
+    bare = Solution(points, {"3": replace(solution.links["3"], instant_centre=None)}, {}, 0.5)
+    assert compare(scene, bare).agrees
+
+
+@pytest.mark.parametrize("point", ["A", "B", "C", "D"])
+@pytest.mark.parametrize("quantity", ["velocity", "acceleration"])
+def test_a_millionth_is_caught(point, quantity, pump):
+    scene, solution = pump
+    value = getattr(solution.points[point], quantity)
+    verdict = compare(scene, moved(solution, point, **{quantity: value * (1 + 1e-6)}))
+    assert not verdict.agrees
+    assert verdict.quantity == f"points.{point}.{quantity}"
+    assert 1e-8 < verdict.largest_difference < 2e-6
+
+
+def test_a_wrong_position_is_caught(pump):
+    scene, solution = pump
+    verdict = compare(scene, moved(solution, "C", position=solution.points["C"].position + 1e-6))
+    assert not verdict.agrees
+    assert verdict.quantity == "points.C.position"
+    assert 1e-7 < verdict.residual < 2e-6
+    assert 1e-8 < verdict.moved < 2e-6
+
+
+@pytest.mark.parametrize("quantity", ["omega", "epsilon"])
+def test_a_wrong_link_is_caught(quantity, pump):
+    scene, solution = pump
+    wrong = replace(solution.links["4"], **{quantity: -getattr(solution.links["4"], quantity)})
+    verdict = compare(scene, replace(solution, links={**solution.links, "4": wrong}))
+    assert not verdict.agrees
+    assert verdict.quantity == f"links.4.{quantity}"
+
+
+@pytest.mark.parametrize("centre", ["instant_centre", "acceleration_pole"])
+def test_a_wrong_centre_is_caught(centre, pump):
+    scene, solution = pump
+    ratio = getattr(solution.links["3"], centre)
+    wrong = Ratio(ratio.start, ratio.shift * (1 + 1e-6), ratio.size)
+    links = {**solution.links, "3": replace(solution.links["3"], **{centre: wrong})}
+    verdict = compare(scene, replace(solution, links=links))
+    assert not verdict.agrees
+    assert verdict.quantity == f"links.3.{centre}"
+
+
+def test_a_solution_without_a_number_does_not_agree(pump):
+    scene, solution = pump
+    verdict = compare(scene, moved(solution, "D", velocity=complex("nan")))
+    assert not verdict.agrees
+    assert verdict.quantity == "points.D.velocity"
+
+
+@pytest.mark.parametrize(
+    ("start", "broken"),
+    [
+        ({"B": 0.25 - 0.15j, "C": 0.3 + 0.1j, "D": 0.45 + 0j}, {"B"}),
+        ({"D": -0.06 + 0j}, {"5"}),
+    ],
+)
+def test_a_wrong_branch_is_caught(start, broken, sheet, solved, written, pump_start):
+    scene = sheet("pump", n=7)
+    found = solved(scene, **{**pump_start, **start})
+    verdict = compare(scene, written(found))
+    assert verdict.largest_difference < 1e-12
+    assert set(verdict.branches) == broken
+    assert not verdict.agrees
+
+
+SHAPER = """
+[frame]
+O1 = [0, 0]
+O2 = [0, -3]
+[links.1]
+O1-A = 1.2
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "O2-B" }
+[links.3]
+O2-B = 7
+[links.4]
+B-C = 2
+[links.5]
+C = [0, 0]
+slides = { on = 0, through = [0, 3.5], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 30
+speed = 6
+[branches]
+2 = "forward"
+5 = "forward"
+"""
+RIGHT = {"A": 1 + 0.6j, "B": 1.9 + 3.7j, "C": 3.9 + 3.5j}
+
+
+def test_coriolis_and_slides_are_held(read, solved, written):
+    scene = read(SHAPER)
+    solution = written(solved(scene, **RIGHT))
+    assert compare(scene, solution).agrees
+    for name, share in (("position", 1), ("speed", 1), ("acceleration", 1), ("coriolis", -1j)):
+        slide = solution.slides["2"]
+        wrong = replace(slide, **{name: getattr(slide, name) * (share + 1e-6)})
+        verdict = compare(scene, replace(solution, slides={**solution.slides, "2": wrong}))
+        assert not verdict.agrees
+        assert verdict.quantity == f"slides.2.{name}"
+
+
+def test_the_point_of_a_guide_under_a_block_is_held(read, solved, written):
+    scene = read(SHAPER)
+    found = solved(scene, **RIGHT)
+    solution = written(found)
+    under = found.motion.point("A@3")
+    point = PointMotion(*(row[0].item() for row in under))
+    assert compare(scene, replace(solution, points={**solution.points, "A@3": point})).agrees
+    rider = replace(point, velocity=solution.points["A"].velocity)
+    verdict = compare(scene, replace(solution, points={**solution.points, "A@3": rider}))
+    assert verdict.quantity == "points.A@3.velocity"
+    assert not verdict.agrees
+
+
+@pytest.mark.parametrize(
+    ("start", "broken"),
+    [
+        ({"B": -1.9 - 9.7j, "C": 0j, "_2": -3.8 + 0j, "_5": 0j}, None),
+        ({"C": 0.1 + 3.5j}, ("5",)),
+    ],
+)
+def test_the_other_closure_of_a_slide(start, broken, read, solved, written):
+    """Backwards the lever points down and the ram cannot follow; the ram has its own two."""
+    scene = read(SHAPER)
+    start = {**RIGHT, **start}
+    if broken is None:
+        with pytest.raises(WitnessError, match="do not close"):
+            solved(scene, **start)
+        return
+    assert compare(scene, written(solved(scene, **start))).branches == broken
+
+
+def test_a_backward_block_on_a_swinging_guide(read, solved, written):
+    lever = SHAPER.partition("[links.4]")[0] + SHAPER[SHAPER.index("[[drivers]]") :]
+    forward = read(lever.replace('5 = "forward"\n', ""))
+    found = solved(forward, A=1 + 0.6j, B=-1.9 - 9.7j, _2=-3.8 + 0j)
+    assert found.motion.slide(0).position[0] < 0
+    assert compare(forward, written(found)).branches == ("2",)
+    backward = read(lever.replace('5 = "forward"\n', "").replace("forward", "backward"))
+    assert compare(backward, written(found)).agrees
+
+
+def test_batch(sheet, solved, written, pump_start):
+    scene = sheet("pump")
+    n = np.linspace(1, 30, 59)
+    solution = written(solved(scene, {"n": n}, **pump_start))
+    differences, agrees = compare_batch(scene, solution, {"n": n})
+    assert differences.shape == agrees.shape == (59,)
+    assert agrees.all()
+    assert differences.max() < 1e-13
+    velocity = solution.points["D"].velocity.copy()
+    velocity[3] *= 1 + 1e-6
+    velocity[5] = np.nan
+    differences, agrees = compare_batch(scene, moved(solution, "D", velocity=velocity), {"n": n})
+    assert np.flatnonzero(~agrees).tolist() == [3, 5]
+    assert np.isnan(differences).nonzero()[0].tolist() == [5]
+
+
+def test_a_mechanism_at_rest_is_compared_absolutely(read, solved, written):
+    scene = read(SHAPER.replace("speed = 6", "speed = 0"))
+    solution = written(solved(scene, **RIGHT))
+    assert compare(scene, solution).agrees
+    assert not compare(scene, moved(solution, "B", velocity=1e-6 + 0j)).agrees
+
+
+def test_links_that_only_translate_have_centres_at_infinity(read, solved, written):
+    """ω of the coupler of a parallelogram is rounding: its centre is far away, and right."""
+    scene = read(
+        """
+[frame]
+A = [0, 0]
+D = [3, 0]
+[links.1]
+A-B = 1
+[links.2]
+B-C = 3
+[links.3]
+D-C = 1
+[[drivers]]
+turn = 1
+angle = 77
+speed = 100
+"""
+    )
+    start = {"B": 0.22 + 0.97j, "C": 3.22 + 0.97j}
+    solution = written(solved(scene, **start))
+    assert abs(solution.links["2"].omega) < 1e-12
+    verdict = compare(scene, solution)
+    assert verdict.agrees
+    at_infinity = replace(solution.links["2"], instant_centre=Ratio(0j, 1 + 0j, 0.0))
+    wrong = replace(solution, links={**solution.links, "2": at_infinity})
+    assert not compare(scene, wrong).agrees
+
+
+DEAD = """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 0.5
+[links.3]
+B = [0, 0]
+slides = {{ on = 0, through = "O", angle = 0 }}
+[[drivers]]
+{}
+"""
+
+
+@pytest.mark.parametrize(
+    ("driver", "start"),
+    [
+        ("turn = 1\nangle = 30\nspeed = 1", {"A": 0.75**0.5 + 0.5j, "B": 0.75**0.5 + 0j}),
+        ("turn = 1\nangle = 30\nspeed = 1", {"A": 0.8 + 0.5j, "B": 1.1 + 0j}),
+        ("slide = 3\nposition = 1.5\nspeed = 1", {"A": 1 + 0j, "B": 1.5 + 0j}),
+    ],
+)
+def test_a_singular_position_is_named(driver, start, read, solved):
+    """The rod square to the guide with the crank driving, in line with it with the slider."""
+    with pytest.raises(WitnessError, match=r"singular position.*depends on the driver"):
+        solved(read(DEAD.format(driver)), **start)
+
+
+def test_what_cannot_be_assembled_is_named(read, solved):
+    with pytest.raises(WitnessError, match="do not close"):
+        solved(read(DEAD.format("turn = 1\nangle = 60\nspeed = 1")), B=0.5 + 0j)
+
+
+def test_too_few_drivers_are_named(read, solved):
+    scene = read(DEAD.format("slide = 3\nposition = 1\nspeed = 1"))
+    with pytest.raises(StructureError, match="1 more driver"):
+        solved(replace(scene, drivers=()), B=1 + 0j)
+
+
+def test_far_from_the_origin_nothing_is_lost(read, solved, written):
+    """Velocities and their comparison count from the mechanism, not from a far origin."""
+    far = SHAPER.replace("[0, 0]\nO2 = [0, -3]", "[4096, -8192]\nO2 = [4096, -8195]")
+    far = far.replace("through = [0, 3.5]", "through = [4096, -8188.5]")
+    home = 4096 - 8192j
+    near = solved(read(SHAPER), **RIGHT)
+    there = solved(read(far), **{name: z + home for name, z in RIGHT.items()})
+    for mine, its in zip(near.motion.points[1:], there.motion.points[1:], strict=True):
+        assert abs(mine - its).max() < 1e-12 * abs(mine).max()
+    assert compare(read(far), written(there)).agrees

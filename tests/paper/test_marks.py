@@ -1,0 +1,77 @@
+import math
+
+import pytest
+
+from graphkin.errors import PageError
+from graphkin.paper.marks import Arc, Circle, Line, Page, Polyline, Text, box, polygon, reach
+
+
+def page(*marks):
+    return Page(420, 297, marks, "t", "en")
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_numbers_that_are_not_finite_are_refused_by_name(bad):
+    marks = [
+        Line(1, 2, bad, 4, "link", "crank"),
+        Circle(10, 10, bad, "pin", "crank"),
+        Arc(10, 10, 5, 0, bad, "angle", "crank"),
+        Polyline(((1, 1), (bad, 2)), "plate", "crank"),
+        Text(bad, 10, "A", "label", name="crank"),
+    ]
+    for mark in marks:
+        with pytest.raises(PageError, match="crank"):
+            page(mark).check()
+
+
+def test_every_mark_off_the_page_is_named():
+    with pytest.raises(PageError) as caught:
+        page(
+            Line(0, 0, 420, 297, "link"),
+            Line(0, 0, 420.1, 297, "link", "too far right"),
+            Circle(2, 20, 3, "pin", "too far left"),
+        ).check()
+    names = [problem.place for problem in caught.value.problems]
+    assert names == ["line link too far right", "circle pin too far left"]
+
+
+def test_a_text_is_checked_with_its_real_extent():
+    page(Text(410, 20, "AB", "label", 2.5)).check()
+    with pytest.raises(PageError, match="ABCDEFGH"):
+        page(Text(410, 20, "ABCDEFGH", "label", 2.5)).check()
+    page(Text(410, 20, "ABCDEFGH", "label", 2.5, "end")).check()
+    page(Text(410, 20, "ABCDEFGH", "label", 2.5, rotate=-90)).check()
+    with pytest.raises(PageError):
+        page(Text(410, 10, "ABCDEFGH", "label", 2.5, rotate=90)).check()
+
+
+@pytest.mark.parametrize(
+    "mark",
+    [
+        Circle(10, 10, 0, "pin"),
+        Arc(10, 10, 5, 0, 360, "angle"),
+        Polyline(((1, 1),), "link"),
+        Text(10, 10, "A", "label", 0),
+    ],
+)
+def test_marks_that_cannot_be_drawn_are_refused(mark):
+    with pytest.raises(PageError):
+        page(mark).check()
+
+
+def test_the_reach_of_an_arc_counts_the_quarter_points_it_passes():
+    assert reach(Arc(50, 50, 10, 45, 135, "angle")) == pytest.approx(
+        (50 - 10 / 2**0.5, 40, 50 + 10 / 2**0.5, 50 - 10 / 2**0.5)
+    )
+    assert reach(Arc(50, 50, 10, 90, -90, "angle")) == pytest.approx((50, 40, 60, 60))
+
+
+def test_an_upright_text_turned_by_ninety_degrees_reads_upwards():
+    left, top, right, bottom = reach(Text(100, 100, "HHHH", "label", 2.5, rotate=90))
+    assert (left, right, bottom) == pytest.approx((97.5, 100, 100))
+    assert top < 90
+
+
+def test_boxes_and_polygons_are_closed():
+    assert box(1, 2, 3, 4, "slider").points == ((1, 2), (4, 2), (4, 6), (1, 6))
+    assert polygon(((0, 0), (1, 0), (0, 1)), "plate").closed

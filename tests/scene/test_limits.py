@@ -1,0 +1,111 @@
+"""Hostile files end in one clear error, soon, and never in a traceback."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from graphkin.errors import Problem, SceneError
+from graphkin.scene.read import read_scene, read_text
+
+HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'
+DRIVER = "[[drivers]]\nturn = 1\nangle = 0\nspeed = 1\n"
+
+
+def first_problem(text: str) -> Problem:
+    with pytest.raises(SceneError) as caught:
+        read_text(text, "hostile")
+    return caught.value.problems[0]
+
+
+BOMBS = {
+    "nested lists": ("x = " + "[" * 1500, "nested too deeply"),
+    "nested tables": ("x = " + "{a=" * 1200, "nested too deeply"),
+    "long line": ("x = " + "1" * 5000, "a line of 5004 characters"),
+    "dotted key": ("a" + ".a" * 1900 + " = 1", "a key of very many parts"),
+    "dotted table": ("[a" + ".a" * 1900 + "]", "a key of very many parts"),
+    "quoted dotted key": ('"a"' + ' . "a"' * 600 + " = 1", "a key of very many parts"),
+    "large": ("# " + "x" * 100 + "\n") * 3000,
+    "broken date": ("x = 2024-02-30", "not TOML: invalid date"),
+    "unclosed": ('x = "', "not TOML"),
+    "control character": ("x = '\x00'", "not TOML"),
+    "surrogate": ('x = "\\ud800"', "not TOML"),
+    "duplicate key": ("x = 1\nx = 2", "not TOML: cannot overwrite a value"),
+    "duplicate table": ("[links.1]\n[links.1]", "twice"),
+    "too many links": (
+        HEAD + "".join(f"[links.{i}]\n" for i in range(1, 502)) + DRIVER,
+        "501 links",
+    ),
+    "a million keys": ("".join(f"k{i} = {i}\n" for i in range(15000)), "no version"),
+}
+
+
+@pytest.mark.parametrize("name", BOMBS)
+def test_bombs_do_not_go_off(name: str) -> None:
+    bomb = BOMBS[name]
+    text, found = bomb if isinstance(bomb, tuple) else (bomb, "too large")
+    assert found in first_problem(text).found
+
+
+def test_syntax_errors_name_their_line() -> None:
+    wrong = first_problem("graphkin = 1\ntitle = 'a'\ntitle = 'b'\n")
+    assert wrong.place == "line 3"
+    assert wrong.hint == "the same key or table is written above"
+    assert first_problem("graphkin = 1\n\nlinks = [").place == "line 3"
+
+
+def test_very_many_problems_are_cut_short() -> None:
+    with pytest.raises(SceneError) as caught:
+        read_text("".join(f"k{i} = {i}\n" for i in range(15000)), "hostile")
+    assert len(caught.value.problems) == 101
+    assert "more problems" in str(caught.value.problems[-1])
+
+
+def test_a_long_chain_of_links_is_read() -> None:
+    links = "".join(f"[links.{i}]\nP{i - 1}-P{i} = 1\n" for i in range(1, 501))
+    scene = read_text(f"{HEAD}[frame]\nP0 = [0, 0]\n{links}{DRIVER}", "chain")
+    assert len(scene.links) == 500
+
+
+@pytest.fixture
+def written(tmp_path: Path) -> Callable[[bytes], Path]:
+    def write(data: bytes) -> Path:
+        path = tmp_path / "scene.toml"
+        path.write_bytes(data)
+        return path
+
+    return write
+
+
+def test_a_byte_order_mark_is_passed_over(written: Callable[[bytes], Path], data: Path) -> None:
+    path = written(b"\xef\xbb\xbf" + (data / "pump.toml").read_bytes())
+    assert read_scene(path).title == "Pump mechanism"
+    assert read_scene(path).name == path.parent.name
+    assert read_scene(path).source == path
+
+
+def test_windows_line_ends(written: Callable[[bytes], Path], data: Path) -> None:
+    path = written((data / "pump.toml").read_bytes().replace(b"\n", b"\r\n"))
+    assert len(read_scene(path).links) == 5
+
+
+@pytest.mark.parametrize(
+    ("data", "found"),
+    [
+        (b'graphkin = 1\ntitle = "\xff"', "the byte 0xff is not UTF-8"),
+        ("graphkin = 1".encode("utf-16"), "the byte 0xff is not UTF-8"),
+        (b"\x00" * 300_000, "the file is too large"),
+        (b"\x00", "not TOML"),
+    ],
+)
+def test_bytes_that_are_no_text(written: Callable[[bytes], Path], data: bytes, found: str) -> None:
+    with pytest.raises(SceneError, match=found):
+        read_scene(written(data))
+
+
+def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
+    for path in (tmp_path / "missing.toml", tmp_path, tmp_path / "a\x00b"):
+        with pytest.raises(SceneError, match="the scene cannot be read"):
+            read_scene(path)

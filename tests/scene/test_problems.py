@@ -1,0 +1,251 @@
+"""What is wrong is told in words: the place, what was found, what was expected, and a hint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from graphkin.errors import Problem, SceneError
+from graphkin.scene.read import read_text
+
+Finder = Callable[..., Problem]
+Finders = Callable[..., list[Problem]]
+SLIDES = 'slides = { on = 0, through = "O1", angle = 0 }'
+
+CASES = [
+    # numbers
+    ("A-B = 40", "A-B = nan", "links.3.A-B", "nan is not a finite decimal number", "a number"),
+    ("A-B = 40", "A-B = -inf", "links.3.A-B", "-inf is not a finite", ""),
+    ("A-B = 40", "A-B = 1e999", "links.3.A-B", "1e999 is out of range", "1e-60 and 1e60"),
+    ("A-B = 40", "A-B = 1e-999", "links.3.A-B", "1e-999 is out of range", ""),
+    ("A-B = 40", "A-B = true", "links.3.A-B", "true", "a number or an expression in quotes"),
+    ("A-B = 40", "A-B = 2024-01-01", "links.3.A-B", "2024-01-01", "a number"),
+    ("A-B = 40", "A-B = {}", "links.3.A-B", "a table", "a number"),
+    ("A-B = 40", f"A-B = {'1' * 300}", "links.3.A-B", "too many digits", ""),
+    ("A-B = 40", 'A-B = "9**9**9"', "links.3.A-B", "an exponent above 64", ""),
+    ("A-B = 40", 'A-B = "2**(10**9)"', "links.3.A-B", "an exponent above 64", ""),
+    ("A-B = 40", 'A-B = "10**61"', "links.3.A-B", '"10**61" is out of range', "1e60"),
+    ("A-B = 40", 'A-B = "10**-61"', "links.3.A-B", "out of range", "1e-60"),
+    ("A-B = 40", 'A-B = "pi**64*pi**64"', "links.3.A-B", "out of range", "1e60"),
+    ("A-B = 40", 'A-B = "1/(n-7)"', "links.3.A-B", "division by zero with n = 7", ""),
+    ("A-B = 40", 'A-B = "40 + m"', "links.3.A-B", "uses m, which is no parameter", "n"),
+    ("A-B = 40", 'A-B = "40 + N"', "links.3.A-B", "uses N", "did you mean n?"),
+    ("A-B = 40", 'A-B = "20n"', "links.3.A-B", '"20n"', "write a product with *: 2*n"),
+    ("A-B = 40", 'A-B = "40,5"', "links.3.A-B", "','", "write a decimal point"),
+    ("A-B = 40", 'A-B = "n^2"', "links.3.A-B", "'^'", "write a power as **"),
+    ("A-B = 40", 'A-B = "40 + t"', "links.3.A-B", "uses the time t", "only in a driver's angle"),
+    # the top of the file
+    ("graphkin = 1", "", "graphkin", "no version of the format", "graphkin = 1"),
+    ("graphkin = 1", "graphkin = 2", "graphkin", "written for a newer graphkin", "update"),
+    ("graphkin = 1", "graphkin = true", "graphkin", "true", "graphkin = 1"),
+    ("graphkin = 1", 'graphkin = "1"', "graphkin", '"1"', "graphkin = 1"),
+    ("graphkin = 1", "graphkin = 0", "graphkin", "0", "graphkin = 1"),
+    ("title", "titel", "titel", "unknown key", "did you mean title?"),
+    ("title", "time = 'x'\ntitle", "time", "uses x, which is no parameter", ""),
+    ('"Pump mechanism"', "5", "title", "5", "a text in quotes"),
+    ('"Pump mechanism"', '"a\\u202eb"', "title", "'\\u202e'", "printable text"),
+    ('"Pump mechanism"', '"a\\u0000b"', "title", "'\\x00'", "printable text"),
+    ('"cm"', '"cn"', "units.length", '"cn"', "one of cm, in, m, mm"),
+    ('"deg"', '"degree"', "units.angle", '"degree"', "did you mean deg?"),
+    (', speed = "rev/min"', "", "units.speed", "no unit of speed", "rev/min"),
+    (', speed = "rev/min"', ', speed = "rev/min", mass = "kg"', "units.mass", "unknown key", ""),
+    # parameters
+    ("value = 7", "value = 31", "parameters.n.value", "n = 31 is out of range", "from 1 to 30"),
+    ("value = 7", 'value = "7.5"', "parameters.n.value", "n = 7.5 is off the step", "steps of 1"),
+    ("value = 7", "value = true", "parameters.n.value", "true", "a number"),
+    ("value = 7", 'value = "sqrt(2)"', "parameters.n.value", "not rational", ""),
+    ("value = 7", 'value = "1/0"', "parameters.n.value", "division by zero", ""),
+    ("step = 1 ", "step = 0 ", "parameters.n.step", "0", "above 0"),
+    ("step = 1 ", "setp = 1 ", "parameters.n.setp", "unknown key", "did you mean step?"),
+    ("min = 1,", "min = 40,", "parameters.n.min", "40 is above max", "at most 30"),
+    ("[frame]", "[parameters.sin]\nvalue = 1\n[frame]", "parameters.sin", "a meaning", ""),
+    ("[frame]", "[parameters.t]\nvalue = 1\n[frame]", "parameters.t", "a meaning", ""),
+    ("[frame]", '[parameters."é"]\nvalue = 1\n[frame]', 'parameters."é"', "no name of a par", ""),
+    ("[frame]", "[parameters.m]\nmin = 1\n[frame]", "parameters.m.value", "nothing", "a number"),
+    # links
+    ("[links.2]", "[links.O1]", "links.O1", "O1 is a point too", "one name for one thing"),
+    ("[links.2]", "[links.frame]", "links.frame", "the frame among the links", "[frame]"),
+    ("[links.2]", "[links.0]", "links.0", "the frame among the links", "[frame]"),
+    ("[links.2]", "[links.02]", "links.02", "no name of a link", "a number, or a letter"),
+    ("[links.2]", '[links."a\\u202eb"]', 'links."a\\u202eb"', "no name of a link", ""),
+    ("[links.2]", '[links."e\\u0301"]', 'links."é"'[:7] + "e\u0301" + '"', "no name of a", ""),
+    ("[links.2]", f"[links.{'a' * 41}]", f"links.{'a' * 41}", "no name of a link", "at most 40"),
+    ("O2-B = 30", "X-Y = 30", "links.2", "link 2 touches no other", "slides or rolls"),
+    ("O2-B = 30", "", "links.2", "a link without points", "points, such as"),
+    ("[links.1]", "[links]\n9 = 3\n[links.1]", "links.9", "3", "a table with its points"),
+    ("[links.1]", "slides = { on = 1 }\n[links.1]", "frame.slides", "the frame is at rest", ""),
+    # slides
+    ("on = 0", "on = 7", "links.5.slides.on", "link 7 is not in [links]", "0, 1, 2, 3, 4, 5"),
+    ("on = 0", "on = 5", "links.5.slides.on", "link 5 itself", "another link"),
+    ("on = 0", "on = true", "links.5.slides.on", "true is no name of a link", ""),
+    ("on = 0, ", "", "links.5.slides.on", "nothing is no name of a link", ""),
+    ('"O1", angle', '"O3", angle', "links.5.slides.through", "O3 is no point of the frame", "O1"),
+    (", angle = 0 }\n[[", " }\n[[", "links.5.slides", "through without an angle", "angle = …"),
+    ('through = "O1", ', "", "links.5.slides", "no through", 'along = "P-Q"'),
+    ("angle = 0 }", "angel = 0, angle = 1 }", "links.5.slides.angel", "unknown key", "mean angle?"),
+    ("angle = 0 }", "angle = 0, pin = 1 }", "links.5.slides.pin", "1", "true or false"),
+    (SLIDES, 'slides = { on = 3, along = "A-X" }', "links.5.slides.along", "X is no point", "C"),
+    (SLIDES, 'slides = { on = 3, along = "A" }', "links.5.slides.along", '"A"', '"A-B"'),
+    (SLIDES, 'slides = { on = 3, along = "A-A" }', "links.5.slides.along", '"A-A"', "two points"),
+    (
+        SLIDES,
+        'slides = { on = 3, along = "A-B", angle = 3 }',
+        "links.5.slides.angle",
+        "angle beside along",
+        "either along",
+    ),
+    (SLIDES, 'slides = [1, { on = 3, along = "A-B" }]', "links.5.slides[0]", "1", "a table"),
+    # drivers
+    ("turn = 1", "turn = 8", "drivers[0].turn", "link 8 is not in [links]", "one of 0, 1"),
+    ("turn = 1", "turn = 0", "drivers[0].turn", "against the frame, which is at rest", ""),
+    ("turn = 1", "turn = 2\nagainst = 2", "drivers[0].turn", "against itself", ""),
+    ("turn = 1", "turn = 1\nagainst = 9", "drivers[0].against", "link 9 is not in", ""),
+    ("turn = 1", "trun = 1", "drivers[0]", "nothing driven", "did you mean turn?"),
+    ("turn = 1", "turn = 1\nslide = 5", "drivers[0]", "turn and slide", "one of turn"),
+    ("turn = 1", "turn = 1.5", "drivers[0].turn", '"1.5" is no name of a link', ""),
+    ("turn = 1", 'turn = 1\nof = "O1-B"', "drivers[0].of", "B is no point of link 1", "A, O1"),
+    ("turn = 1", 'turn = 1\nof = "A"', "drivers[0].of", '"A"', "two points"),
+    ('\nangle = "30 + 2*n"', "", "drivers[0]", "no angle", "angle = … in deg"),
+    ('\nangle = "30 + 2*n"', "\nposition = 1", "drivers[0].position", "has no position", "angle"),
+    ('\nspeed = "300 + 10*n"', "", "drivers[0]", "no speed", "speed = … in rev/min"),
+    ("[[drivers]]", "[drivers]", "drivers", "a table", "double brackets"),
+    ("[branches]", "[[drivers]]\nturn = 1\nangle = 1\nspeed = 2\n[branches]", "drivers", "2 t", ""),
+    # branches
+    ("\nB = ", "\nX = ", "branches.X", "X is no point or link", "one of 1, 2, 3, 4, 5, A, B"),
+    ("A-O2", "A-O3", "branches.B", "O3 is no point of the mechanism", "did you mean O2?"),
+    ("right of A-O2", "right of A-B", "branches.B", "B on a side of itself", ""),
+    ('"forward"', '"upward"', "branches.5", '"upward"', '"closure 1"'),
+    ('"forward"', '"closure 0"', "branches.5", '"closure 0"', '"closure 1"'),
+    ('"forward"', "1", "branches.5", "1", '"forward"'),
+    ('"forward"', '"left of A-B"', "branches.5", "a side for link 5", '"forward"'),
+    ('"right of A-O2"', '"backward"', "branches.B", "forward, backward or a closure", "left of"),
+    ("5 = ", "frame = ", "branches.frame", "a branch of the frame", "a pin or"),
+    # ask
+    ('velocity = ["D"]', 'velocity = ["Q"]', "ask.velocity[0]", "Q is no point", "A, B, C, D"),
+    ('velocity = ["D"]', 'velocity = "D"', "ask.velocity", '"D"', 'a list, such as ["A", "B"]'),
+    ('velocity = ["D"]', 'velocity = ["A@9"]', "ask.velocity[0]", "link 9 is not in", ""),
+    ('velocity = ["D"]', 'velocity = ["X@3"]', "ask.velocity[0]", "X is no point", ""),
+    ('velocity = ["D"]', "velocity = [3]", "ask.velocity[0]", "3 is no name of a point", ""),
+    ("[3, 4]", "[3, 44]", "ask.poles[1]", "link 44 is not in [links]", ""),
+    ("[3, 4]", "[0]", "ask.poles[0]", "the frame, which is at rest", "a moving link"),
+    ("[3, 4]", "[[3]]", "ask.poles[0]", "a list of 1", "a number or a name"),
+    ("poles", "pole", "ask.pole", "unknown key", "did you mean poles?"),
+    ("poles = [3, 4]", "slides = [4]", "ask.slides[0]", "link 4 does not slide", "slides"),
+    ("[ask]", "[asks]", "asks", "unknown key", "did you mean ask?"),
+    # sheet, titles, notes
+    ("[ask]", '[sheet]\nlanguage = "fr"\n[ask]', "sheet.language", '"fr"', "one of en, it, ro"),
+    ("[ask]", "[sheet]\nsheets = 3\n[ask]", "sheet.sheets", "3", "1 or 2"),
+    ("[ask]", "[sheet]\nscale = 0\n[ask]", "sheet.scale", "0", "above 0"),
+    ("[ask]", '[sheet]\nscale = "1:0"\n[ask]', "sheet.scale", "':'", ""),
+    ("[ask]", '[sheet]\nowner = "a\\u0007"\n[ask]', "sheet.owner", "'\\x07'", "printable"),
+    ("[ask]", '[titles]\nfr = "x"\n[ask]', "titles.fr", "unknown key", "en, it, ro"),
+    ("[ask]", "[notes]\nro = 3\n[ask]", "notes.ro", "3", "a text in quotes"),
+]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place", "found", "more"), CASES, ids=[f"{case[2]}: {case[1]}" for case in CASES]
+)
+def test_one_thing_wrong_is_one_problem(
+    problem: Finder, old: str, new: str, place: str, found: str, more: str
+) -> None:
+    wrong = problem(old, new)
+    assert wrong.place == place
+    assert found in wrong.found
+    assert more in f"{wrong.expected} {wrong.hint}"
+
+
+PLANETS = [
+    ('on = "sun"', 'on = "sum"', "links.planet.rolls.on", "link sum is not in", "did you mean"),
+    ("arm = 0,", "arn = 0,", "links.planet.rolls.start.arn", "link arn is not in", "mean arm?"),
+    ('wheel = { centre = "P", radius = 30 }', "", "links.planet.rolls", "planet has no wheel", ""),
+    ('wheel = { centre = "O", radius = 60 }', "", "links.planet.rolls", "has no wheel to roll", ""),
+    ('on = "sun",', 'on = "sun", side = "up",', "links.planet.rolls.side", '"up"', '"left"'),
+    ('on = "sun",', 'on = "sun", through = "O",', "links.planet.rolls", "without an angle", ""),
+    ('turn = "sun"', 'roll = "planet"', "drivers[1].angle", "has no angle", "position"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "place", "found", "more"), PLANETS)
+def test_wheels_and_tracks(
+    problems: Finders, old: str, new: str, place: str, found: str, more: str
+) -> None:
+    wrong = problems(old, new, "planet")[0]
+    assert wrong.place == place
+    assert found in wrong.found
+    assert more in f"{wrong.expected} {wrong.hint}"
+
+
+def test_a_driver_along_the_wrong_guide(problem: Finder) -> None:
+    old = 'turn = 1\nangle = "30 + 2*n"'
+    wrong = problem(old, "slide = 5\nposition = 1\nagainst = 3")
+    assert wrong.found == "link 5 slides on 0, not on 3"
+    assert wrong.hint == "write against = 0"
+    assert "slides on nothing" in problem(old, "slide = 4\nposition = 1").found
+    assert "rolls straight on nothing" in problem(old, "roll = 4\nposition = 1").found
+
+
+SEVERAL = """[links.6]
+A-B = -40
+X = "left of A-Q"
+slides = { on = 9, through = [0, nan], angle = "2n" }
+[links.7]
+[links.8]
+R = "sideways"
+[links.4]"""
+
+
+def test_every_problem_is_told_at_once(problems: Finders) -> None:
+    found = problems("[links.4]", SEVERAL)
+    assert [problem.place for problem in found] == [
+        "links.6.A-B",
+        "links.6.X",
+        "links.6.slides.through[1]",
+        "links.6.slides.angle",
+        "links.8.R",
+        "links.6.slides.on",
+        "links.7",
+    ]
+    assert str(found[0]) == "links.6.A-B: -40; expected a number above 0"
+
+
+SETTINGS = [
+    ({"n": 31}, "settings.n", "n = 31 is out of range", "n from 1 to 30 in steps of 1"),
+    ({"n": "7.5"}, "settings.n", "n = 7.5 is off the step", "in steps of 1"),
+    ({"n": "1/3"}, "settings.n", "out of range", ""),
+    ({"m": 3}, "settings.m", '"m" is no parameter', "n"),
+    ({"N": 3}, "settings.N", '"N" is no parameter', "did you mean n?"),
+    ({"n": "seven"}, "settings.n", '"seven" uses seven', "a number"),
+    ({"n": "7,0"}, "settings.n", "','", "write a decimal point"),
+    ({"n": ""}, "settings.n", "an empty expression", "a number"),
+    ({"n": True}, "settings.n", "true", "a number"),
+    ({"n": None}, "settings.n", "nothing", "a number"),
+    ({"n": float("nan")}, "settings.n", "nan", "a number"),
+    ({"n": 1e300}, "settings.n", "out of range", ""),
+    ({"n": object}, "settings.n", "<class 'object'>", "a number"),
+]
+
+
+@pytest.mark.parametrize(("settings", "place", "found", "more"), SETTINGS)
+def test_settings_out_of_order(
+    problem: Finder, settings: dict[str, object], place: str, found: str, more: str
+) -> None:
+    wrong = problem(**settings)
+    assert wrong.place == place
+    assert found in wrong.found
+    assert more in f"{wrong.expected} {wrong.hint}"
+
+
+def test_a_scene_of_nothing() -> None:
+    with pytest.raises(SceneError) as caught:
+        read_text("", "empty")
+    places = [problem.place for problem in caught.value.problems]
+    assert places == ["graphkin", "units.length", "units.angle", "units.speed", "links", "drivers"]
+
+
+def test_every_table_written_as_a_number() -> None:
+    keys = "links drivers frame units parameters ask branches sheet titles notes title module"
+    with pytest.raises(SceneError) as caught:
+        read_text("graphkin = 1\n" + "".join(f"{key} = -3\n" for key in keys.split()), "numbers")
+    assert {problem.place for problem in caught.value.problems} == set(keys.split())

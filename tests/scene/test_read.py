@@ -1,0 +1,214 @@
+"""The scenes of the format's own description, read into records."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from graphkin.scene.model import Angled, Apart, At, Closure, Scene, Side, Slide, Triangle, Way
+from graphkin.scene.quantity import exact
+from graphkin.scene.read import read_scene, read_text
+
+
+def test_the_pump(data: Path) -> None:
+    pump = read_scene(data / "pump.toml")
+    assert (pump.name, pump.title) == ("pump", "Pump mechanism")
+    assert pump.units == {"length": "cm", "angle": "deg", "speed": "rev/min"}
+    assert pump.frame.points == ("O1", "O2")
+    assert pump.frame.placings[1] == At("O2", exact(0, "cm"), exact(-30, "cm"))
+    assert [link.points for link in pump.links.values()] == [
+        ("O1", "A"),
+        ("O2", "B"),
+        ("A", "B", "C"),
+        ("C", "D"),
+        ("D",),
+    ]
+    nought = exact(0, "cm")
+    assert pump.links["3"].placings == (
+        At("A", nought, nought),
+        Apart("B", "A", exact(40, "cm")),
+        Triangle("C", "A", "B", exact(20, "cm"), exact(25, "cm"), 1),
+    )
+    guide = Slide("0", "O1", exact(0, "deg"), None, nought)
+    assert pump.links["5"].slides == (guide,)
+    assert pump.branches == {"B": Side("A", "O2", -1), "5": Way(1)}
+    assert pump.ask.velocity == pump.ask.acceleration == ("D",)
+    assert pump.ask.poles == ("3", "4")
+
+
+def test_the_driver_of_the_pump(data: Path) -> None:
+    pump = read_scene(data / "pump.toml")
+    (driver,) = pump.drivers
+    assert (driver.kind, driver.link, driver.against, driver.of) == ("turn", "1", "0", None)
+    assert driver.position.number(pump.values) == 44
+    assert driver.speed.written(pump.values) == "370"
+    assert driver.acceleration.is_zero()
+    assert driver.acceleration.unit == "rad/s²"
+
+
+def test_the_shaper(data: Path) -> None:
+    shaper = read_scene(data / "shaper.toml")
+    assert shaper.links["2"].slides[0].along == ("O2", "B")
+    assert shaper.links["2"].slides[0].on == "3"
+    through = shaper.links["5"].slides[0].through
+    assert through == (exact(0, "mm"), exact(350, "mm"))
+    assert shaper.ask.velocity == ("C", "A@3")
+    assert shaper.drivers[0].speed == exact(60, "rev/min")
+
+
+def test_the_planet(data: Path) -> None:
+    planet = read_scene(data / "planet.toml")
+    wheel = planet.links["planet"].wheels[0]
+    assert (wheel.centre, wheel.radius, wheel.inside) == ("P", exact(30, "mm"), False)
+    (rolling,) = planet.links["planet"].rolls
+    assert (rolling.on, rolling.through, rolling.angle) == ("sun", None, None)
+    assert rolling.start == dict.fromkeys(("arm", "sun", "planet"), exact(0, "deg"))
+    assert [driver.link for driver in planet.drivers] == ["arm", "sun"]
+
+
+@pytest.mark.parametrize("lab", ["pump", "pump-collinear"])
+def test_the_shipped_sheets(lab: str) -> None:
+    folder = Path(__file__).parents[2] / "sheets" / lab
+    scene = read_scene(folder / "scene.toml", {"n": 12})
+    assert (scene.name, scene.values) == (lab, {"n": Fraction(12)})
+    assert scene.drivers[0].position.written(scene.values) == "54"
+    assert scene.sheet.language == "ro"
+    assert scene.titles["ro"].startswith("Mecanism de pompă")
+
+
+def test_two_blocks_offsets_and_pins(changed: Callable[..., Scene]) -> None:
+    two = (
+        'slides = [{ on = "frame", through = "O1", angle = 0, offset = "2*n", pin = true },'
+        ' { on = 3, along = "A - B", offset = -1 }]'
+    )
+    scene = changed('slides = { on = 0, through = "O1", angle = 0 }', two)
+    first, second = scene.links["5"].slides
+    assert (first.on, first.pin, first.offset.number(scene.values)) == ("0", True, 14)
+    assert (second.on, second.along, second.offset) == ("3", ("A", "B"), exact(-1, "cm"))
+
+
+def test_drivers_against_a_link_and_of_a_line(changed: Callable[..., Scene]) -> None:
+    scene = changed("turn = 1", 'turn = 3\nagainst = "2"\nof = "C-B"\nacceleration = 1.5')
+    (driver,) = scene.drivers
+    assert (driver.link, driver.against, driver.of) == ("3", "2", ("C", "B"))
+    assert driver.acceleration.number({}) == Fraction(3, 2)
+
+
+def test_a_sliding_driver(changed: Callable[..., Scene]) -> None:
+    old = 'turn = 1\nangle = "30 + 2*n"\nspeed = "300 + 10*n"'
+    (driver,) = changed(old, "slide = 5\nposition = 40\nspeed = -2.5").drivers
+    assert (driver.position.unit, driver.speed.unit, driver.acceleration.unit) == (
+        "cm",
+        "cm/s",
+        "cm/s²",
+    )
+    assert driver.speed.si({}) == -0.025
+
+
+RACK = """
+graphkin = 1
+units = { length = "mm", angle = "rad", speed = "rad/s" }
+module = 4
+[frame]
+O = [0, 0]
+wheel = { centre = "O", teeth = 60, inside = true }
+[links.arm]
+O-P = 60
+[links.planet]
+P = [0, 0]
+wheels = [{ centre = "P", teeth = 30 }, { centre = "P", radius = "5*2" }]
+rolls = [
+  { on = "frame", start = { arm = "pi/2" } },
+  { on = 0, through = [0, 60], angle = 0, side = "right", start = { planet = 1 } },
+]
+[[drivers]]
+roll = "planet"
+position = 2
+speed = 3
+"""
+
+
+def test_wheels_by_teeth_and_tracks_of_both_kinds() -> None:
+    scene = read_text(RACK, "rack")
+    ring = scene.frame.wheels[0]
+    assert ring.inside and ring.teeth == exact(60)
+    assert ring.radius is not None and ring.radius.number({}) == 120
+    first, second = scene.links["planet"].wheels
+    assert first.radius is not None and first.radius.si({}) == 0.06
+    assert second.radius is not None and second.radius.number({}) == 10
+    circular, straight = scene.links["planet"].rolls
+    assert circular.through is None and circular.start["arm"].text == "pi/2"
+    assert (straight.side, straight.through) == (-1, (exact(0, "mm"), exact(60, "mm")))
+    assert scene.drivers[0].kind == "roll"
+
+
+def test_branches_in_all_words(changed: Callable[..., Scene]) -> None:
+    words = 'A = "left  of  O2 - B"\n2 = "closure 3"\n4 = "backward"'
+    branches = changed("[branches]", f"[branches]\n{words}").branches
+    assert branches["A"] == Side("O2", "B", 1)
+    assert branches["2"] == Closure(3)
+    assert branches["4"] == Way(-1)
+
+
+def test_the_title_block(changed: Callable[..., Scene]) -> None:
+    sheet = """
+[sheet]
+owner = "Universitatea"
+author = "A. Popescu"
+approved = "B. Ionescu"
+date = 2024-05-17
+number = 12
+language = "it"
+scale = "1:5"
+sheets = 1
+[notes]
+ro = '''
+O notă
+pe două rânduri.'''
+"""
+    scene = changed("[ask]", sheet + "[ask]")
+    assert (scene.sheet.date, scene.sheet.number) == ("2024-05-17", "12")
+    assert (scene.sheet.owner, scene.sheet.sheets) == ("Universitatea", 1)
+    assert scene.sheet.scale is not None and scene.sheet.scale.number({}) == Fraction(1, 5)
+    assert scene.notes == {"ro": "O notă\npe două rânduri."}
+
+
+def test_texts_are_composed(changed: Callable[..., Scene]) -> None:
+    assert changed("Pump mechanism", "Pompa\u0306").title == "Pompă"
+
+
+def test_parameters_in_both_forms(changed: Callable[..., Scene]) -> None:
+    scene = changed(
+        "[parameters]", "[parameters]\nr = 0.1\nq = { value = '1/3', max = 1 }", r="0.2"
+    )
+    assert scene.values == {"n": 7, "r": Fraction(1, 5), "q": Fraction(1, 3)}
+    assert scene.parameters["r"].minimum is None
+    assert scene.parameters["n"].maximum == exact(30)
+
+
+@pytest.mark.parametrize("value", [8, "8", " 8.0 ", "16/2", 8.0, Fraction(8), "2**3"])
+def test_settings_are_exact(changed: Callable[..., Scene], value: object) -> None:
+    assert changed(n=value).values == {"n": Fraction(8)}
+
+
+def test_a_float_setting_is_the_decimal_it_shows(changed: Callable[..., Scene]) -> None:
+    scene = changed("step = 1", "step = 0.1", n=7.1)
+    assert scene.values["n"] == Fraction(71, 10)
+
+
+def test_an_arm_with_an_angle(changed: Callable[..., Scene]) -> None:
+    scene = changed('C = "left of A-B"', "C-E = 5\nB-C-E = '10*n'\nC = 'left of A-B'")
+    angled = scene.links["3"].placings[-1]
+    assert isinstance(angled, Angled)
+    assert (angled.point, angled.vertex, angled.arm) == ("E", "C", "B")
+    assert angled.angle.number(scene.values) == 70
+
+
+def test_reading_needs_no_numpy() -> None:
+    code = "import sys, graphkin.scene.read; sys.exit('numpy' in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[2])
