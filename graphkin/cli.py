@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,13 +14,11 @@ from graphkin.console import FAILED, Desk, complain
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
-    from graphkin.scene.model import Scene
     from graphkin.steps.run import Trace
     from graphkin.steps.solution import Solution, Verdict
 
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
 FORMATS = ("svg", "pdf")
-PDF_ONLY = "calculation"
 
 
 @click.group(cls=Desk, invoke_without_command=True, context_settings=HELP)
@@ -199,38 +198,14 @@ def sheet(
     """
     kinds = formats_of(formats)
     from graphkin.handout import hand_out
-    from graphkin.paper.files import write_all
+    from graphkin.paper.files import file_stem, rendered, write_all
 
     mechanism = mechanism_of(name, settings)
-    stem = file_stem(mechanism.scene, pairs_of(settings))
+    stem = file_stem(mechanism.scene.name, pairs_of(settings))
     files: dict[str, bytes] = {}
     for part in hand_out(mechanism, view=view, language=lang):
-        files |= rendered(f"{stem}-{part.kind}-{view}", part, kinds)
+        files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, kinds)
     tell(str(path) for path in write_all(folder, files, force))
-
-
-def rendered(stem: str, part: Any, kinds: tuple[str, ...]) -> dict[str, bytes]:
-    """The files of one sheet, by name."""
-    files: dict[str, bytes] = {}
-    if "svg" in kinds and part.kind != PDF_ONLY:
-        from graphkin.paper.svg import write_svg
-
-        for number, page in enumerate(part.pages, 1):
-            tail = f"-{number}" if len(part.pages) > 1 else ""
-            files[f"{stem}{tail}.svg"] = write_svg(page).encode("utf-8")
-    if "pdf" in kinds:
-        from graphkin.paper.pdf import write_pdf
-
-        files[f"{stem}.pdf"] = write_pdf(part.pages, title=part.pages[0].title)
-    return files
-
-
-def file_stem(scene: Scene, settings: dict[str, str]) -> str:
-    """The name of the scene, then what is set: pump-n7."""
-    from graphkin.paper.files import file_part
-
-    set_parts = [file_part(f"{name}{value}") for name, value in settings.items()]
-    return "-".join([file_part(scene.name), *set_parts])
 
 
 def formats_of(text: str) -> tuple[str, ...]:
@@ -285,7 +260,7 @@ def doubts(trace: Trace, solution: Solution, verdict: Verdict | None) -> bool:
     flat = solution.margin < FAIR
     if flat:
         number = min(trace.margins, key=lambda step: float(trace.margins[step]))
-        bound = f", good only to {verdict.limit:.1e} of the largest of its kind" if verdict else ""
+        bound = f"; it is good to {verdict.limit:.1e} of the largest of its kind" if verdict else ""
         complain(
             f"{step_words(trace.program, number)} crosses at a sine of {solution.margin:.2e}, "
             f"less than {FAIR:g}: the answer is not fair to ask{bound}"
@@ -313,4 +288,5 @@ def tell(lines: Iterable[str]) -> None:
 
 def main() -> None:
     """Run the command line and leave with its status."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
     app(prog_name="graphkin")

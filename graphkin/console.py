@@ -122,4 +122,5 @@ def say_aside(text: str) -> None:
 def silence() -> None:
     """Send what standard output still holds nowhere, so that leaving does not fail again."""
     with suppress(OSError, ValueError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        stdout = sys.stdout.fileno()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stdout)

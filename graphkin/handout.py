@@ -9,7 +9,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import HEIGHT, WIDTH
 from graphkin.paper.marks import Page
-from graphkin.paper.scale import Scales, fitting_scale, kept_scale
+from graphkin.paper.scale import Scales, extent_of, fitting_scale, kept_scale, preferred
 from graphkin.steps.program import Target
 from graphkin.steps.solution import Solution, Verdict
 from graphkin.text import LANGUAGES, Words, words
@@ -86,11 +86,11 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
 
 def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[Drawing]:
     """The material of each sheet, all at the same scale."""
-    targets = {kind: targets_of(mechanism, kind) for kind in WANTED}
-    asked = {kind: found for kind, found in targets.items() if found}
-    scales = scales_of(mechanism, asked, verdict, spoken)
+    chosen = scales(mechanism)
     return [
-        drawing(mechanism, kind, found, scales, verdict, spoken) for kind, found in asked.items()
+        drawing(mechanism, kind, found, chosen, verdict, spoken)
+        for kind in WANTED
+        if (found := targets_of(mechanism, kind))
     ]
 
 
@@ -103,28 +103,43 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
     return (*positions, *asked)
 
 
-def scales_of(
-    mechanism: Mechanism, asked: dict[str, tuple[Target, ...]], verdict: Verdict, spoken: Words
-) -> Scales:
+def scales(mechanism: Mechanism) -> Scales:
     """The one set of scale factors at which every sheet's drawings fit their fields."""
-    seconds = time_scale(mechanism)
-    trial = Scales(1.0, seconds)
+    crank = the_crank(mechanism)
+    seconds = 1 / crank if crank else natural_seconds(mechanism)
+    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     needs = []
-    for kind, found in asked.items():
-        material = drawing(mechanism, kind, found, trial, verdict, spoken)
-        needs.append((material.mechanism_extent(), material.plan_extent()))
-    stated = mechanism.scene.sheet.scale
-    if stated is not None:
-        wanted = float(stated.number(mechanism.scene.values))
-        return Scales(kept_scale(wanted, needs, WIDTH, HEIGHT), seconds)
-    return Scales(fitting_scale(needs, WIDTH, HEIGHT), seconds)
+    for kind in WANTED:
+        if found := targets_of(mechanism, kind):
+            trial = drawing(mechanism, kind, found, Scales(1.0, seconds), nobody, words("en"))
+            needs.append((trial.mechanism_extent(), trial.plan_extent()))
+    if not needs:
+        raise SceneError(Problem("ask", "asks for nothing that can be drawn", "a velocity or more"))
+    kL = fitting_scale(needs, WIDTH, HEIGHT)
+    if mechanism.scene.sheet.scale is not None:
+        kL = kept_scale(float(mechanism.scene.sheet.scale.number(mechanism.scene.values)), kL)
+    if crank:
+        return Scales(kL, seconds)
+    return Scales(kL, kL / next(preferred(kL / seconds)), from_driver=False)
 
 
-def time_scale(mechanism: Mechanism) -> float:
-    """kL/kv: with one turning crank 1/omega, so that the crank and its velocity are drawn alike."""
-    driver = mechanism.scene.drivers[0]
-    speed = float(driver.speed.si(mechanism.scene.values))
-    return 1 / abs(speed) if speed else 1.0
+def the_crank(mechanism: Mechanism) -> float:
+    """Speed in rad/s of the one crank that drives alone; 0 where there is none or it stands."""
+    drivers = mechanism.scene.drivers
+    if len(drivers) != 1 or drivers[0].kind != "turn":
+        return 0.0
+    return abs(float(drivers[0].speed.si(mechanism.scene.values)))
+
+
+def natural_seconds(mechanism: Mechanism) -> float:
+    """kL/kv that draws the plans about as large as the mechanism, where no crank says it."""
+    points = mechanism.solve().points.values()
+    places = extent_of([complex(point.position) for point in points if point.position is not None])
+    size = max(places.width, places.height)
+    fastest = max((abs(point.velocity or 0) for point in points), default=0.0)
+    hardest = max((abs(point.acceleration or 0) for point in points), default=0.0)
+    slowest = max(fastest / size, (hardest / size) ** 0.5)
+    return 1 / slowest if slowest else 1.0
 
 
 def drawing(
@@ -138,10 +153,3 @@ def drawing(
     """The material of one sheet: everything a hand draws for it."""
     trace = mechanism.trace(targets, by_hand=True, seconds=scales.seconds)
     return Drawing(kind, mechanism.scene, trace, scales, verdict, spoken)
-
-
-def scales(mechanism: Mechanism) -> Scales:
-    """The scale factors of the sheets of a mechanism."""
-    asked = {kind: found for kind in WANTED if (found := targets_of(mechanism, kind))}
-    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
-    return scales_of(mechanism, asked, nobody, words("en"))

@@ -26,8 +26,9 @@ units = { length = "m", angle = "deg", speed = "rad/s" }
 """
 
 
+COIN = st.booleans()
 SHIPPED = ("pump", "pump-collinear")
-LAW = settings(max_examples=80, deadline=None, derandomize=True, database=None)
+LAW = settings(max_examples=60, deadline=None, derandomize=True, database=None)
 """A law holds on so many mechanisms made at random, the same ones at every run."""
 
 
@@ -269,22 +270,26 @@ def angled(p: str, q: str, r: str, a: complex, b: complex, c: complex) -> list[s
 # --- at random -----------------------------------------------------------------------------------
 
 
+@cache
 def log_scaled(low: float, high: float) -> st.SearchStrategy[float]:
     """Numbers between two powers, all orders of magnitude alike."""
     powers = st.integers(round(1000 * math.log10(low)), round(1000 * math.log10(high)))
     return powers.map(lambda power: 10.0 ** (power / 1000))
 
 
+@cache
 def signs() -> st.SearchStrategy[int]:
     """+1 or -1."""
     return st.sampled_from((1, -1))
 
 
+@cache
 def angles(low: float, high: float) -> st.SearchStrategy[float]:
     """Angles in radians between two in degrees, in steps of a thousandth of a degree."""
     return st.integers(round(1000 * low), round(1000 * high)).map(lambda a: math.radians(a / 1000))
 
 
+@cache
 def directions() -> st.SearchStrategy[complex]:
     """Unit vectors, the four quarters often among them."""
     quarters = st.sampled_from((1 + 0j, 1j, -1 + 0j, -1j))
@@ -335,6 +340,10 @@ class Maker:
             tuple(self.swings),
         )
 
+    def coin(self) -> bool:
+        """Heads or tails."""
+        return self.draw(COIN)
+
     def length(self) -> float:
         """A length of this mechanism's order of magnitude."""
         half = 10 ** (self.spread / 2)
@@ -355,13 +364,13 @@ class Maker:
         """A new link on two points, perhaps with a third that is its own."""
         points = [start, end]
         a, b = self.places[start], self.places[end]
-        if self.draw(st.booleans()):
+        if self.coin():
             turn = self.draw(angles(17, 160)) * self.draw(signs())
             third = a + rect(self.length(), turn) * (b - a) / abs(b - a)
             if self.draw(st.integers(0, 3)) == 0:
                 third = a + (b - a) * self.draw(st.sampled_from((0.5, 0.25, -0.5, 1.75)))
             points.append(self.point(third))
-        if self.draw(st.booleans()):
+        if self.coin():
             points[:2] = points[1], points[0]
         how = self.draw(st.sampled_from(("lengths", "lengths", "angles", "coordinates")))
         name = f"{len(self.bars) + len(self.blocks) + 1}"
@@ -396,7 +405,7 @@ class Maker:
 
     def fitting(self, left: str, pin: complex) -> str | None:
         """A point that stands already and from which the inner pin is seen across, at times."""
-        if self.draw(st.booleans()):
+        if self.coin():
             return None
         a = pin - self.places[left]
         for name in self.moving:
@@ -421,9 +430,9 @@ class Maker:
         turn = self.draw(angles(0, 90 - self.cross_at)) * self.draw(signs())
         along = first / abs(first) * rect(1, turn) * self.draw(signs())
         points = [inner]
-        if self.draw(st.booleans()):
+        if self.coin():
             points.append(self.point(self.places[inner] + self.length() * self.draw(directions())))
-            if self.draw(st.booleans()):
+            if self.coin():
                 points.reverse()
         name = f"{len(self.bars) + len(self.blocks) + 1}"
         offset = self.draw(st.sampled_from((0.0, 1.0, -1.0))) * self.length()

@@ -1,8 +1,107 @@
-"""A4."""
+"""The A4 calculation pages: every relation with its number, symbols, figures, result and sense."""
 
 from __future__ import annotations
-from graphkin.paper.marks import Page
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from graphkin.errors import PageError, Problem
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.frame import A4_AREA, A4_SIZE, page_frame
+from graphkin.paper.marks import Mark, Page, Text
+from graphkin.paper.relations import Relation, relations
+from graphkin.paper.richtext import escape, extent
+from graphkin.paper.sheet import flowed, title_of
+
+LETTER = 2.5
+LINE, GAP = 6.0, 3.0
+"""Distance of lines, and what a heading adds above it, in mm."""
+LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
+TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
+NUMBER = 12.0
+"""Width kept at the right for the relation's number, in mm."""
 
 
-def calculation(drawings, view):
-    return ()
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A line of the page: a heading, or a relation with its number."""
+
+    markup: str
+    number: str = ""
+    heading: bool = False
+
+
+def calculation(drawings: Sequence[Drawing], view: str) -> tuple[Page, ...]:
+    """The calculation pages of the sheets that were drawn: solved, or to be filled in."""
+    rows = list(all_rows(drawings, solved=view == "key"))
+    pages = list(paged(rows))
+    return tuple(
+        page_of(drawings[0], page, view, f"{i}/{len(pages)}") for i, page in enumerate(pages, 1)
+    )
+
+
+def all_rows(drawings: Sequence[Drawing], *, solved: bool) -> Iterator[Row]:
+    """All lines in order, relations numbered through."""
+    number = 0
+    for section, found in relations(drawings):
+        if not found:
+            continue
+        yield Row(drawings[0].words(f"calculation.{section}"), heading=True)
+        for relation in found:
+            number += bool(relation.result)
+            tag = f"({number})" if relation.result else ""
+            yield from broken(relation, tag, drawings[0], solved=solved)
+
+
+def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> Iterator[Row]:
+    """A relation in as many lines as it needs, its number beside the last."""
+    parts = relation.parts(solved=solved)
+    if relation.result and not solved:
+        parts = [*parts[:-1], f"{parts[-1]} {'. ' * 14}{relation.unit}".rstrip()]
+    lines = flowed(parts, "", RIGHT - LEFT - NUMBER, LETTER)
+    for i, line in enumerate(lines):
+        if extent(line, LETTER)[0] > RIGHT - LEFT - NUMBER:
+            raise PageError(
+                Problem(
+                    "calculation",
+                    f"does not fit: {line}",
+                    "a shorter relation",
+                    "shorten the names of the points",
+                )
+            )
+        yield Row(line, tag if i == len(lines) - 1 else "")
+
+
+def paged(rows: Sequence[Row]) -> Iterator[list[tuple[float, Row]]]:
+    """The lines with their places, page by page; no heading stands last on a page."""
+    page: list[tuple[float, Row]] = []
+    y = TOP
+    for row in rows:
+        step = LINE + (GAP if row.heading and page else 0)
+        need = step + (LINE if row.heading else 0)
+        if page and y + need > BOTTOM:
+            yield page
+            page, y, step = [], TOP, LINE
+        y = y + step if page else y
+        page.append((y, row))
+    if page:
+        yield page
+
+
+def page_of(drawing: Drawing, rows: Sequence[tuple[float, Row]], view: str, number: str) -> Page:
+    """One A4 page."""
+    words = drawing.words
+    title = escape(title_of(drawing))
+    name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
+    sheet = drawing.scene.sheet
+    marks: list[Mark] = [*page_frame((title, name), (escape(sheet.author or sheet.owner), number))]
+    for y, row in rows:
+        if row.heading:
+            marks.append(Text(LEFT, y, row.markup, "caption", 3.5))
+            continue
+        marks.append(Text(LEFT + 3, y, row.markup, "caption", LETTER))
+        if row.number:
+            marks.append(Text(RIGHT, y, row.number, "caption", LETTER, "end"))
+    page = Page(*A4_SIZE, tuple(marks), f"{title_of(drawing)} – {name}", words.language)
+    page.check()
+    return page

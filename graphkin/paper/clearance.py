@@ -28,7 +28,7 @@ OFF_MIDDLE = 4.0  # a segment's label at the segment's end
 # mm that is missing, for the labels of points and of segments.
 LINE, BOX, DOT, CORE = range(4)
 MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
-WEIGHT = np.array([[0.4, 0.0, 1.5, 0.5], [0.7, 0.0, 0.7, 1.5]])
+WEIGHT = np.array([[0.4, 0.0, 1.5, 0.5], [1.1, 0.0, 0.7, 1.5]])
 
 
 class Shapes(NamedTuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import degrees, hypot
@@ -13,7 +14,7 @@ from graphkin.paper.labels import Board, Label
 from graphkin.paper.layout import SWEEP, Layout
 from graphkin.paper.marks import Arc, Circle, Line
 from graphkin.paper.symbolic import bar, symbol
-from graphkin.paper.symbols import SHORT, arrow, bearing, square_mark
+from graphkin.paper.symbols import SHORT, arrow, bearing, head, square_mark
 from graphkin.plane import Ratio
 from graphkin.steps.program import Part, Plane, Step
 
@@ -35,6 +36,9 @@ class Desk:
         """The class that colours this sheet's plan."""
         return self.drawing.kind
 
+
+FAR = 2000.0
+"""Longer than any way on a page, in mm."""
 
 Put = Callable[[Desk, int, Step, Any], None]
 
@@ -258,27 +262,40 @@ def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 
 def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """A centre off the field: a ray towards it to the field's edge, direction and distance."""
+    """A centre off the field: name, direction and distance where a ray to it leaves the field."""
     start = desk.field(value.start)
     way = value.shift / value.size if value.size else value.shift
     if way == 0:
         return
     u, v = desk.field.way(way)
-    part = clipped(start, (start[0] + 2000 * u, start[1] + 2000 * v), inset(desk.field.rect, 3))
+    part = clipped(start, (start[0] + FAR * u, start[1] + FAR * v), inset(desk.field.rect, 1))
     if part is None:
         return
-    desk.board.marks += arrow(*part, f"ray {desk.colour}", step.name, number)
-    words, degrees = desk.drawing.words, bearing((u, v)) % 360
-    key = "page.far_centre" if value.size else "page.centre_at_infinity"
-    distance = words.significant(100 * abs(way), 3) if value.size else ""
-    text = words(
-        key,
-        name=symbol(step.name),
-        p=symbol(step.says["p"]),
-        distance=distance,
-        angle=words.fixed(degrees, 0),
+    desk.board.marks.append(head(*part, f"centre {desk.colour}", step.name, number))
+    if step.by_hand is None:
+        desk.board.marks.append(Line(*part[0], *part[1], "ray", step.name, number))
+    desk.board.labels.append(
+        Label(
+            far_words(desk, step, value, way),
+            desk.colour,
+            part[1],
+            2.5,
+            step.name,
+            number,
+            priority=2,
+        )
     )
-    desk.board.labels.append(Label(text, desk.colour, part[1], 2.5, step.name, number, priority=2))
+
+
+def far_words(desk: Desk, step: Step, value: Any, way: complex) -> str:
+    """Words for where a centre lies that is not on the sheet."""
+    words = desk.drawing.words
+    angle = words.fixed(degrees(phase(way)) % 360, 1)
+    fields = {"name": symbol(step.name), "p": symbol(step.says["p"]), "angle": angle}
+    if not value.size:
+        return words("page.centre_at_infinity", **fields)
+    distance = words.significant(100 * abs(way), 4)
+    return words("page.far_centre", distance=distance, **fields)
 
 
 def inset(rect: tuple[float, float, float, float], by: float) -> tuple[float, float, float, float]:

@@ -8,12 +8,10 @@ from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.model import (
     Angled,
-    Apart,
     At,
     Driver,
     Link,
     OnLine,
-    Placing,
     Polar,
     Scene,
     Side,
@@ -78,22 +76,10 @@ def lengths(scene: Scene, words: Words) -> Iterator[str]:
     equal: dict[str, list[str]] = {}
     for link in scene.links.values():
         for placing in link.placings:
-            for p, q, length in stated(placing):
+            for p, q, length in placing.lengths():
                 equal.setdefault(written(scene, words, length), []).append(bar(p, q))
-    for length, bars in equal.items():
-        yield " = ".join([*bars, length])
-
-
-def stated(placing: Placing) -> list[tuple[str, str, Quantity]]:
-    """The bars whose lengths a placing states."""
-    match placing:
-        case Apart(point, start, length) | Polar(point, start, length, _):
-            return [(start, point, length)]
-        case Triangle(point, first, second, from_first, from_second, _):
-            return [(first, point, from_first), (second, point, from_second)]
-        case OnLine(point, _, _, start, length, _):
-            return [(start, point, length)]
-    return []
+    for text, bars in equal.items():
+        yield " = ".join([*bars, text])
 
 
 def fixed_points(scene: Scene, words: Words) -> Iterator[str]:

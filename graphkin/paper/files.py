@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from graphkin.errors import PageError, Problem
+from graphkin.paper.marks import Page
 
 RESERVED = frozenset(
     ["CON", "PRN", "AUX", "NUL"] + [f"{port}{i}" for port in ("COM", "LPT") for i in range(10)]
@@ -16,12 +17,37 @@ RESERVED = frozenset(
 """Names that Windows keeps for devices, whatever follows their first dot."""
 LONGEST = 60
 """Characters of one part of a file name."""
+PDF_ONLY = "calculation"
+"""The sheet that comes as PDF only, for it is several pages of text."""
 
 
 def file_part(text: str) -> str:
     """A name or value as part of a file name: what a file system may not like becomes _."""
     part = re.sub(r"[^\w.+-]+", "_", text).strip("._")[:LONGEST].rstrip(".")
     return f"_{part}" if part.partition(".")[0].upper() in RESERVED else part or "_"
+
+
+def file_stem(name: str, settings: Mapping[str, str]) -> str:
+    """The name of a scene, then what is set: pump-n7."""
+    return "-".join([file_part(name), *(file_part(f"{k}{v}") for k, v in settings.items())])
+
+
+def rendered(
+    stem: str, kind: str, pages: Sequence[Page], formats: Sequence[str]
+) -> dict[str, bytes]:
+    """The files of one sheet by name: an SVG for each drawing, one PDF for all its pages."""
+    files: dict[str, bytes] = {}
+    if "svg" in formats and kind != PDF_ONLY:
+        from graphkin.paper.svg import write_svg
+
+        for number, page in enumerate(pages, 1):
+            tail = f"-{number}" if len(pages) > 1 else ""
+            files[f"{stem}{tail}.svg"] = write_svg(page).encode("utf-8")
+    if "pdf" in formats:
+        from graphkin.paper.pdf import write_pdf
+
+        files[f"{stem}.pdf"] = write_pdf(pages, title=pages[0].title)
+    return files
 
 
 def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Path]:

@@ -70,17 +70,26 @@ class Board:
 
     def finish(self) -> list[Mark]:
         """The marks with every label at a free place. Raises PageError when one finds none."""
+        spots = self.spots()
+        refuse_crowds(self.labels, spots)
+        return [*self.marks, *marks_of(self.labels, spots)]
+
+    def placed(self) -> list[Mark]:
+        """Only the labels that find a free place, without the other marks."""
+        spots = self.spots()
+        free = [(label, spot) for label, spot in zip(self.labels, spots, strict=True) if spot.free]
+        return marks_of([label for label, _ in free], [spot for _, spot in free])
+
+    def spots(self) -> list[Spot]:
+        """The places of all labels, clear of marks, of taken boxes and of each other."""
         lines = [segment for mark in self.marks for segment in segments(mark)]
         boxes = [*self.taken, *(reach(mark) for mark in self.marks if isinstance(mark, Text))]
-        wishes = [label.wish() for label in self.labels]
-        spots = place(wishes, lines, boxes, self.rect)
-        refuse_crowds(self.labels, spots)
-        placed = [
-            mark
-            for label, spot in zip(self.labels, spots, strict=True)
-            for mark in label.marks(spot)
-        ]
-        return [*self.marks, *placed]
+        return place([label.wish() for label in self.labels], lines, boxes, self.rect)
+
+
+def marks_of(labels: Sequence[Label], spots: Sequence[Spot]) -> list[Mark]:
+    """The labels at their places."""
+    return [mark for label, spot in zip(labels, spots, strict=True) for mark in label.marks(spot)]
 
 
 def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:

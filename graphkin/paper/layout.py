@@ -6,10 +6,10 @@ moves takes with it exactly what depends on it.
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
-from cmath import phase
 from typing import Any
 
 from graphkin.errors import PageError, Problem

@@ -129,7 +129,7 @@ def draw_body(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
         on_page = tuple(field(place) for place in corners)
         board.marks.append(polygon(on_page, "plate", link.name))
         ends = on_page[0], on_page[1]
-    board.labels.append(Label(link.name, "", ends, 2.5, link.name, ring=True))
+    board.labels.append(Label(link.name, "", ends, 2.5, link.name, priority=3, ring=True))
 
 
 def places_of(drawing: Drawing, link: Link) -> list[complex]:
@@ -146,7 +146,7 @@ def farthest(places: list[complex]) -> tuple[complex, complex]:
 
 
 def corners_of(drawing: Drawing, link: Link) -> list[complex] | None:
-    """The corners of a plate in order around it; None for a bar, all of whose points lie in line."""
+    """The corners of a plate in order around it; None for a bar, whose points lie in line."""
     places = places_of(drawing, link)
     if len(places) < 3:
         return None
@@ -172,7 +172,7 @@ def draw_blocks(board: Board, drawing: Drawing, field: Field, link: Link) -> Non
             (at[0] - 3 * u + 3.2 * v, at[1] - 3 * v - 3.2 * u),
             (at[0] + 3 * u + 3.2 * v, at[1] + 3 * v - 3.2 * u),
         )
-        board.labels.append(Label(link.name, "", side, 2.5, link.name, ring=True))
+        board.labels.append(Label(link.name, "", side, 2.5, link.name, priority=3, ring=True))
 
 
 def outward(drawing: Drawing, field: Field, name: str) -> XY | None:

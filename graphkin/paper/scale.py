@@ -17,10 +17,14 @@ STEPS = (1.0, 2.0, 5.0)
 
 @dataclass(frozen=True, slots=True)
 class Scales:
-    """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper)."""
+    """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper).
+
+    ``from_driver``: kv follows from the one crank that drives, so that a student can find it.
+    """
 
     kL: float  # noqa: N815
     seconds: float
+    from_driver: bool = True
 
     @property
     def kv(self) -> float:
@@ -98,15 +102,8 @@ def fitting_scale(needs: Sequence[tuple[Extent, Extent]], width: float, height: 
     return next(preferred(least))
 
 
-def kept_scale(
-    stated: float,
-    needs: Sequence[tuple[Extent, Extent]],
-    width: float,
-    height: float,
-    margin: float,
-) -> float:
-    """The scale that a scene asks for. Raises PageError with the one that would fit."""
-    least = fitting_scale(needs, width, height)
+def kept_scale(stated: float, least: float) -> float:
+    """The scale that a scene asks for. Raises PageError when the drawing needs a larger kL."""
     if stated < least * (1 - 1e-12):
         raise PageError(
             Problem(

@@ -23,6 +23,10 @@ WHOLE = ("acceleration-pole",)
 """Actions whose own sentence says all that the hand does."""
 
 
+SCALED = ("turned-velocity", "centripetal")
+"""Actions that draw a vector as long as its bar, if the scale follows from the driver."""
+
+
 @dataclass(frozen=True, slots=True)
 class Sentence:
     """A sentence of the construction with the number of the step that it ends with."""
@@ -34,7 +38,7 @@ class Sentence:
 
 def sentences(drawing: Drawing) -> list[Sentence]:
     """What to draw on a sheet, in the order of drawing."""
-    found = []
+    found: list[Sentence] = []
     for number, step, _ in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
         if step.action and step.action.key == "normal":
             text = normal_sentence(drawing, step, first=not any(s.name == "ν" for s in found))
@@ -88,6 +92,8 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         key = "step.guide"
     elif step.action.key == "similar-point" and in_line(drawing, step):
         key = "step.similar-in-line"
+    elif step.action.key in SCALED and not drawing.scales.from_driver:
+        key += "-scaled"
     elif words_of.action and words_of.action.key == "instant-centre":
         key = "step.instant-centre" if words_of.by_hand else "step.instant-centre-pivot"
     elif step.action.key in ("arcs-meet", "arc-cuts-line"):

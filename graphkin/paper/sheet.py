@@ -8,6 +8,7 @@ from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, mechanism
 from graphkin.paper.construct import Desk
 from graphkin.paper.data import given
+from graphkin.paper.detail import enlarged
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Rect
 from graphkin.paper.frame import A3_AREA, TitleBlock, check_bar, sheet_frame
@@ -16,8 +17,13 @@ from graphkin.paper.layout import AREA, BELOW, TABLES, Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.richtext import escape, extent
 from graphkin.paper.sentences import sentences
+from graphkin.paper.symbolic import symbol
 from graphkin.paper.tables import tables
 
+BLANK = ". . . . . . . . ."
+"""Room to write in what a task does not give away."""
+TITLE = 182.0
+"""Widest title that stays clear of the centring mark, in mm."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 
@@ -25,11 +31,13 @@ LEADING = 4.6
 def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     layout = layout or lay_out(drawing)
+    plan = right_board(drawing, layout, view).finish()
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
         *heading(drawing),
         *left_board(drawing, layout, view).finish(),
-        *right_board(drawing, layout, view).finish(),
+        *plan,
+        *enlarged(plan, layout.plan.rect),
         Line(layout.plan.rect[0], AREA[1] + 2, layout.plan.rect[0], AREA[3] - 2, "panel"),
         Line(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
         *below(drawing, view),
@@ -81,7 +89,8 @@ def heading(drawing: Drawing) -> list[Mark]:
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
     name = f"{words('sheet.' + drawing.kind)} – {title_of(drawing)}"
-    marks: list[Mark] = [Text(left, top + 8.5, escape(name), "title", 5, name="title")]
+    height = next((h for h in (5, 3.5) if extent(escape(name), h)[0] <= TITLE), 2.5)
+    marks: list[Mark] = [Text(left, top + 10, escape(name), "title", height, name="title")]
     pieces = given(drawing.scene, words)
     lines = flowed(
         [f"{words('page.data')}: {pieces[0]}", *pieces[1:]], "; ", AREA[2] - left - 3, 2.5
@@ -99,7 +108,7 @@ def heading(drawing: Drawing) -> list[Mark]:
             )
         )
     for i, line in enumerate(lines):
-        marks.append(Text(left, top + 14 + i * 4.3, line, "caption", 2.5, name="data"))
+        marks.append(Text(left, top + 15.2 + i * 4.2, line, "caption", 2.5, name="data"))
     return marks
 
 
@@ -148,6 +157,8 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     words, scales = drawing.words, drawing.scales
     factor = scales.kv if drawing.kind == "velocity" else scales.ka
     k = words.significant(factor / 1000, 5)
+    if view == "task" and scales.from_driver:
+        k = BLANK
     board.marks.append(headline(field.rect, words(f"page.{drawing.kind}_heading", k=k)))
     desk = Desk(board, field, drawing, layout)
     if view == "task":
@@ -174,12 +185,35 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
     if view == "key":
         marks.append(Text(left, top + 4.5, words("page.construction"), "caption", 3.5))
         marks += listed(drawing, left, top + 10.5, width, bottom)
+    else:
+        marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
+        for i, line in enumerate(flowed(asked(drawing), "; ", width - 5, 2.5)):
+            marks.append(Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5))
     marks += tables(drawing, TABLES, empty=view == "task")
     if view == "key":
         worst = words.significant(drawing.verdict.largest_difference, 2)
         text = words("page.verified", difference=worst)
         marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
     return marks
+
+
+def asked(drawing: Drawing) -> list[str]:
+    """What a sheet asks for, in words."""
+    words, ask = drawing.words, drawing.scene.ask
+    first = drawing.kind == "velocity"
+    groups = {
+        "velocity": ask.velocity if first else (),
+        "omega": ask.omega if first else (),
+        "centres": ask.centres if first else (),
+        "acceleration": () if first else ask.acceleration,
+        "epsilon": () if first else ask.epsilon,
+        "poles": () if first else ask.poles,
+    }
+    return [
+        words(f"ask.{what}", list=words("list_mark").join(symbol(name) for name in names))
+        for what, names in groups.items()
+        if names
+    ]
 
 
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:

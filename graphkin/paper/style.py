@@ -88,6 +88,7 @@ STYLES: dict[str, Style] = {
     # lettering
     "label": Style(0, NEXT, fill="ink"),
     "leader": Style(0.18, NEXT),
+    "detail": Style(0.18, GREY),
     "number": Style(0.25, NEXT, fill=WHITE),
 }
 

@@ -1,4 +1,4 @@
-"""The field's symbols on paper (ISO 3952 practice): arrows, pins, pivots, guides, blocks, angles."""
+"""The field's symbols on paper (ISO 3952 practice): arrows, pins, pivots, guides, angles."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def head(tail: XY, tip: XY, cls: str, name: str = "", step: int | None = None) -
         (back[0] - half * v, back[1] + half * u),
         (back[0] + half * v, back[1] - half * u),
     )
-    return polygon(corners, f"arrowhead {cls.split()[0]}", name, step)
+    return polygon(corners, f"arrowhead {cls.split(maxsplit=1)[0]}", name, step)
 
 
 def pin(at: XY, name: str) -> Mark:

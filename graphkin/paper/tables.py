@@ -125,5 +125,5 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     left = room - len(blocks[-1]) - 1 if blocks else room
     below = len(blocks) > 1 and left > len(turns)
     top = rect[1] + ROW * (len(blocks[-1]) + 1.6) if below else rect[1]
-    marks += table(x - 59 if below else x, top, (15, 17, 28), turn_head, turns) if turns else []
+    marks += table(x - 59 if below else x, top, (13, 14, 33), turn_head, turns) if turns else []
     return marks

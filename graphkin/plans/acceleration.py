@@ -178,7 +178,7 @@ def arrow_to(pen: Pen, pin: str) -> None:
     """The arrow from the pole to a second image, and the same acceleration on the mechanism."""
     o, tip = pen.pole(Plane.ACCELERATIONS), pen.the("acceleration", pin)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        pen.arrow(join, o, tip, name=f"o{PRIME}{second_image(pin)}", symbol=f"a_{pin}")
+        pen.arrow(join, o, tip, name=f"o{PRIME}{second_image(pin)}", symbol=f"a_{pin}", q=pin, p="")
 
 
 def set_on_mechanism(pen: Pen, point: str) -> None:
@@ -193,4 +193,4 @@ def set_on_mechanism(pen: Pen, point: str) -> None:
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
     """The arrow of a normal (ν) or tangential (τ) component."""
     symbol = f"a_{about(pen, pin, pivot)}^{kind}"
-    pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind=kind)
+    pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind=kind, q=pin, p=pivot)

@@ -22,12 +22,17 @@ from graphkin.steps.vocabulary import (
     ray,
     shifted,
     similar_point,
+    step_along,
 )
 from graphkin.structure.graph import Pin, Sliding
 from graphkin.structure.groups import Crank, Dyad
 
 CLEAR_CROSSING = 0.342
 """Sine of 20 degrees: below it a plate point is found by similarity, not by two flat lines."""
+
+
+IN_LINE = 1e-9
+"""How far beside its line, in parts of its distance, a plate point still counts as on it."""
 
 
 def frame(pen: Pen) -> None:
@@ -122,11 +127,9 @@ def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
         if pen.has("position", point):
             continue
         ratio = shapes.ratio(base.link, base.start, base.end, point)
-        by_hand = (
-            two_arcs(pen, shapes, base, point) if crosses_well(pen, shapes, base, point) else None
-        )
+        by_hand = hands_way(pen, shapes, base, point)
         with pen.on(Part.POSITION, Plane.MECHANISM):
-            says: Says = {"p": base.start, "q": base.end}
+            says: Says = {"p": base.start, "q": base.end, "r": point}
             found = pen.draw(similar_point, *ends, ratio, name=point, by_hand=by_hand, **says)
         pen.want("position", point, found)
 
@@ -143,6 +146,22 @@ def block_points(pen: Pen, shapes: Shapes, base: Base) -> None:
     first = pen.the("position", pen.scene.link(base.link).points[0])
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("slide", base.link, pen.draw(coordinate, line, first))
+
+
+def hands_way(pen: Pen, shapes: Shapes, base: Base, point: str) -> int | None:
+    """An arc about each end of the base; on its own line the distance is laid off."""
+    assert base.end is not None
+    ratio = pen.peek(shapes.ratio(base.link, base.start, base.end, point))
+    if ratio is None or ratio == 0:
+        return None
+    if abs(ratio.imag) > IN_LINE * abs(ratio):
+        return two_arcs(pen, shapes, base, point)
+    start, end = pen.the("position", base.start), pen.the("position", base.end)
+    length = shapes.length(base.link, base.start, point)
+    sense = 1 if ratio.real > 0 else -1
+    with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
+        says: Says = {"p": base.start, "q": base.end, "r": point}
+        return pen.draw(step_along, start, start, end, length, extra=(sense,), **says)
 
 
 def two_arcs(pen: Pen, shapes: Shapes, base: Base, point: str) -> int:

@@ -49,25 +49,11 @@ class Shapes:
     def length(self, link: str, p: str, q: str) -> int:
         """Length of a bar: as the scene gives it where it does, else from the shape."""
         for placing in self.pen.scene.link(link).placings:
-            for first, second, quantity in stated_lengths(placing):
+            for first, second, quantity in placing.lengths():
                 if {first, second} == {p, q}:
                     return self.pen.given("length", quantity, name=p + q)
         with self.pen.on(Part.SHAPE, Plane.NUMBERS):
             return self.pen.draw(distance, self.local(link, p), self.local(link, q))
-
-
-def stated_lengths(placing: Placing) -> list[tuple[str, str, object]]:
-    """The bars whose lengths a placing states, as (from, to, length)."""
-    match placing:
-        case Apart(point, start, length) | Polar(point, start, length, _):
-            return [(start, point, length)]
-        case Triangle(point, first, second, from_first, from_second, _):
-            return [(first, point, from_first), (second, point, from_second)]
-        case OnLine(point, _, _, start, length, _):
-            return [(start, point, length)]
-        case Angled(point, vertex, _, length, _):
-            return [(vertex, point, length)]
-    return []
 
 
 def place_all(pen: Pen, link: Link) -> Placed:

@@ -148,14 +148,14 @@ def arrow_to(pen: Pen, pin: str, pivot: str | None) -> None:
     """The arrows of a plan to an image: the absolute velocity, and the one relative to a pivot."""
     o = pen.pole(Plane.VELOCITIES)
     tip = pen.the("velocity", pin)
-    starts = {o: f"v_{pin}"}
+    starts = {o: (f"v_{pin}", "")}
     if pivot is not None and pen.the("velocity", pivot) != o:
-        starts[pen.the("velocity", pivot)] = f"v_{pin}{pivot}"
+        starts[pen.the("velocity", pivot)] = (f"v_{pin}{pivot}", pivot)
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        for start, symbol in starts.items():
+        for start, (symbol, about) in starts.items():
             name = named(pen, start) + image(pin)
             if not any(step.arrow and step.name == name for step in pen.steps):
-                pen.arrow(join, start, tip, name=name, symbol=symbol)
+                pen.arrow(join, start, tip, name=name, symbol=symbol, q=pin, p=about)
 
 
 def set_on_mechanism(pen: Pen, point: str) -> None:

@@ -93,7 +93,7 @@ def pair_words(pair: Pair) -> str:
     if isinstance(pair, Pin):
         return f"pin {pair.point} of {joined_words(pair.links)}"
     if isinstance(pair, Sliding):
-        return f"slide of {pair.block} on {link_words(pair.links[1])}"
+        return f"slide of block {pair.block} on {link_words(pair.links[1])}"
     return f"{type(pair).__name__.lower()} of {joined_words(pair.links)}"
 
 
@@ -133,8 +133,8 @@ def group_words(group: Group) -> str:
     if isinstance(group, Dyad):
         outer = listed(map(pair_name, (group.left, group.right)))
         inner = pair_name(group.inner)
-        links = listed(group.links)
-        return f"dyad {group.type} (class II) of links {links}, inner {inner}, outer {outer}"
+        of = f"dyad {group.type} (class II) of links {listed(group.links)}"
+        return f"{of}, inner {inner}, outer {outer}"
     links = getattr(group, "links", None) or (getattr(group, "link", ""),)
     kind = type(group).__name__.lower()
     if kind == "unresolved":
@@ -175,7 +175,7 @@ def range_words(mechanism: Mechanism) -> str:
     found = closing_ranges(program, program.needed(program.targets), mechanism.scene)
     if found == [(0.0, 360.0)]:
         return "closes for every angle of the driver: it turns fully"
-    turned = [(low - 360 * (high > 360), high - 360 * (high > 360)) for low, high in found]
+    turned = sorted((low - 360 * (high > 360), high - 360 * (high > 360)) for low, high in found)
     words = ", ".join(f"{low:.2f}° to {high:.2f}°" for low, high in turned)
     return f"closes for driver angles {words}" if words else "closes for no angle of the driver"
 

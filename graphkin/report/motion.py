@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.report.centres import breadth_of, centre_words, completed, pole_words
+from graphkin.report.centres import breadth_of, centre_words, completed, largest, pole_words
 from graphkin.report.record import Record, settings_words
 from graphkin.report.table import Cell, cleaned, number, table
 from graphkin.scene.model import Scene
@@ -24,8 +24,8 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
     """Everything that a record holds, in aligned tables."""
     parts = [
         [heading(scene, found)],
-        points_table(found["points"]),
-        turning_table(found["links"]),
+        points_table(found["points"], solution),
+        turning_table(found["links"], solution),
         centres_table(scene, solution, found["links"]),
         slides_table(found["slides"]),
         scale_lines(found["scales"]),
@@ -40,12 +40,13 @@ def heading(scene: Scene, found: Record) -> str:
     return f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
 
 
-def points_table(points: Mapping[str, Record]) -> list[str]:
+def points_table(points: Mapping[str, Record], solution: Solution) -> list[str]:
     """Position, velocity and acceleration of each point, with magnitudes."""
     known = [key for key in POINT_HEADS if any(key in point for point in points.values())]
     if not known:
         return []
-    biggest = {key: max(size(point.get(key)) for point in points.values()) for key in known}
+    every = solution.points.values()
+    biggest = {key: largest(getattr(point, key) for point in every) for key in known}
     rows: list[list[Cell]] = []
     for name, point in points.items():
         row: list[Cell] = [name]
@@ -67,20 +68,20 @@ def components(pair: list[float] | None, biggest: float, columns: int) -> list[C
     return [cleaned(value, biggest) for value in (*pair, size(pair))[:columns]]
 
 
-def turning_table(links: Mapping[str, Record]) -> list[str]:
-    """ω and ε of each link, with their senses in words."""
+def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
+    """ω and ε of each link, with their senses in words; ε beside ω² may be rounding."""
+    turning = largest(link.omega for link in solution.links.values())
+    twist = max(turning**2, largest(link.epsilon for link in solution.links.values()))
     heads: list[str] = ["link"]
     columns: list[list[Cell]] = [list(links)]
-    for key, head in (("omega", "ω, rad/s"), ("epsilon", "ε, rad/s²")):
-        if not any(key in link for link in links.values()):
-            continue
-        biggest = max(abs(link.get(key) or 0.0) for link in links.values())
+    for key, head, biggest in (("omega", "ω, rad/s", turning), ("epsilon", "ε, rad/s²", twist)):
         values = [link.get(key) for link in links.values()]
-        clean = [None if value is None else cleaned(value, biggest) for value in values]
-        heads += [head, f"sense of {head[0]}"]
-        columns += [list(clean), [sense(value) for value in clean]]
-    rows = zip(*columns, strict=True)
-    return table(heads, [row for row in rows if any(cell is not None for cell in row[1:])])
+        if any(value is not None for value in values):
+            clean = [None if value is None else cleaned(value, biggest) for value in values]
+            heads += [head, f"sense of {head[0]}"]
+            columns += [list(clean), [sense(value) for value in clean]]
+    rows = [row for row in zip(*columns, strict=True) if any(cell is not None for cell in row[1:])]
+    return table(heads, rows) if rows else []
 
 
 def sense(value: float | None) -> str | None:

@@ -17,6 +17,10 @@ FRAME = "0"
 """Name of the fixed link."""
 
 
+Lengths = tuple[tuple[str, str, Quantity], ...]
+"""Bars with their lengths, as (from, to, length)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """A number that a variant may change, with the range it may take."""
@@ -36,6 +40,10 @@ class At:
     x: Quantity
     y: Quantity
 
+    def lengths(self) -> Lengths:
+        """The bars whose lengths it states."""
+        return ()
+
 
 @dataclass(frozen=True, slots=True)
 class Polar:
@@ -46,6 +54,10 @@ class Polar:
     length: Quantity
     angle: Quantity
 
+    def lengths(self) -> Lengths:
+        """The bars whose lengths it states."""
+        return ((self.start, self.point, self.length),)
+
 
 @dataclass(frozen=True, slots=True)
 class Apart:
@@ -54,6 +66,10 @@ class Apart:
     point: str
     start: str
     length: Quantity
+
+    def lengths(self) -> Lengths:
+        """The bars whose lengths it states."""
+        return ((self.start, self.point, self.length),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +82,13 @@ class Triangle:
     from_first: Quantity
     from_second: Quantity
     side: int
+
+    def lengths(self) -> Lengths:
+        """The bars whose lengths it states."""
+        return (
+            (self.first, self.point, self.from_first),
+            (self.second, self.point, self.from_second),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +105,10 @@ class OnLine:
     length: Quantity
     sense: int
 
+    def lengths(self) -> Lengths:
+        """The bars whose lengths it states."""
+        return ((self.start, self.point, self.length),)
+
 
 @dataclass(frozen=True, slots=True)
 class Angled:
@@ -92,6 +119,10 @@ class Angled:
     arm: str
     length: Quantity
     angle: Quantity
+
+    def lengths(self) -> Lengths:
+        """The bars whose lengths it states."""
+        return ((self.vertex, self.point, self.length),)
 
 
 Placing = At | Polar | Apart | Triangle | OnLine | Angled

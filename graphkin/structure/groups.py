@@ -116,7 +116,7 @@ def is_known_pin(scene: Scene, pair: Pair, known: frozenset[str]) -> bool:
 
 
 def in_order(dyad: Dyad) -> Dyad:
-    """The dyad read from its moving pin: RRP rather than PRR, the crank's side before the frame's."""
+    """The dyad read from its moving pin: RRP rather than PRR, the driver's side first."""
     turned = Dyad((dyad.links[1], dyad.links[0]), dyad.right, dyad.inner, dyad.left)
     if isinstance(dyad.left, Sliding) and isinstance(dyad.right, Pin):
         return turned

@@ -52,6 +52,20 @@ def wishes(draw) -> Wish:
 
 
 @st.composite
+def knots(draw):
+    """Short vectors and points within a few millimetres, with boxes and lines around them."""
+    at = st.tuples(st.floats(37, 43), st.floats(27, 33))
+    short = [(a, b) for a, b in draw(st.lists(st.tuples(at, at), min_size=4, max_size=8))]
+    points = draw(st.lists(at, min_size=2, max_size=6))
+    asked = [Wish(6.5, 4, (a, b) if math.dist(a, b) > 0.5 else a) for a, b in short]
+    asked += [Wish(3, 2.5, p, radius=0.5) for p in points]
+    turns = draw(st.lists(angles, min_size=2, max_size=5))
+    away = [(40 + 11 * math.cos(t), 30 + 11 * math.sin(t)) for t in turns]
+    boxes = [(x - 2, y - 1, x + 2, y + 1) for x, y in away]
+    return asked, [(*a, *b) for a, b in short], boxes
+
+
+@st.composite
 def crowds(draw):
     asked = draw(st.lists(wishes(), min_size=1, max_size=14))
     lines = [(*a, *b) for a, b in draw(st.lists(st.tuples(inner, inner), min_size=0, max_size=14))]
@@ -72,7 +86,7 @@ def settled(asked, lines, boxes, field=FIELD):
 
 
 @settings(max_examples=150, deadline=None)
-@given(crowds())
+@given(crowds() | knots())
 def test_a_free_label_touches_nothing(crowd):
     asked, lines, boxes = crowd
     free = settled(asked, lines, boxes)
@@ -89,7 +103,7 @@ def test_a_free_label_touches_nothing(crowd):
 
 
 @settings(max_examples=150, deadline=None)
-@given(crowds())
+@given(knots())
 def test_leaders_cross_no_label_no_box_and_no_other_leader(crowd):
     asked, lines, boxes = crowd
     free = settled(asked, lines, boxes)
@@ -103,7 +117,7 @@ def test_leaders_cross_no_label_no_box_and_no_other_leader(crowd):
 
 
 @settings(max_examples=60, deadline=None)
-@given(crowds())
+@given(crowds() | knots())
 def test_far_labels_have_a_leader_to_their_subject(crowd):
     for wish, spot, label in settled(*crowd):
         line = isinstance(wish.subject[0], tuple)

@@ -1,0 +1,209 @@
+"""The console: statuses, nearest names, encodings, pipes, and what is imported."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from graphkin import __version__
+from tests.cli.conftest import ROOT, Run, command, python
+
+HEAVY = ("shapely", "reportlab", "svgwrite", "matplotlib")
+
+
+def test_help_shows_examples_and_every_command(run: Run) -> None:
+    for args in ((), ("--help",), ("-h",)):
+        result = run(*args)
+        assert result.exit_code == 0
+        assert "graphkin solve pump --set n=7" in result.stdout
+        for name in ("list", "check", "explain", "solve", "sheet"):
+            assert f"\n  {name} " in result.stdout
+
+
+@pytest.mark.parametrize("name", ["list", "check", "explain", "solve", "sheet"])
+def test_each_command_has_help(run: Run, name: str) -> None:
+    result = run(name, "--help")
+    assert result.exit_code == 0
+    assert "Usage:" in result.stdout
+
+
+def test_the_version_is_the_packages(run: Run) -> None:
+    assert __version__ in run("--version").stdout
+
+
+def test_list_names_labs_parameters_and_what_is_asked(run: Run) -> None:
+    result = run("list")
+    assert result.exit_code == 0
+    for expected in ("pump", "Pump mechanism", "n from 1 to 30 in steps of 1", "velocity of D"):
+        assert expected in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("args", "answer"),
+    [
+        (["sovle", "pump"], "did you mean solve?"),
+        (["Check", "pump"], "did you mean check?"),
+        (["zzz"], "commands are list, check"),
+        (["solve", "pmup"], "did you mean pump?"),
+        (["solve", "pump", "--jsno"], "--json"),
+        (["solve", "pump", "--set", "m=7"], "expected n"),
+        (["solve", "pump", "--set", "n=31"], "n from 1 to 30"),
+        (["solve", "pump", "--set", "n"], "NAME=VALUE"),
+        (["solve", "pump", "--set", "=7"], "NAME=VALUE"),
+        (["solve", "pump", "--set", "n=7", "--set", "n=8"], "set twice"),
+        (["solve", "pump", "--set", "name=8"], "expected n"),
+        (["solve"], "SCENE"),
+        (["solve", "pump", "more"], "more"),
+        (["sheet", "pump", "--view", "kye"], "'key'"),
+        (["solve", "missing.toml"], "neither a file nor a shipped lab"),
+        (["solve", "a\0b"], "neither a file nor a shipped lab"),
+        (["solve", "x" * 5000], ""),
+    ],
+)
+def test_mistakes_are_answered_with_status_2(run: Run, args: list[str], answer: str) -> None:
+    result = run(*args)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("graphkin: ")
+    assert answer in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize(
+    "data", [b"", b"\xff\xfe\0", b"graphkin = [", b"graphkin = 1", b"\0" * 100, b"x = " * 99]
+)
+def test_unreadable_scenes_are_told_in_lines(run: Run, tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_bytes(data)
+    for name in ("solve", "check", "explain", "sheet"):
+        result = run(name, path)
+        assert result.exit_code == 2
+        assert result.stderr
+        assert all(line.startswith("graphkin: ") for line in result.stderr.splitlines())
+
+
+def test_a_fault_of_our_own_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from graphkin.mechanism import Mechanism
+
+    monkeypatch.delenv("GRAPHKIN_TRACEBACK", raising=False)
+    monkeypatch.setattr(Mechanism, "trace", lambda self, targets: 1 / 0)
+    result = run("solve", "pump")
+    assert result.exit_code == 2
+    assert result.stderr.startswith("graphkin: a fault in graphkin itself (ZeroDivisionError")
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_an_unreadable_file_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from graphkin import labs
+
+    def refused(name: str) -> Path:
+        raise PermissionError(13, "Permission denied", name)
+
+    monkeypatch.setattr(labs, "find", refused)
+    result = run("solve", "pump")
+    assert result.exit_code == 2
+    assert result.stderr == "graphkin: pump: Permission denied\n"
+
+
+def test_control_c_gives_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from graphkin import labs
+
+    def stopped(name: str) -> Path:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(labs, "find", stopped)
+    result = run("solve", "pump")
+    assert result.exit_code == 130
+    assert result.stderr.strip() == "graphkin: stopped"
+
+
+def test_the_module_and_the_statuses_of_a_real_process() -> None:
+    assert command("solve", "pump").returncode == 0
+    assert command("solve", "pmup").returncode == 2
+    found = json.loads(command("solve", "pump", "--json").stdout)
+    assert found["points"]["D"]["velocity"][0] == pytest.approx(-3.826845090, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "surroundings",
+    [
+        {"PYTHONIOENCODING": "ascii"},
+        {"PYTHONIOENCODING": "cp1252"},
+        {"PYTHONIOENCODING": "cp437"},
+        {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
+    ],
+)
+def test_output_is_utf8_whatever_the_console(surroundings: dict[str, str]) -> None:
+    result = command("solve", "pump", **surroundings)
+    assert result.returncode == 0
+    assert result.stderr == b""
+    assert "ε, rad/s²" in result.stdout.decode("utf-8")
+    wrong = command("solve", "Pompă–ω", **surroundings)
+    assert wrong.returncode == 2
+    assert b"Traceback" not in wrong.stderr
+    wrong.stderr.decode("utf-8")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_behind_a_redirection_is_one_line() -> None:
+    with Path("/dev/full").open("wb") as full:
+        result = subprocess.run(
+            [sys.executable, "-m", "graphkin", "solve", "pump"],
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+            stdout=full,
+            stderr=subprocess.PIPE,
+            check=False,
+        )
+    assert result.returncode == 2
+    assert result.stderr.startswith(b"graphkin: output: ")
+    assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pipes close otherwise there")
+def test_a_reader_that_stops_early_is_no_traceback() -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "wb") as pipe:
+        result = subprocess.run(
+            [sys.executable, "-m", "graphkin", "solve", "pump"],
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+            stdout=pipe,
+            stderr=subprocess.PIPE,
+            check=False,
+        )
+    assert result.returncode != 0
+    assert result.stderr == b""
+
+
+def imported_by(*args: str) -> set[str]:
+    """The packages that a command has imported by its end."""
+    code = (
+        "import sys, contextlib, io\n"
+        "from graphkin.cli import main\n"
+        f"sys.argv = ['graphkin', *{list(args)!r}]\n"
+        "with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):\n"
+        "    main()\n"
+        "print(*{name.partition('.')[0] for name in sys.modules})\n"
+    )
+    return set(python("-c", code).stdout.decode().split())
+
+
+@pytest.mark.parametrize("args", [("--help",), ("list",), ("solve", "--help")])
+def test_help_and_list_import_no_numpy(args: tuple[str, ...]) -> None:
+    found = imported_by(*args)
+    assert "click" in found
+    assert not found.intersection((*HEAVY, "numpy"))
+
+
+@pytest.mark.parametrize("args", [("solve", "pump"), ("check", "pump"), ("explain", "pump")])
+def test_numbers_need_no_drawing_library(args: tuple[str, ...]) -> None:
+    assert not imported_by(*args).intersection(HEAVY)
+
+
+def test_numbers_on_their_own_explain_without_numpy() -> None:
+    assert "numpy" not in imported_by("explain", "pump")

@@ -1,0 +1,151 @@
+"""Sheet writes whole files under clear names, and never over another file unasked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+import graphkin.handout
+from graphkin.errors import PageError, Problem, WitnessError
+from graphkin.paper.marks import Page
+from tests.cli.conftest import Run
+
+
+@dataclass(frozen=True)
+class Part:
+    """A sheet as hand_out gives it."""
+
+    kind: str
+    pages: tuple[Page, ...]
+
+
+@pytest.fixture
+def blank(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, object]]:
+    """Blank sheets in place of drawn ones, and what was asked of them."""
+    asked: list[dict[str, object]] = []
+    a3, a4 = Page(420, 297, (), "Blank"), Page(210, 297, (), "Blank")
+
+    def hand_out(mechanism: object, view: str = "key", language: str | None = None) -> list[Part]:
+        asked.append({"view": view, "language": language})
+        return [
+            Part("velocity", (a3,)),
+            Part("acceleration", (a3,)),
+            Part("calculation", (a4, a4)),
+        ]
+
+    monkeypatch.setattr(graphkin.handout, "hand_out", hand_out)
+    return asked
+
+
+def names(folder: Path) -> list[str]:
+    """The names in a folder, in order."""
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_files_are_named_after_scene_setting_kind_and_view(
+    run: Run, tmp_path: Path, blank: object
+) -> None:
+    out = tmp_path / "new" / "sheets"
+    result = run("sheet", "pump", "--set", "n=7", "-o", out)
+    assert result.exit_code == 0, result.stderr
+    assert names(out) == [
+        "pump-n7-acceleration-key.pdf",
+        "pump-n7-acceleration-key.svg",
+        "pump-n7-calculation-key.pdf",
+        "pump-n7-velocity-key.pdf",
+        "pump-n7-velocity-key.svg",
+    ]
+    assert sorted(Path(line).name for line in result.stdout.splitlines()) == names(out)
+    assert (out / "pump-n7-velocity-key.svg").read_text(encoding="utf-8").startswith("<?xml")
+    assert (out / "pump-n7-calculation-key.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_view_language_and_format_are_passed_on(
+    run: Run, tmp_path: Path, blank: list[dict[str, object]]
+) -> None:
+    args = ("--view", "task", "--lang", "en", "--format", "svg")
+    assert run("sheet", "pump", "-o", tmp_path, *args).exit_code == 0
+    assert blank == [{"view": "task", "language": "en"}]
+    assert names(tmp_path) == ["pump-acceleration-task.svg", "pump-velocity-task.svg"]
+
+
+def test_values_are_cleaned_for_file_names(
+    run: Run, tmp_path: Path, blank: object, four_bar: Callable[..., Path]
+) -> None:
+    path = four_bar()
+    reserved = path.rename(path.with_name("con.toml"))
+    out = tmp_path / "out"
+    args = ("--set", "rocker = 121/2", "--format", "pdf", "-o", out)
+    result = run("sheet", reserved, *args)
+    assert result.exit_code == 0, result.stderr
+    assert names(out)[0] == "_con-rocker121_2-acceleration-key.pdf"
+
+
+def test_existing_files_are_kept_unless_forced(run: Run, tmp_path: Path, blank: object) -> None:
+    old = tmp_path / "pump-velocity-key.pdf"
+    old.write_text("mine")
+    result = run("sheet", "pump", "-o", tmp_path)
+    assert result.exit_code == 2
+    assert "exists already" in result.stderr
+    assert "--force" in result.stderr
+    assert old.read_text() == "mine"
+    assert names(tmp_path) == [old.name]
+    assert run("sheet", "pump", "-o", tmp_path, "--force").exit_code == 0
+    assert old.read_bytes().startswith(b"%PDF")
+    assert len(names(tmp_path)) == 5
+
+
+def test_a_folder_that_cannot_be_is_a_message(run: Run, tmp_path: Path, blank: object) -> None:
+    file = tmp_path / "file"
+    file.write_text("mine")
+    for folder in (file, file / "below"):
+        result = run("sheet", "pump", "-o", folder)
+        assert result.exit_code == 2
+        assert result.stderr.startswith(f"graphkin: {folder}: ")
+        assert len(result.stderr.splitlines()) == 1
+    assert file.read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (PageError(Problem("labels", "does not fit", "room")), 2),
+        (WitnessError(Problem("points.D", "differ")), 1),
+    ],
+)
+def test_what_cannot_be_handed_out_is_not_written(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception, status: int
+) -> None:
+    def refuse(*args: object, **kwargs: object) -> None:
+        raise error
+
+    monkeypatch.setattr(graphkin.handout, "hand_out", refuse)
+    result = run("sheet", "pump", "-o", tmp_path / "out")
+    assert result.exit_code == status
+    assert result.stderr == f"graphkin: {error}\n"
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_page_that_cannot_be_rendered_leaves_nothing(
+    run: Run, tmp_path: Path, blank: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import graphkin.paper.pdf
+
+    def full(*args: object, **kwargs: object) -> bytes:
+        raise MemoryError
+
+    monkeypatch.setattr(graphkin.paper.pdf, "write_pdf", full)
+    result = run("sheet", "pump", "-o", tmp_path / "out")
+    assert result.exit_code == 2
+    assert "Traceback" not in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("formats", ["png", "", "svg,png"])
+def test_an_unknown_format_is_refused(run: Run, tmp_path: Path, formats: str) -> None:
+    result = run("sheet", "pump", "-o", tmp_path, "--format", formats)
+    assert result.exit_code == 2
+    assert "svg,pdf" in result.stderr

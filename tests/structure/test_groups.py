@@ -1,0 +1,403 @@
+"""How a mechanism is put together: counts of freedom, pairs, and Assur groups in order."""
+
+from __future__ import annotations
+
+from itertools import permutations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphkin.errors import StructureError
+from graphkin.structure.graph import Pin, pairs
+from graphkin.structure.groups import Crank, Dyad, Unresolved, decompose
+from graphkin.structure.mobility import count, kutzbach
+from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, scene_of, shipped
+
+PUMP = {
+    "1": "[links.{1}]\nO1-A = 30",
+    "2": "[links.{2}]\nO2-B = 30",
+    "3": '[links.{3}]\nA-B = 40\nA-C = 20\nB-C = 25\nC = "left of A-B"',
+    "4": "[links.{4}]\nC-D = 20",
+    "5": '[links.{5}]\nD = [0, 0]\nslides = {{ on = 0, through = "O1", angle = 0 }}',
+}
+REST = """[frame]
+O1 = [0, 0]
+O2 = [0, -30]
+[[drivers]]
+turn = "{1}"
+angle = 44
+speed = 38
+[branches]
+B = "right of A-O2"
+{5} = "forward"
+"""
+NAMES = {"1": "crank", "2": "rocker", "3": "plate", "4": "rod", "5": "piston"}
+
+
+def pump_written(order, names) -> str:
+    """The pump with its links in some order and under some names."""
+    links = [PUMP[link].replace("{" + link + "}", names[link]).replace("{{", "{") for link in order]
+    head, _, tail = REST.replace("{1}", names["1"]).replace("{5}", names["5"]).partition("[[")
+    return "\n".join([head, *links, "[[" + tail]).replace("}}", "}")
+
+
+# --- the pump ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_the_pump_is_a_crank_a_dyad_of_three_pins_and_a_dyad_with_a_slide(name):
+    crank, first, second = decompose(shipped(name, 7).scene)
+    assert isinstance(crank, Crank)
+    assert (crank.link, crank.pivot) == ("1", "O1")
+    assert isinstance(first, Dyad)
+    assert (first.type, set(first.links), first.inner.point) == ("RRR", {"2", "3"}, "B")
+    assert isinstance(second, Dyad)
+    assert (second.type, second.links, second.inner.point) == ("RRP", ("4", "5"), "D")
+    assert second.left == Pin("C", ("4", "3"))
+
+
+def test_the_pump_counts_five_links_and_seven_pairs():
+    found = count(shipped("pump", 7).scene)
+    assert (found.moving, found.pairs, found.mobility) == (5, 7, 1)
+
+
+def test_the_order_and_the_names_of_the_links_change_nothing():
+    """All 120 orders, under numbers and under words."""
+    written = {link: link for link in PUMP}
+    expected = mechanism_of(pump_written("12345", written)).solve()
+    for order in permutations("12345"):
+        for names in (written, NAMES):
+            if names is NAMES and order[0] not in "35":
+                continue
+            found = mechanism_of(pump_written(order, names)).solve()
+            assert {p: m.position for p, m in found.points.items()} == pytest.approx(
+                {p: m.position for p, m in expected.points.items()}, rel=1e-13, abs=1e-13
+            )
+            for point, motion in expected.points.items():
+                assert found.points[point].velocity == pytest.approx(
+                    motion.velocity, rel=1e-12, abs=1e-9
+                )
+                assert found.points[point].acceleration == pytest.approx(
+                    motion.acceleration, rel=1e-12, abs=1e-8
+                )
+            for link in ("1", "2", "3", "4"):
+                mine, theirs = found.links[names[link]], expected.links[link]
+                assert mine.omega == pytest.approx(theirs.omega, rel=1e-12)
+                assert mine.epsilon == pytest.approx(theirs.epsilon, rel=1e-11, abs=1e-9)
+
+
+@LAW
+@given(mechanisms(most=4), st.randoms(use_true_random=False))
+def test_groups_use_only_what_stands_before_them_and_hold_each_link_once(made, random):
+    scene = made.mechanism().scene
+    known, groups = {"0"}, decompose(scene)
+    for group in groups:
+        if isinstance(group, Crank):
+            known.add(group.link)
+            continue
+        assert isinstance(group, Dyad)
+        assert known.isdisjoint(group.links)
+        for outer in (group.left, group.right):
+            assert known.intersection(outer.links)
+        assert set(group.inner.links) == set(group.links)
+        known.update(group.links)
+    assert known == {"0", *scene.links}
+    assert sum(1 if isinstance(g, Crank) else 2 for g in groups) == len(scene.links)
+
+
+# --- counts --------------------------------------------------------------------------------------
+
+DRIVEN = """
+[[drivers]]
+turn = 1
+angle = 40
+speed = 1
+"""
+FOUR_BAR = "[frame]\nO = [0, 0]\nQ = [4, 0]\n[links.1]\nO-A = 1\n[links.2]\nA-B = 4\n"
+FIVE_BAR = FOUR_BAR + "[links.3]\nB-C = 3\n[links.4]\nQ-C = 3\n"
+PARALLEL = """[frame]
+O = [0, 0]
+Q = [4, 0]
+S = [2, 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 4
+A-M = 2
+M = "on A-B"
+[links.3]
+Q-B = 1
+[links.4]
+S-M = 1
+"""
+WATT = FOUR_BAR.replace("A-B = 4", 'A-B = 4\nA-C = 3\nB-C = 3\nC = "left of A-B"') + (
+    '[links.3]\nQ-B = 3\nQ-E = 3\nB-E = 2\nE = "left of Q-B"\n'
+    "[links.4]\nC-F = 4\n[links.5]\nE-F = 4\n"
+)
+TOGGLE_PRESS = FOUR_BAR + (
+    "[links.3]\nQ-B = 3\n[links.4]\nB-C = 4\n[links.5]\nC = [0, 0]\n"
+    'slides = { on = 0, through = "Q", angle = 90 }\n'
+)
+LIFTER = """[frame]
+A = [0, 0]
+D = [4, 0]
+[links.1]
+A-B = 2
+A-E = 5
+E = "beyond B on A-B"
+[links.2]
+B-C = 2
+[links.6]
+D-C = 3
+[links.5]
+C-F = 3
+[links.4]
+E-F = 2
+E-P = 4
+P = "beyond F on E-F"
+"""
+SLIDER_CRANK = """[frame]
+O = [0, 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 3
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "moving", "lower", "freedoms"),
+    [
+        (SLIDER_CRANK, 3, 4, 1),
+        (FOUR_BAR + "[links.3]\nQ-B = 2\n", 3, 4, 1),
+        (FIVE_BAR, 4, 5, 2),
+        (WATT, 5, 7, 1),
+        (TOGGLE_PRESS, 5, 7, 1),
+        (LIFTER, 5, 7, 1),
+        (PARALLEL, 4, 6, 0),
+    ],
+    ids=["slider-crank", "four-bar", "five-bar", "Watt", "toggle press", "lifter", "parallel"],
+)
+def test_gruebler_counts_three_a_link_less_two_a_pair(text, moving, lower, freedoms):
+    """The third parallel crank is idle: the count says 0 although the mechanism moves."""
+    found = count(scene_of(text + DRIVEN))
+    assert (found.moving, found.pairs, found.mobility) == (moving, lower, freedoms)
+
+
+@pytest.mark.parametrize(("text", "pin", "links"), [(TOGGLE_PRESS, "B", 3), (LIFTER, "C", 3)])
+def test_three_links_at_one_pin_are_two_pairs(text, pin, links):
+    """The double hinge that fools Grübler's count."""
+    at_pin = [pair for pair in pairs(scene_of(text + DRIVEN)) if pair == Pin(pin, pair.links)]
+    assert len(at_pin) == links - 1
+
+
+def test_a_pin_of_five_links_is_four_pairs():
+    spokes = "".join(f"[links.{n}]\nO-P{n} = 1\n" for n in range(1, 6))
+    assert count(scene_of("[frame]\nO = [0, 0]\n" + spokes + DRIVEN)).pairs == 5
+    loose = "".join(f"[links.{n}]\nX-P{n} = 1\n" for n in range(1, 6))
+    assert count(scene_of("[frame]\nP1 = [0, 0]\n" + loose + DRIVEN)).pairs == 5
+
+
+@pytest.mark.parametrize(
+    ("links", "by_freedom", "freedoms"),
+    [
+        (4, {3: 2, 1: 1}, 7),
+        (8, {1: 7}, 7),
+        (5, {1: 4}, 4),
+        (7, {1: 6}, 6),
+        (4, {1: 2, 3: 1, 2: 1}, 1),
+        (4, {1: 4}, -2),
+        (14, {1: 6, 3: 6, 2: 6}, 6),
+    ],
+    ids=[
+        "human arm: shoulder, elbow, wrist",
+        "the same arm as seven hinges",
+        "SCARA",
+        "six hinges in a row",
+        "spatial four-bar RRSC",
+        "planar four-bar seen in space",
+        "Stewart platform, UPS legs",
+    ],
+)
+def test_kutzbach_counts_six_a_link_less_what_each_pair_takes(links, by_freedom, freedoms):
+    assert kutzbach(links, by_freedom) == freedoms
+
+
+# --- double hinges and higher groups -------------------------------------------------------------
+
+
+def test_links_that_hang_on_one_known_pin_are_no_dyad_of_their_own():
+    """Both rods of a V engine hang on the crank pin: each closes on its own block."""
+    text = """[frame]
+O = [0, 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 3
+[links.3]
+A-C = 3
+[links.4]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 45 }
+[links.5]
+C = [0, 0]
+slides = { on = 0, through = "O", angle = 135 }
+[branches]
+4 = "forward"
+5 = "forward"
+"""
+    mechanism = mechanism_of(text + DRIVEN)
+    _, first, second = mechanism.groups
+    assert {first.links, second.links} == {("2", "4"), ("3", "5")}
+    points = mechanism.solve().points
+    assert points["B"].position.real == pytest.approx(points["B"].position.imag)
+    assert points["C"].position.real == pytest.approx(-points["C"].position.imag)
+
+
+def test_the_toggle_press_is_a_four_bar_with_a_slider_hung_on_its_pin():
+    crank, first, second = decompose(scene_of(TOGGLE_PRESS + DRIVEN))
+    assert (crank.link, set(first.links), second.links) == ("1", {"2", "3"}, ("4", "5"))
+    assert second.left.point == first.inner.point == "B"
+
+
+def test_the_lifter_is_solved_one_loop_after_the_other():
+    _, first, second = decompose(scene_of(LIFTER + DRIVEN))
+    assert (set(first.links), first.inner.point) == ({"2", "6"}, "C")
+    assert (set(second.links), second.inner.point) == ({"5", "4"}, "F")
+
+
+def test_what_no_crank_and_no_dyad_reaches_is_one_group_of_higher_class():
+    """A triad: three bars from a plate to points that stand, driven through one of them."""
+    text = """[frame]
+O = [0, 0]
+Q = [6, 0]
+S = [6, 4]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 3
+[links.3]
+B = [0, 0]
+C = [2, 0]
+E = [1, 2]
+[links.4]
+Q-C = 3
+[links.5]
+S-E = 3
+"""
+    groups = decompose(scene_of(text + DRIVEN))
+    assert groups[-1] == Unresolved(("2", "3", "4", "5"))
+    with pytest.raises(StructureError, match="are a group of class III or higher"):
+        mechanism_of(text + DRIVEN).solve()
+
+
+# --- drivers -------------------------------------------------------------------------------------
+
+
+def words(text: str) -> str:
+    """The words of a refusal."""
+    with pytest.raises(StructureError) as caught:
+        mechanism_of(text).solve()
+    return str(caught.value)
+
+
+def test_too_few_drivers_are_told_with_the_count():
+    assert words(FIVE_BAR + DRIVEN) == (
+        "drivers: 1 given, but the count 3·4 - 2·5 leaves 2 freedoms; "
+        "expected as many drivers as freedoms; "
+        "add or remove a driver, or look for a pin or a guide that is missing"
+    )
+
+
+def test_too_many_drivers_are_told_with_the_count():
+    second = DRIVEN.replace("turn = 1", "turn = 2")
+    assert "2 given, but the count 3·3 - 2·4 leaves 1 freedom;" in words(
+        SLIDER_CRANK + DRIVEN + second
+    )
+
+
+def test_two_cranks_may_turn_against_the_frame():
+    text = FIVE_BAR + DRIVEN + DRIVEN.replace("turn = 1", "turn = 4").replace("40", "120")
+    mechanism = mechanism_of(text + '[branches]\nB = "left of A-C"\n')
+    first, second, dyad = mechanism.groups
+    assert (first.link, second.link, dyad.type) == ("1", "4", "RRR")
+    solution = mechanism.solve()
+    assert mechanism.witness(solution).agrees
+
+
+# --- what is read and counted, but not constructed -----------------------------------------------
+
+SLOTTED_LEVER = """[frame]
+O = [0, 0]
+Q = [0, -3]
+[links.1]
+O-A = 1
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "Q-B" }
+[links.3]
+Q-B = 6
+[branches]
+2 = "forward"
+"""
+TRAMMEL = """[frame]
+O = [0, 0]
+[links.1]
+A = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.2]
+A-B = 2
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[[drivers]]
+slide = 1
+position = 1
+speed = 1
+"""
+
+
+def test_a_crank_and_slotted_lever_is_named_and_refused():
+    assert words(SLOTTED_LEVER + DRIVEN) == (
+        "links.2, 3: are a dyad RPR, which this version reads but does not construct; "
+        "expected cranks on the frame, dyads RRR, and dyads RRP on a guide of the frame; "
+        "graphkin check names every group"
+    )
+
+
+def test_a_driven_slider_is_named_and_refused():
+    assert "which this version reads but does not construct" in words(TRAMMEL)
+
+
+def test_a_rod_to_a_block_on_a_moving_guide_is_named_and_refused():
+    text = """[frame]
+O = [0, 0]
+Q = [4, 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 4
+[links.3]
+Q-B = 2
+[links.4]
+A-C = 2
+[links.5]
+C = [0, 0]
+slides = { on = 3, along = "Q-B" }
+[branches]
+B = "left of A-Q"
+5 = "forward"
+"""
+    assert "a dyad RRP on a guide that moves" in words(text + DRIVEN)
+
+
+def test_a_crank_of_one_point_is_refused():
+    text = SLIDER_CRANK.replace("O-A = 1", "O = [0, 0]").replace("A-B = 3", "O-B = 3")
+    assert words(text + DRIVEN).startswith(
+        "links.1: has only the point O; expected a second point; "
+        "a crank is a bar: write a length such as O-A = 30"
+    )
