@@ -7,12 +7,10 @@ up to the steps that what is asked needs.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from graphkin.mechanism import Mechanism
-from graphkin.report.centres import guides_under
-from graphkin.report.table import listed
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.program import Part, Program, Step, Target
@@ -124,11 +122,11 @@ def reason(scene: Scene, name: str, wants: list[Target], asked: tuple[Target, ..
 
 
 def targets_words(targets: list[Target]) -> str:
-    """Targets in words, those of one quantity together: velocity of D, pole of 3 and 4."""
+    """Targets in words, those of one quantity together: velocity of D; pole of 3, 4."""
     of: dict[str, list[str]] = {}
     for quantity, name in targets:
         of.setdefault(quantity, []).append(name)
-    return listed(f"{quantity} of {listed(names)}" for quantity, names in of.items())
+    return "; ".join(f"{quantity} of {', '.join(names)}" for quantity, names in of.items())
 
 
 def cause_of(scene: Scene, name: str) -> str:
@@ -137,11 +135,11 @@ def cause_of(scene: Scene, name: str) -> str:
         case "laws of time":
             return f"{drivers_words(timed_drivers(scene))} a law of time"
         case "rolling and gears":
-            return f"wheels roll: {listed(rolling_links(scene))}"
+            return f"wheels roll: {', '.join(rolling_links(scene))}"
         case "driver acceleration":
             return f"{drivers_words(accelerated_drivers(scene))} an acceleration"
         case "Coriolis":
-            return f"the guide of {listed(moving_guides(scene))} turns with its link"
+            return f"the guide of {', '.join(moving_guides(scene))} turns with its link"
         case "normal components":
             return "points that move about others need a normal component"
         case "tangential components":
@@ -171,8 +169,8 @@ def absence_of(scene: Scene, name: str) -> str:
 
 
 def drivers_words(numbers: list[int]) -> str:
-    """Driver 1 has, or drivers 1 and 2 have, counted from one as they are written."""
-    return f"driver{'s' if len(numbers) > 1 else ''} {listed(map(str, numbers))} " + (
+    """Driver 1 has, or drivers 1, 2 have, counted from one as they are written."""
+    return f"driver{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))} " + (
         "have" if len(numbers) > 1 else "has"
     )
 
@@ -206,9 +204,18 @@ def turns(scene: Scene, name: str) -> bool:
     return FRAME not in guides_under(scene, name)
 
 
+def guides_under(scene: Scene, name: str) -> Iterator[str]:
+    """The link under a block, the one under that, and so on to one that does not slide."""
+    seen: set[str] = set()
+    while name != FRAME and name not in seen and scene.links[name].slides:
+        seen.add(name)
+        name = scene.links[name].slides[0].on
+        yield name
+
+
 def no_moving_guide(scene: Scene) -> str:
     """Why nothing slides on a moving link."""
     fixed = [link.name for link in scene.links.values() if link.slides]
     if not fixed:
         return "no link slides"
-    return f"the guide of {listed(fixed)} does not turn"
+    return f"the guide of {', '.join(fixed)} does not turn"

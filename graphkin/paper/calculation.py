@@ -10,8 +10,8 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import A4_AREA, A4_SIZE, page_frame
 from graphkin.paper.marks import Mark, Page, Text
 from graphkin.paper.relations import Relation, relations
-from graphkin.paper.richtext import escape, extent
-from graphkin.paper.sheet import flowed, title_of
+from graphkin.paper.richtext import escape, extent, flowed
+from graphkin.paper.sheet import title_of
 
 LETTER = 2.5
 LINE, GAP = 6.0, 3.0

@@ -37,6 +37,8 @@ class Desk:
         return self.drawing.kind
 
 
+TINY = 0.5
+"""Vectors shorter than this, in mm, are named at the foot of their field."""
 FAR = 2000.0
 """Longer than any way on a page, in mm."""
 
@@ -141,10 +143,21 @@ def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
     cls = arrow_class(step, desk)
     if length > 0:
         desk.board.marks += arrow(tail, tip, cls, step.name, number)
+    if length < TINY:
+        note_tiny(desk, symbol(step.says["symbol"]), length)
+        return
     subject = (tail, tip) if length >= SHORT else tip
     desk.board.labels.append(
         Label(symbol(step.says["symbol"]), cls, subject, 2.5, step.name, number, priority=1)
     )
+
+
+def note_tiny(desk: Desk, name: str, length: float) -> None:
+    """Name a vector that is too short to be seen at the foot of its field."""
+    drawn = desk.drawing.words.fixed(length, 2)
+    note = desk.drawing.words("page.tiny", name=name, length=drawn)
+    if note not in desk.board.notes:
+        desk.board.notes.append(note)
 
 
 def arrow_class(step: Step, desk: Desk) -> str:
@@ -212,14 +225,19 @@ def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
         desk.board.marks.append(Arc(*at, radius, *span, "compass", step.name, number))
     if radius > 0:
         desk.board.marks += arrow(at, end, "normal", name, number)
+    if radius < TINY:
+        note_tiny(desk, symbol(name), radius)
+        return
     subject = (at, end) if radius >= SHORT else end
     desk.board.labels.append(Label(symbol(name), "normal", subject, 2.5, name, number))
     put_construction_point(desk, number, step, value)
 
 
 def put_construction_point(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """A small named point of the right triangle."""
+    """A small named point of the right triangle, unless it falls on its pin."""
     at = desk.field(value)
+    if abs(value - desk.drawing.positions[step.says["q"]]) * desk.field.mm < TINY:
+        return
     name = short_name(desk, step)
     desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
     desk.board.labels.append(
@@ -271,7 +289,7 @@ def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
     part = clipped(start, (start[0] + FAR * u, start[1] + FAR * v), inset(desk.field.rect, 1))
     if part is None:
         return
-    desk.board.marks.append(head(*part, f"centre {desk.colour}", step.name, number))
+    desk.board.marks.append(head(*part, desk.colour, step.name, number))
     if step.by_hand is None:
         desk.board.marks.append(Line(*part[0], *part[1], "ray", step.name, number))
     desk.board.labels.append(

@@ -1,4 +1,4 @@
-"""Two small pictures beside a drawing: very short vectors enlarged, and far centres reduced."""
+"""A small picture beside a drawing: its shortest vectors enlarged in a circle."""
 
 from __future__ import annotations
 
@@ -49,31 +49,31 @@ def enlarged(marks: Sequence[Mark], rect: Rect) -> list[Mark]:
 
 
 def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY | None:
-    """The middle of a free disc as near as possible to a place; None when there is none."""
+    """The middle of a free disc as near as possible to a place; None when there is none.
+
+    Of the nearest, one is preferred whose line to the drawing crosses no text.
+    """
     import numpy as np
     import shapely
 
     xs = np.arange(rect[0] + room, rect[2] - room, GRID)
     ys = np.arange(rect[1] + room, rect[3] - room, GRID)
-    if not len(xs) or not len(ys):
-        return None
     grid = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
+    lines: Any = np.array([s for mark in marks for s in segments(mark)]).reshape(-1, 2, 2)
+    texts = [shapely.box(*reach(mark)) for mark in marks if isinstance(mark, Text)]
+    drawn: Any = shapely.linestrings(lines)
+    taken = shapely.STRtree([*drawn, *texts])
     tries: Any = shapely.points(grid)
-    taken = shapely.union_all(
-        [
-            *(shapely.linestrings([s[:2], s[2:]]) for mark in marks for s in segments(mark)),
-            *(shapely.box(*reach(mark)) for mark in marks if isinstance(mark, Text)),
-        ]
-    )
-    free = tries[shapely.distance(tries, taken) >= room]
+    crowded = taken.query(tries, predicate="dwithin", distance=room)[0]
+    free = np.delete(grid, crowded, axis=0)
     if not len(free):
         return None
-    nearest = free[shapely.distance(free, shapely.Point(near)).argsort(kind="stable")]
-    ways = shapely.linestrings([[near, (p.x, p.y)] for p in nearest[:TRIES]])
-    texts = shapely.union_all([shapely.box(*reach(m)) for m in marks if isinstance(m, Text)])
-    clear = nearest[: len(ways)][~shapely.intersects(ways, texts)]
-    best = clear[0] if len(clear) else nearest[0]
-    return float(best.x), float(best.y)
+    nearest = free[np.hypot(*(free - near).T).argsort(kind="stable")][:TRIES]
+    ways: Any = shapely.linestrings([[near, place] for place in nearest])
+    crossed = shapely.STRtree(texts).query(ways, predicate="intersects")[0]
+    clear = np.delete(nearest, crossed, axis=0)
+    x, y = (clear if len(clear) else nearest)[0]
+    return float(x), float(y)
 
 
 def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterator[Mark]:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from zlib import crc32
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.marks import Page
@@ -17,6 +18,8 @@ RESERVED = frozenset(
 """Names that Windows keeps for devices, whatever follows their first dot."""
 LONGEST = 60
 """Characters of one part of a file name."""
+MOST_BYTES = 180
+"""Bytes of the first part of a file name, so that the rest finds room in 255."""
 PDF_ONLY = "calculation"
 """The sheet that comes as PDF only, for it is several pages of text."""
 
@@ -29,7 +32,11 @@ def file_part(text: str) -> str:
 
 def file_stem(name: str, settings: Mapping[str, str]) -> str:
     """The name of a scene, then what is set: pump-n7."""
-    return "-".join([file_part(name), *(file_part(f"{k}{v}") for k, v in settings.items())])
+    stem = "-".join([file_part(name), *(file_part(f"{k}{v}") for k, v in settings.items())])
+    whole = stem.encode("utf-8")
+    if len(whole) <= MOST_BYTES:
+        return stem
+    return f"{whole[: MOST_BYTES - 9].decode('utf-8', 'ignore')}-{crc32(whole):08x}"
 
 
 def rendered(
@@ -84,7 +91,10 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
 
 def put_in_place(targets: Mapping[Path, bytes]) -> None:
     """Write every file aside, then rename them one after the other; after a failure none is new."""
-    aside = {target: target.with_name(f".{target.name}.{os.getpid()}.part") for target in targets}
+    aside = {
+        target: target.with_name(f".graphkin-{os.getpid()}-{i}.part")
+        for i, target in enumerate(targets)
+    }
     new: list[Path] = []
     try:
         for target, data in targets.items():

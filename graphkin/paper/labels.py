@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import ceil, cos, radians, sin
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.field import XY, Rect
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, reach
 from graphkin.paper.place import Spot, Wish, place
-from graphkin.paper.richtext import extent, plain
+from graphkin.paper.richtext import extent, flowed, plain
 
 NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
@@ -67,12 +67,38 @@ class Board:
     marks: list[Mark] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
     taken: list[Rect] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     def finish(self) -> list[Mark]:
-        """The marks with every label at a free place. Raises PageError when one finds none."""
-        spots = self.spots()
+        """The marks with every label at a free place; in a crowd, key numbers with a legend.
+
+        Raises PageError when a label finds no place even so.
+        """
+        foot = self.footed(self.notes)
+        spots = self.spots(foot)
+        if not all(spot.free for spot in spots):
+            foot = self.footed([*self.notes, *self.shortened([spot.free for spot in spots])])
+            spots = self.spots(foot)
         refuse_crowds(self.labels, spots)
-        return [*self.marks, *marks_of(self.labels, spots)]
+        return [*self.marks, *foot, *marks_of(self.labels, spots)]
+
+    def shortened(self, free: Sequence[bool]) -> list[str]:
+        """Give crowded labels key numbers; the meanings are for the foot of the field."""
+        meanings: list[str] = []
+        for i, label in enumerate(self.labels):
+            if not free[i]:
+                meanings.append(f"{len(meanings) + 1}) {label.markup}")
+                key = f"{len(meanings)})"
+                self.labels[i] = replace(label, markup=key, height=1.8, priority=4)
+        return meanings
+
+    def footed(self, notes: Sequence[str]) -> list[Mark]:
+        """Notes in lines at the foot of the field."""
+        lines = flowed(notes, "; ", self.rect[2] - self.rect[0] - 6, 2.5)
+        x, y = self.rect[0] + 3, self.rect[3] - 2.5 - 4.2 * (len(lines) - 1)
+        return [
+            Text(x, y + 4.2 * i, line, "caption", 2.5, name="note") for i, line in enumerate(lines)
+        ]
 
     def placed(self) -> list[Mark]:
         """Only the labels that find a free place, without the other marks."""
@@ -80,10 +106,11 @@ class Board:
         free = [(label, spot) for label, spot in zip(self.labels, spots, strict=True) if spot.free]
         return marks_of([label for label, _ in free], [spot for _, spot in free])
 
-    def spots(self) -> list[Spot]:
+    def spots(self, more: Sequence[Mark] = ()) -> list[Spot]:
         """The places of all labels, clear of marks, of taken boxes and of each other."""
-        lines = [segment for mark in self.marks for segment in segments(mark)]
-        boxes = [*self.taken, *(reach(mark) for mark in self.marks if isinstance(mark, Text))]
+        marks = [*self.marks, *more]
+        lines = [segment for mark in marks for segment in segments(mark)]
+        boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
         return place([label.wish() for label in self.labels], lines, boxes, self.rect)
 
 

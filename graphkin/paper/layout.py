@@ -22,10 +22,10 @@ from graphkin.steps.program import Part, Plane
 
 MARGIN = 15.0
 """Room left and right of a drawing for symbols, ends of lines and labels, in mm."""
-ABOVE = 12.0
+ABOVE = 8.5
 """Room above and below a drawing, in mm."""
-HEADER = 21.0
-"""Height of the sheet's heading with the data, below the frame's upper edge, in mm."""
+HEADER = 28.0
+"""Height of the title, the data and the fields' captions below the frame's upper edge, in mm."""
 FOOT = 201.0
 """Where the tables below the drawings begin, in mm from the page's upper edge."""
 BEYOND = 7.0
@@ -34,7 +34,7 @@ SWEEP = 7.0
 """Half the length of a compass arc drawn where it is needed, in mm."""
 
 AREA: Rect = (A3_AREA[0] + 2, A3_AREA[1] + HEADER, A3_AREA[2] - 2, FOOT)
-"""The part of the sheet for the mechanism and the plan side by side."""
+"""The part of the sheet for the mechanism and the plan side by side, below their captions."""
 WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
 BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
 """The part for steps, tables and check bar."""

@@ -8,7 +8,7 @@ sign as it is.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -154,3 +154,16 @@ def extent(markup: str, height: float) -> tuple[float, float, float]:
             tops.append(run.y - found[1] * run.size)
             bottoms.append(run.y - found[0] * run.size)
     return width, min(tops, default=0.0), max(bottoms, default=0.0)
+
+
+def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:
+    """Pieces of markup joined by a mark into lines no wider than a width in mm."""
+    lines: list[str] = []
+    for i, piece in enumerate(pieces):
+        text = piece + (mark.rstrip() if i < len(pieces) - 1 else "")
+        longer = f"{lines[-1]} {text}" if lines else text
+        if lines and extent(longer, height)[0] <= width:
+            lines[-1] = longer
+        else:
+            lines.append(text)
+    return lines

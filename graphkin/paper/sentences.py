@@ -18,6 +18,7 @@ LINES = (
     "along-bar",
     "shifted",
     "velocity-normal",
+    "centripetal",
 )
 WHOLE = ("acceleration-pole",)
 """Actions whose own sentence says all that the hand does."""
@@ -75,7 +76,7 @@ def clauses(drawing: Drawing, number: int) -> Iterator[str]:
     step = drawing.trace.program.steps[number]
     if step.action is None or step.action.key not in LINES or step.name:
         return
-    if step.action.key in ("square-to", "shifted"):
+    if step.action.key in ("square-to", "shifted", "driven-tangential"):
         for arg in step.args:
             yield from clauses(drawing, arg)
     yield phrase(drawing, step, step.name, step)
@@ -94,6 +95,10 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         key = "step.similar-in-line"
     elif step.action.key in SCALED and not drawing.scales.from_driver:
         key += "-scaled"
+    elif step.action.key == "acceleration-pole" and step.by_hand is None:
+        key += "-pivot"
+    elif step.action.key == "centripetal" and not step.name:
+        key = "step.lay-off"
     elif words_of.action and words_of.action.key == "instant-centre":
         key = "step.instant-centre" if words_of.by_hand else "step.instant-centre-pivot"
     elif step.action.key in ("arcs-meet", "arc-cuts-line"):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, mechanism
 from graphkin.paper.construct import Desk
@@ -12,10 +10,11 @@ from graphkin.paper.detail import enlarged
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Rect
 from graphkin.paper.frame import A3_AREA, TitleBlock, check_bar, sheet_frame
+from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import AREA, BELOW, TABLES, Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
-from graphkin.paper.richtext import escape, extent
+from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.sentences import sentences
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.tables import tables
@@ -35,10 +34,10 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
         *heading(drawing),
-        *left_board(drawing, layout, view).finish(),
+        *mechanism_marks(drawing, layout, view),
         *plan,
         *enlarged(plan, layout.plan.rect),
-        Line(layout.plan.rect[0], AREA[1] + 2, layout.plan.rect[0], AREA[3] - 2, "panel"),
+        Line(layout.plan.rect[0], AREA[1] - 6, layout.plan.rect[0], AREA[3] - 2, "panel"),
         Line(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
         *below(drawing, view),
     ]
@@ -112,17 +111,10 @@ def heading(drawing: Drawing) -> list[Mark]:
     return marks
 
 
-def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:
-    """Pieces of markup joined by a mark into lines no wider than a width in mm."""
-    lines: list[str] = []
-    for i, piece in enumerate(pieces):
-        text = piece + (mark.rstrip() if i < len(pieces) - 1 else "")
-        longer = f"{lines[-1]} {text}" if lines else text
-        if lines and extent(longer, height)[0] <= width:
-            lines[-1] = longer
-        else:
-            lines.append(text)
-    return lines
+def mechanism_marks(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
+    """The mechanism's field with its labels, and insets for centres that lie off it."""
+    marks = left_board(drawing, layout, view).finish()
+    return marks if view == "task" else [*marks, *insets(drawing, layout.mechanism, marks)]
 
 
 def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
@@ -172,7 +164,7 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
 
 def headline(rect: Rect, caption: str) -> Mark:
     """The caption of a field, at its upper left."""
-    return Text(rect[0] + 3, rect[1] + 4.5, caption, "caption", 3.5)
+    return Text(rect[0] + 3, rect[1] - 2.5, caption, "caption", 3.5)
 
 
 def below(drawing: Drawing, view: str) -> list[Mark]:
@@ -219,7 +211,7 @@ def asked(drawing: Drawing) -> list[str]:
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The numbered sentences of the construction, in lettering that fits."""
     said = sentences(drawing)
-    for height, leading in ((3.5, 6.0), (2.5, 5.6), (2.5, LEADING), (2.5, 4.1), (1.8, 3.4)):
+    for height, leading in ((2.5, 5.6), (2.5, LEADING), (2.5, 4.1), (1.8, 3.4)):
         lines = [
             (number if i == 0 else "", line)
             for number, sentence in enumerate(said, 1)

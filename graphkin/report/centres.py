@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 from math import degrees
 
+from graphkin.effects import guides_under
 from graphkin.plane import Ratio
 from graphkin.report.table import NOISE, number
 from graphkin.scene.model import FRAME, Scene
@@ -85,15 +86,6 @@ def turning_of_guide(
         if link in solution.links:
             return solution.links[link].omega, solution.links[link].epsilon
     return None, None
-
-
-def guides_under(scene: Scene, name: str) -> Iterator[str]:
-    """The link under a block, the one under that, and so on to one that does not slide."""
-    seen: set[str] = set()
-    while name != FRAME and name not in seen and scene.links[name].slides:
-        seen.add(name)
-        name = scene.links[name].slides[0].on
-        yield name
 
 
 def centre_words(ratio: Ratio | None, breadth: float) -> str:

@@ -40,7 +40,7 @@ class Checking:
             yield from labelled("groups", group_lines(self.mechanism.groups))
             yield from self.closing()
             trace = self.mechanism.trace()
-            yield from labelled("true", [true_words(scene, trace)])
+            yield from labelled("rank", [true_words(scene, trace)])
             yield from labelled("crossings", crossing_lines(trace))
             yield from labelled("witness", [self.witness(trace)])
         except GraphkinError as error:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
-from graphkin.steps.program import Program
+if TYPE_CHECKING:
+    from graphkin.steps.program import Program
 
 DIGITS = 6
 NOISE = 1e-12

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import PageError
-from graphkin.paper.files import RESERVED, file_part, write_all
+from graphkin.paper.files import RESERVED, file_part, file_stem, write_all
 
 FILES = {"a.txt": b"one", "b.txt": b"two", "c.txt": b"three"}
 
@@ -59,7 +59,7 @@ def test_a_full_disk_keeps_what_was_there(tmp_path: Path, monkeypatch: pytest.Mo
     write = Path.write_bytes
 
     def full(path: Path, data: bytes) -> int:
-        if "c.txt" in path.name:
+        if data == b"three":
             write(path, data[:1])
             raise OSError(28, "No space left on device", str(path))
         return write(path, data)
@@ -109,3 +109,11 @@ def test_no_part_is_a_reserved_name_or_too_long() -> None:
         part = file_part(name)
         assert part.partition(".")[0].upper() not in RESERVED
         assert len(part) <= 60
+
+
+def test_long_stems_are_cut_and_kept_apart() -> None:
+    settings = {f"parameter{i}": "1/3" for i in range(40)}
+    one, other = file_stem("ă" * 90, settings), file_stem("ă" * 90, settings | {"last": "2"})
+    assert one != other
+    assert max(len(stem.encode("utf-8")) for stem in (one, other)) <= 180
+    assert file_stem("pump", {"n": "7"}) == "pump-n7"

@@ -149,3 +149,12 @@ def test_an_unknown_format_is_refused(run: Run, tmp_path: Path, formats: str) ->
     result = run("sheet", "pump", "-o", tmp_path, "--format", formats)
     assert result.exit_code == 2
     assert "svg,pdf" in result.stderr
+
+
+def test_the_pump_is_drawn_in_full(run: Run, tmp_path: Path) -> None:
+    result = run("sheet", "pump", "--set", "n=7", "-o", tmp_path)
+    assert result.exit_code == 0, result.stderr
+    assert len(names(tmp_path)) == 5
+    drawing = (tmp_path / "pump-n7-velocity-key.svg").read_text(encoding="utf-8")
+    assert 'width="420mm"' in drawing
+    assert 'lang="ro"' in drawing
