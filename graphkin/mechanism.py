@@ -24,7 +24,7 @@ BLOCK = 2048
 """Variants run at once: few enough that the values of a step stay in the processor's cache."""
 
 
-def load(name: str | Path, **settings: object) -> Mechanism:
+def load(name: str | Path, /, **settings: object) -> Mechanism:
     """The mechanism of a shipped lab or a scene file, with parameters set: load("pump", n=7).
 
     Raises SceneError or StructureError with everything that is wrong.
@@ -49,7 +49,7 @@ class Mechanism:
         return write(self.scene, self.groups)
 
     def asked(self) -> tuple[Target, ...]:
-        """What the scene asks for, as targets of the program."""
+        """What the scene asks for, as targets of the program; everything when it asks nothing."""
         ask = self.scene.ask
         wanted = [("velocity", point_of(name)) for name in ask.velocity]
         wanted += [("acceleration", point_of(name)) for name in ask.acceleration]
@@ -59,7 +59,11 @@ class Mechanism:
         wanted += [("pole", link) for link in ask.poles]
         for block in ask.slides:
             wanted += [(what, block) for what in ("slide", "slide speed", "slide acceleration")]
-        return tuple(target for target in wanted if target in self.program.targets)
+        return tuple(target for target in wanted or self.program.targets if self.gives(target))
+
+    def gives(self, target: Target) -> bool:
+        """True when the program constructs a quantity."""
+        return target in self.program.targets
 
     def trace(
         self,

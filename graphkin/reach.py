@@ -59,7 +59,10 @@ def where_it_closes(scene: Scene, program: Program, needed: Sequence[int]) -> st
 def closing_ranges(
     program: Program, needed: Sequence[int], scene: Scene
 ) -> list[tuple[float, float]]:
-    """The ranges of the driver's angle (degrees, from 0) for which all positions can be drawn."""
+    """The ranges of the driver's angle (degrees) for which all positions can be drawn.
+
+    A range over 0° begins with a negative angle.
+    """
     import numpy as np
 
     degrees = np.arange(SAMPLES) * (360 / SAMPLES)
@@ -72,10 +75,10 @@ def closing_ranges(
     ends = np.flatnonzero(closed & ~np.roll(closed, -1))
     if ends[0] < starts[0]:
         ends = np.roll(ends, -1)
-    return [
-        (float(degrees[low]), float(degrees[high] + (360 if high < low else 0)))
+    return sorted(
+        (float(degrees[low] - (360 if high < low else 0)), float(degrees[high]))
         for low, high in zip(starts, ends, strict=True)
-    ]
+    )
 
 
 def closes_at(program: Program, needed: Sequence[int], scene: Scene, degrees: Any) -> Any:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import degrees, hypot
 from typing import Any
 
 from graphkin.paper.drawing import Drawing, place_of
-from graphkin.paper.field import XY, Field, clipped
+from graphkin.paper.field import XY, Field, Rect, clipped
 from graphkin.paper.labels import Board, Label
-from graphkin.paper.layout import SWEEP, Layout
+from graphkin.paper.layout import BEYOND, SWEEP, Layout
 from graphkin.paper.marks import Arc, Circle, Line
 from graphkin.paper.symbolic import bar, symbol
-from graphkin.paper.symbols import SHORT, arrow, bearing, head, square_mark
+from graphkin.paper.symbols import PIN, SHORT, arrow, bearing, head, square_mark
 from graphkin.plane import Ratio
 from graphkin.steps.program import Part, Plane, Step
 
@@ -39,6 +39,12 @@ class Desk:
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
+ENDLESS = 1e9
+"""A centre this many millimetres of paper away counts as at infinity."""
+LAST = 20.0
+"""How much of a ray to a far centre its name belongs to, in mm."""
+FOOT = 6.5
+"""Height kept free of construction lines at the foot of a field, in mm."""
 FAR = 2000.0
 """Longer than any way on a page, in mm."""
 
@@ -86,7 +92,7 @@ def line_ends(desk: Desk, number: int, value: Any) -> tuple[XY, XY] | None:
     low, high = desk.layout.spans[number]
     unit = value.along / abs(value.along) / desk.field.mm
     start, end = desk.field(value.point + low * unit), desk.field(value.point + high * unit)
-    return clipped(start, end, desk.field.rect)
+    return clipped(start, end, above_foot(desk.field.rect))
 
 
 def line_name(step: Step) -> str:
@@ -118,21 +124,32 @@ def put_arc(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def put_point(desk: Desk, number: int, step: Step, value: Any) -> None:
     """A named point of a plan."""
-    if not step.name:
-        return
-    at = desk.field(value)
-    desk.board.marks.append(Circle(*at, DOT, f"point {desk.colour}", step.name, number))
-    desk.board.labels.append(
-        Label(symbol(step.name), desk.colour, at, 3.5, step.name, number, priority=2, radius=DOT)
-    )
+    if step.name:
+        at = desk.field(value)
+        desk.board.marks.append(Circle(*at, DOT, f"point {desk.colour}", step.name, number))
+        name_point(desk, number, step, at, DOT)
 
 
 def put_pole(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The pole of a plan."""
     at = desk.field(value)
-    desk.board.marks.append(Circle(*at, 1.1, f"pole {desk.colour}", step.name, number))
-    desk.board.labels.append(
-        Label(symbol(step.name), desk.colour, at, 3.5, step.name, number, priority=3, radius=1.1)
+    desk.board.marks.append(Circle(*at, PIN, f"pole {desk.colour}", step.name, number))
+    name_point(desk, number, step, at, PIN)
+
+
+def name_point(desk: Desk, number: int, step: Step, at: XY, radius: float) -> None:
+    """The letter of a point; points that fall together share one label, o ≡ a."""
+    board = desk.board
+    for i, (x, y) in board.lettered.items():
+        if hypot(x - at[0], y - at[1]) < TINY:
+            label = board.labels[i]
+            together = f"{label.markup} ≡ {symbol(step.name)}"
+            board.labels[i] = replace(label, markup=together, name=f"{label.name} {step.name}")
+            return
+    board.lettered[len(board.labels)] = at
+    letter = symbol(step.name)
+    board.labels.append(
+        Label(letter, desk.colour, at, 3.5, step.name, number, priority=2, radius=radius)
     )
 
 
@@ -174,21 +191,27 @@ def arrow_class(step: Step, desk: Desk) -> str:
 
 
 def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """The relative velocity set at its pin, b″ at its tip, and the line that joins it with A."""
-    pin = desk.drawing.positions[step.says["q"]]
-    tail, tip = desk.field(pin), desk.field(value)
-    if hypot(tip[0] - tail[0], tip[1] - tail[1]) > 0:
-        symbol_name = "v_" + step.says["i"]
-        desk.board.marks += arrow(tail, tip, "relative-velocity", symbol_name, number)
-        subject = (tail, tip)
-        desk.board.labels.append(
-            Label(symbol(symbol_name), "relative-velocity", subject, 2.5, symbol_name, number)
-        )
+    """The relative velocity set at its pin, and b″ at its tip."""
+    if is_tiny(desk, step, value):
+        return
+    tail, tip = desk.field(desk.drawing.positions[step.says["q"]]), desk.field(value)
+    name = "v_" + step.says["i"]
+    desk.board.marks += arrow(tail, tip, "relative-velocity", name, number)
+    desk.board.labels.append(
+        Label(symbol(name), "relative-velocity", (tail, tip), 2.5, name, number)
+    )
     put_construction_point(desk, number, step, value)
+
+
+def is_tiny(desk: Desk, step: Step, tip: complex) -> bool:
+    """True when a right triangle is too small to be seen: its velocity is hardly any."""
+    return abs(tip - desk.drawing.positions[step.says["q"]]) * desk.field.mm < TINY
 
 
 def put_triangle_edge(desk: Desk, number: int, step: Step, value: Any) -> None:
     """From the pivot to b″, and at b″ square to it as far as the bar's line."""
+    if is_tiny(desk, step, value.point):
+        return
     pivot = desk.field(desk.drawing.positions[step.says["p"]])
     corner = desk.field(value.point)
     desk.board.marks.append(Line(*pivot, *corner, "construction", step.name, number))
@@ -202,11 +225,14 @@ def put_triangle_edge(desk: Desk, number: int, step: Step, value: Any) -> None:
         low, high = desk.layout.spans[number]
         if -low > high:
             second = (-second[0], -second[1])
-        desk.board.marks.append(square_mark(corner, first, second))
+        desk.board.marks.append(square_mark(corner, first, second, number))
 
 
 def put_bar_line(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """The bar produced beyond its pin."""
+    """The bar produced beyond its pin, as far as the right triangle needs it."""
+    low, high = desk.layout.spans[number]
+    if high - low < 2 * BEYOND + TINY:
+        return
     ends = line_ends(desk, number, value)
     if ends:
         desk.board.marks.append(Line(*ends[0], *ends[1], "construction", step.name, number))
@@ -281,44 +307,41 @@ def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
     """A centre off the field: name, direction and distance where a ray to it leaves the field."""
-    start = desk.field(value.start)
+    endless = abs(value.size) * ENDLESS <= abs(value.shift) * desk.field.mm
+    if step.part is Part.POLE and endless:
+        words = desk.drawing.words
+        name, link = symbol(step.name), step.says["k"]
+        desk.board.notes.append(words("page.pole_at_infinity", name=name, k=link))
+        return
     way = value.shift / value.size if value.size else value.shift
     if way == 0:
         return
-    u, v = desk.field.way(way)
-    part = clipped(start, (start[0] + FAR * u, start[1] + FAR * v), inset(desk.field.rect, 1))
+    start, (u, v) = desk.field(value.start), desk.field.way(way)
+    part = clipped(start, (start[0] + FAR * u, start[1] + FAR * v), above_foot(desk.field.rect))
     if part is None:
         return
     desk.board.marks.append(head(*part, desk.colour, step.name, number))
-    if step.by_hand is None:
+    if step.by_hand not in desk.drawing.trace.values:
         desk.board.marks.append(Line(*part[0], *part[1], "ray", step.name, number))
-    desk.board.labels.append(
-        Label(
-            far_words(desk, step, value, way),
-            desk.colour,
-            part[1],
-            2.5,
-            step.name,
-            number,
-            priority=2,
-        )
-    )
+    text = far_words(desk, step, 0.0 if endless else abs(way), way)
+    end = part[1]
+    subject = ((end[0] - LAST * u, end[1] - LAST * v), end)
+    desk.board.labels.append(Label(text, desk.colour, subject, 2.5, step.name, number, priority=2))
 
 
-def far_words(desk: Desk, step: Step, value: Any, way: complex) -> str:
-    """Words for where a centre lies that is not on the sheet."""
+def far_words(desk: Desk, step: Step, distance: float, way: complex) -> str:
+    """Words for where a centre lies that is not on the sheet; at infinity for distance nought."""
     words = desk.drawing.words
     angle = words.fixed(degrees(phase(way)) % 360, 1)
     fields = {"name": symbol(step.name), "p": symbol(step.says["p"]), "angle": angle}
-    if not value.size:
+    if not distance:
         return words("page.centre_at_infinity", **fields)
-    distance = words.significant(100 * abs(way), 4)
-    return words("page.far_centre", distance=distance, **fields)
+    return words("page.far_centre", distance=words.significant(100 * distance, 4), **fields)
 
 
-def inset(rect: tuple[float, float, float, float], by: float) -> tuple[float, float, float, float]:
-    """A rectangle made smaller on all sides."""
-    return rect[0] + by, rect[1] + by, rect[2] - by, rect[3] - by
+def above_foot(rect: Rect) -> Rect:
+    """A field without its lowest part, which is for notes."""
+    return rect[0] + 1, rect[1] + 1, rect[2] - 1, rect[3] - FOOT
 
 
 def put_ray(desk: Desk, number: int, step: Step, value: Any) -> None:

@@ -53,22 +53,28 @@ def written(scene: Scene, words: Words, quantity: Quantity) -> str:
 
 def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
     """Position, speed and acceleration of a driver."""
-    angle, speed = ("*φ*", "*n*") if driver.kind == "turn" else ("*s*", "*v*")
+    speed = "*n*" if driver.kind == "turn" else "*v*"
     if not driver.speed.unit.startswith("rev"):
         speed = "*ω*" if driver.kind == "turn" else "*v*"
     index = f"_{{{escape(driver.link)}}}"
-    yield f"{angle} = {written(scene, words, driver.position)}"
+    yield f"{angle_symbol(scene, driver)} = {written(scene, words, driver.position)}"
     steady = driver.acceleration.is_zero()
     tail = f" = {words('page.constant')}" if steady else ""
     sense = ""
-    if driver.kind == "turn":
-        turning = float(driver.speed.si(scene.values))
+    turning = float(driver.speed.si(scene.values))
+    if driver.kind == "turn" and turning:
         sense = ", " + words(
             "page.turning_anticlockwise" if turning > 0 else "page.turning_clockwise"
         )
     yield f"{speed}{index} = {written(scene, words, driver.speed)}{tail}{sense}"
     if not steady:
         yield f"*ε*{index} = {written(scene, words, driver.acceleration)}"
+
+
+def angle_symbol(scene: Scene, driver: Driver) -> str:
+    """Symbol of a driver's position, with its link's name where several drive."""
+    index = f"_{{{escape(driver.link)}}}" if len(scene.drivers) > 1 else ""
+    return ("*φ*" if driver.kind == "turn" else "*s*") + index
 
 
 def lengths(scene: Scene, words: Words) -> Iterator[str]:

@@ -15,7 +15,8 @@ from graphkin.steps.run import Trace
 from graphkin.steps.solution import Verdict
 from graphkin.text import Words
 
-TRIANGLE = ("set-velocity", "square-at", "bar-line", "meet", "turn-over")
+NOISE = 1e-9
+"""A quantity this small beside the largest of its kind is rounding and shown as nought."""
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,33 @@ class Drawing:
             for number in self.trace.values
             if (hand := steps[number].by_hand) is not None
         }
+
+    def settled(self, value: float) -> float:
+        """A magnitude of the plan, or nought where it is only rounding beside the largest."""
+        return 0.0 if abs(value) < NOISE * self.largest else value
+
+    @cached_property
+    def largest(self) -> float:
+        """The largest vector of the plan."""
+        vectors = (v for _, s, v in self.steps(self.plane) if s.arrow and isinstance(v, Vector))
+        return max((abs(v.tip - v.tail) for v in vectors), default=0.0)
+
+    def turning(self, link: str) -> float | None:
+        """Angular velocity or acceleration of a link on this sheet; nought for mere rounding."""
+        quantity = "omega" if self.kind == "velocity" else "epsilon"
+        value = self.trace.value(quantity, link)
+        if value is None:
+            return None
+        fastest = max(abs(omega) for omega in self.all_of("omega"))
+        alike = (abs(epsilon) for epsilon in self.all_of("epsilon"))
+        largest = fastest if quantity == "omega" else max(fastest**2, *alike)
+        return 0.0 if abs(value) < NOISE * largest else float(value)
+
+    def all_of(self, quantity: str) -> list[float]:
+        """The values of a quantity on this sheet, of the links that have it."""
+        targets, values = self.trace.program.targets, self.trace.values
+        numbers = (number for (what, _), number in targets.items() if what == quantity)
+        return [0.0, *(values[number] for number in numbers if number in values)]
 
     def at_scale(self, plane: Plane, value: complex) -> complex:
         """A value of a plan in metres of the mechanism, drawn side by side with it."""

@@ -61,13 +61,18 @@ class Label:
 
 @dataclass
 class Board:
-    """One field of the page while it is drawn: its marks, and the labels still to be placed."""
+    """One field of the page while it is drawn: its marks, and the labels still to be placed.
+
+    ``taken`` are boxes that labels keep clear of, ``notes`` what is said at the field's foot,
+    ``lettered`` the places of the labels that are letters of points.
+    """
 
     rect: Rect
     marks: list[Mark] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
     taken: list[Rect] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    lettered: dict[int, XY] = field(default_factory=dict)
 
     def finish(self) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.

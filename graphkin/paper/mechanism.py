@@ -5,6 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from math import degrees, hypot
 
+from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board, Label
@@ -207,7 +208,14 @@ def draw_drivers(board: Board, drawing: Drawing, field: Field) -> None:
         middle = Arc(*centre, ANGLE, 0, 1, "angle").at(end / 2)
         value = drawing.words.decimal(driver.position.written(drawing.scene.values))
         board.labels.append(
-            Label(f"*φ* = {value}°", "", middle, 2.5, "phi", away=unit(centre, middle))
+            Label(
+                f"{angle_symbol(drawing.scene, driver)} = {value}°",
+                "",
+                middle,
+                2.5,
+                "phi",
+                away=unit(centre, middle),
+            )
         )
         draw_sense(board, drawing, centre, end, driver.link)
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphkin.paper.data import given, written
+from graphkin.paper.data import angle_symbol, given, written
 from graphkin.paper.drawing import Drawing, place_of
 from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
@@ -111,7 +111,8 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
     """Position and speed from the parameters, angular velocity, speed of the driven pin."""
     words, scene = drawing.words, drawing.scene
     index = f"_{{{escape(driver.link)}}}"
-    for letter, quantity in (("*φ*", driver.position), (f"*n*{index}", driver.speed)):
+    angle = angle_symbol(scene, driver)
+    for letter, quantity in ((angle, driver.position), (f"*n*{index}", driver.speed)):
         if quantity.uses():
             value = written(scene, words, quantity)
             amount, _, unit = value.partition(" ")
@@ -269,7 +270,7 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
     for _, step, value in drawing.steps(drawing.plane):
         if not step.arrow or not isinstance(value, Vector) or step.says.get("kind") == "ν":
             continue
-        size = abs(value.tip - value.tail)
+        size = drawing.settled(abs(value.tip - value.tail))
         name = step.says["symbol"]
         segment = (
             segment_markup(step.name)
@@ -292,7 +293,7 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
         if step.action is None or step.action.key != "normal":
             continue
         p, q, i = step.says["p"], step.says["q"], step.says["i"]
-        length, size = length_of(drawing, p, q), abs(value)
+        length, size = length_of(drawing, p, q), drawing.settled(abs(value))
         speed = (size * length) ** 0.5
         yield Relation(
             symbol(f"a_{i}^ν"),
@@ -316,7 +317,7 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
     program = drawing.trace.program
     for link in drawing.scene.links:
         step = program.steps[program.targets.get((key, link), 0)]
-        value = drawing.trace.value(key, link)
+        value = drawing.turning(link)
         if value is None or step.action is None or step.action.key != key:
             continue
         p, q = step.says["p"], step.says["q"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import Part, Plane, Step
@@ -93,7 +94,7 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         key = "step.guide"
     elif step.action.key == "similar-point" and in_line(drawing, step):
         key = "step.similar-in-line"
-    elif step.action.key in SCALED and not drawing.scales.from_driver:
+    elif step.action.key in SCALED and step.name and not drawing.scales.from_driver:
         key += "-scaled"
     elif step.action.key == "acceleration-pole" and step.by_hand is None:
         key += "-pivot"
@@ -121,6 +122,9 @@ def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str
         fields["bar"] = bar(says["p"], says["q"])
     names = [drawing.trace.program.steps[arg].name for arg in step.args]
     match step.action.key:
+        case "ray" if "k" in says:
+            driver = next(d for d in drawing.scene.drivers if d.link == says["k"])
+            fields["angle"] = angle_symbol(drawing.scene, driver)
         case "turned-velocity":
             fields["vector"] = symbol(f"v_{says['q']}")
         case "centripetal":
@@ -158,7 +162,7 @@ def merged(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
     """Later right triangles said in one sentence, each point else in its own."""
     normals = [sentence for sentence in found if sentence.name == "ν"]
     rest = normals[1:]
-    if len(rest) < 2:
+    if not rest:
         return found
     tail = drawing.words("step.normals-again", list=", ".join(s.markup for s in rest))
     one = Sentence(rest[-1].step, "ν", tail)

@@ -94,7 +94,7 @@ def sense_head(centre: XY, radius: float, before: float, tip: float, cls: str) -
     return polygon(corners, f"arrowhead {cls}")
 
 
-def square_mark(corner: XY, first: XY, second: XY, size: float = 2.0) -> Mark:
+def square_mark(corner: XY, first: XY, second: XY, step: int | None, size: float = 2.0) -> Mark:
     """The small square that marks a right angle; the ways are unit vectors on the page."""
     (x, y), (a, b), (c, d) = corner, first, second
     points = (
@@ -102,7 +102,7 @@ def square_mark(corner: XY, first: XY, second: XY, size: float = 2.0) -> Mark:
         (x + size * (a + c), y + size * (b + d)),
         (x + size * c, y + size * d),
     )
-    return Polyline(points, "square-mark")
+    return Polyline(points, "square-mark", "", step)
 
 
 def bearing(way: XY) -> float:

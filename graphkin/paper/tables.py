@@ -32,7 +32,7 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, float, float]]:
     found = []
     for _, step, value in drawing.steps(drawing.plane):
         if step.arrow and isinstance(value, Vector):
-            size = abs(value.tip - value.tail)
+            size = drawing.settled(abs(value.tip - value.tail))
             found.append((step.says["symbol"], step.name, 1000 * size / scale, size))
     return found
 
@@ -55,11 +55,11 @@ def segment_markup(name: str) -> str:
 
 def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     """One row for each angular velocity or acceleration, with its sense."""
-    quantity, letter = ("omega", "ω") if drawing.kind == "velocity" else ("epsilon", "ε")
+    letter = "ω" if drawing.kind == "velocity" else "ε"
     words = drawing.words
     rows = []
     for link in drawing.scene.links:
-        value = drawing.trace.value(quantity, link)
+        value = drawing.turning(link)
         if value is None:
             continue
         cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))

@@ -52,7 +52,7 @@ def crank(pen: Pen, shapes: Shapes, group: Crank) -> None:
     start = pen.the("position", pivot)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         if line == (pivot, tip):
-            way = pen.draw(ray, start, turn, p=pivot)
+            way = pen.draw(ray, start, turn, p=pivot, k=group.link)
             length = shapes.length(group.link, pivot, tip)
             found = pen.draw(mark_off, way, length, name=tip, p=pivot, q=tip)
         else:

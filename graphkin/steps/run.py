@@ -93,7 +93,8 @@ def evaluate(
             margins[number] = step.action.margin(*args)
     except (ZeroDivisionError, ValueError, OverflowError) as reason:
         raise StepFailed(number, step, args) from reason
-    if isinstance(value, complex) and not is_finite(value):
+    whole = is_finite(value) if isinstance(value, complex) else True
+    if not whole or (isinstance(value, Line) and value.along == 0):
         raise StepFailed(number, step, args)
     return value
 

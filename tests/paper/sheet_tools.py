@@ -103,7 +103,7 @@ O2-B = 180
 turn = 1
 angle = 130
 speed = -9
-acceleration = 40
+acceleration = -40
 [branches]
 B = "left of A-O2"
 [ask]
@@ -216,6 +216,18 @@ class Drawn:
         """The labels of a field, details left out."""
         return [label for label in labels_of(self.marks[field]) if label.text.name]
 
+    def notes(self, field: str) -> str:
+        """What is said at the foot of a field."""
+        marks = self.marks[field]
+        return "; ".join(m.markup for m in marks if isinstance(m, Text) and m.name == "note")
+
+    def meaning(self, field: str, label: Labelled) -> str:
+        """What a label says, a key number taken for what the legend says of it."""
+        if not re.fullmatch(r"\d+\)", label.text.markup):
+            return label.text.markup
+        pieces = self.notes(field).split("; ")
+        return next(p for p in pieces if p.startswith(label.text.markup)).partition(" ")[2]
+
     def vectors(self, field: str) -> list[Line]:
         """The vectors of a field, details left out."""
         return [mark for mark in self.marks[field] if is_vector(mark)]
@@ -228,6 +240,11 @@ class Labelled:
     text: Text
     leader: Line | None = None
     ring: Circle | None = None
+
+    def names(self) -> list[str]:
+        """The names of what the label names: of several points where they fall together."""
+        shared = " ≡ " in self.text.markup
+        return self.text.name.split(" ") if shared else [self.text.name]
 
     def ink(self) -> BaseGeometry:
         """What the label takes up on the page."""
@@ -280,7 +297,8 @@ def drawn(
     layout, page = attempt(name, n, kind, view, language)
     if isinstance(page, PageError):
         raise page
-    return Drawn(drawing_of(name, n, kind, language), layout, page, fields_of(page, layout))
+    drawing = drawing_of(name, n, kind, language)
+    return Drawn(drawing, layout, page, fields_of(drawing, page))
 
 
 def both(name: str, n: int | None = None, view: str = "key", language: str = "en") -> list[Drawn]:
@@ -296,24 +314,21 @@ def calculations(
     return calculation(drawings(name, n, language), view)
 
 
-def fields_of(page: Page, layout: Layout) -> dict[str, tuple[Mark, ...]]:
-    """The marks of the mechanism's field and of the plan's; each begins with its headline."""
-    heads = [
-        next(
+def fields_of(drawing: Drawing, page: Page) -> dict[str, tuple[Mark, ...]]:
+    """The marks of the mechanism's field and of the plan's; each begins with its caption."""
+    heads = []
+    for field in ("mechanism", drawing.kind):
+        caption = drawing.words.sentences[f"page.{field}_heading"].partition("{")[0]
+        captions = (
             i
             for i, mark in enumerate(page.marks)
-            if isinstance(mark, Text)
-            and mark.cls == "caption"
-            and (mark.x, mark.y) == (rect[0] + 3, rect[1] + 4.5)
+            if isinstance(mark, Text) and mark.markup.startswith(caption) and mark.cls == "caption"
         )
-        for rect in (layout.mechanism.rect, layout.plan.rect)
-    ]
-    end = next(
-        i for i, mark in enumerate(page.marks) if i > heads[1] and mark.cls.split()[0] == "panel"
-    )
+        heads.append(next(captions))
+    panel = (i for i, mark in enumerate(page.marks) if i > heads[1] and mark.cls == "panel")
     return {
         "mechanism": page.marks[heads[0] + 1 : heads[1]],
-        "plan": page.marks[heads[1] + 1 : end],
+        "plan": page.marks[heads[1] + 1 : next(panel)],
     }
 
 
