@@ -33,7 +33,7 @@ def print_piston(motion: Solution) -> None:
 def print_links(motion: Solution) -> None:
     """Angular velocity and acceleration of every link, with their senses."""
     print(f"\n{'link':4} {'ω, rad/s':>9} {'sense':18} {'ε, rad/s²':>10} sense")
-    for name, link in motion.links.items():
+    for name, link in sorted(motion.links.items()):
         row = f"{name:4} {abs(link.omega):9.4f} {sense(link.omega):18}"
         print(f"{row} {abs(link.epsilon):10.4f} {sense(link.epsilon)}".rstrip())
 

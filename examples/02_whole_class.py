@@ -1,7 +1,9 @@
 """A whole class at once: the same construction on an array of student numbers.
 
 The last column is the flattest crossing of the drawing: where two lines cross at a small angle, a
-pencil finds their crossing badly. Run it with ``python examples/02_whole_class.py``.
+pencil finds their crossing badly. The lab is the pump with C at the middle of AB; in ``pump`` the
+flattest crossing is the corner C of its plate, the same for everyone.
+Run it with ``python examples/02_whole_class.py``.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ FAIR = 20.0
 
 def main() -> None:
     """Run all variants, print one row for each, and say which position is the hardest to draw."""
-    pump = graphkin.load("pump")
+    pump = graphkin.load("pump-collinear")
     students = np.arange(1, 31)
     motion = pump.batch(n=students, margins=True)
 

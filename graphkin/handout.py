@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from graphkin.errors import Problem, SceneError, WitnessError
 from graphkin.mechanism import Mechanism
+from graphkin.paper.areas import HEIGHT, WIDTH
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.layout import HEIGHT, WIDTH
-from graphkin.paper.marks import Page
 from graphkin.paper.scale import Scales, extent_of, fitting_scale, kept_scale, preferred
 from graphkin.steps.program import Target
 from graphkin.steps.solution import Solution, Verdict
 from graphkin.text import LANGUAGES, Words, words
+
+if TYPE_CHECKING:
+    from graphkin.paper.marks import Page
 
 LEAST_MARGIN = 1e-4
 """Sine of the flattest crossing with which a sheet is still handed out."""

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import PageError, Problem
+from graphkin.paper.areas import A4_AREA, A4_SIZE
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.frame import A4_AREA, A4_SIZE, page_frame
+from graphkin.paper.frame import page_frame
 from graphkin.paper.marks import Mark, Page, Text
 from graphkin.paper.relations import Relation, relations
 from graphkin.paper.richtext import escape, extent, flowed

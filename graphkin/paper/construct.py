@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from math import degrees, hypot
 from typing import Any
 
+from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing, place_of
-from graphkin.paper.field import XY, Field, Rect, clipped
+from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.layout import BEYOND, SWEEP, Layout
 from graphkin.paper.marks import Arc, Circle, Line

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from math import hypot
 from typing import Any
 
-from graphkin.paper.field import XY, Rect
+from graphkin.paper.areas import Rect
+from graphkin.paper.field import XY
 from graphkin.paper.labels import Board, Label, segments
 from graphkin.paper.marks import Circle, Line, Mark, Text, reach
 from graphkin.paper.symbols import SHORT, head

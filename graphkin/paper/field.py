@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-Rect = tuple[float, float, float, float]
+from graphkin.paper.areas import Rect
+
 XY = tuple[float, float]
 
 

@@ -8,10 +8,9 @@ from itertools import pairwise
 from math import floor
 
 from graphkin.errors import PageError, Problem
+from graphkin.paper.areas import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
 from graphkin.paper.marks import Anchor, Line, Mark, Text, box
 from graphkin.paper.richtext import escape, extent
-
-Rect = tuple[float, float, float, float]  # left, top, right, bottom in mm
 
 SIZES = {"A3": (420.0, 297.0), "A2": (594.0, 420.0)}
 FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
@@ -19,12 +18,6 @@ LETTERS = "ABCDEFGHJKLM"  # I and O are left out
 LEADING = 1.7  # distance of lines in heights of capitals
 ANCHORS: tuple[Anchor, Anchor] = ("start", "end")
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
-A3_AREA: Rect = (20.0, 10.0, 410.0, 287.0)  # inside the frame
-TITLE_WIDTH, TITLE_HEIGHT = 180.0, 36.0
-A3_TITLE_BLOCK: Rect = (230.0, 251.0, 410.0, 287.0)
-A4_SIZE = (210.0, 297.0)
-A4_FRAME: Rect = (20.0, 10.0, 200.0, 287.0)
-A4_AREA: Rect = (20.0, 18.0, 200.0, 279.0)  # between header and footer
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from math import ceil, cos, radians, sin
 
 from graphkin.errors import PageError, Problem
-from graphkin.paper.field import XY, Rect
+from graphkin.paper.areas import Rect
+from graphkin.paper.field import XY
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, reach
 from graphkin.paper.place import Spot, Wish, place
 from graphkin.paper.richtext import extent, flowed, plain

@@ -13,33 +13,17 @@ from math import degrees
 from typing import Any
 
 from graphkin.errors import PageError, Problem
+from graphkin.paper.areas import AREA, MARGIN, WIDTH, Rect
 from graphkin.paper.drawing import Drawing, place_of
-from graphkin.paper.field import Field, Rect
-from graphkin.paper.frame import A3_AREA, A3_TITLE_BLOCK
+from graphkin.paper.field import Field
 from graphkin.paper.scale import Extent
 from graphkin.plane import Circle, Line, Ratio
 from graphkin.steps.program import Part, Plane
 
-MARGIN = 15.0
-"""Room left and right of a drawing for symbols, ends of lines and labels, in mm."""
-ABOVE = 8.5
-"""Room above and below a drawing, in mm."""
-HEADER = 28.0
-"""Height of the title, the data and the fields' captions below the frame's upper edge, in mm."""
-FOOT = 201.0
-"""Where the tables below the drawings begin, in mm from the page's upper edge."""
 BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
 SWEEP = 7.0
 """Half the length of a compass arc drawn where it is needed, in mm."""
-
-AREA: Rect = (A3_AREA[0] + 2, A3_AREA[1] + HEADER, A3_AREA[2] - 2, FOOT)
-"""The part of the sheet for the mechanism and the plan side by side, below their captions."""
-WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
-BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
-"""The part for steps, tables and check bar."""
-TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)
-"""The table above the title block."""
 
 Spans = Mapping[int, tuple[float, float]]
 

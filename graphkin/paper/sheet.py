@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, mechanism
+from graphkin.paper.areas import A3_AREA, AREA, BELOW, TABLES, Rect
 from graphkin.paper.construct import Desk
 from graphkin.paper.data import given
 from graphkin.paper.detail import enlarged
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.field import Rect
-from graphkin.paper.frame import A3_AREA, TitleBlock, check_bar, sheet_frame
+from graphkin.paper.frame import TitleBlock, check_bar, sheet_frame
 from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
-from graphkin.paper.layout import AREA, BELOW, TABLES, Layout, lay_out
+from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.sentences import sentences

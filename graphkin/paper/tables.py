@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.field import Rect
 from graphkin.paper.marks import Line, Mark, Text, box
 from graphkin.paper.richtext import extent
 from graphkin.paper.symbolic import symbol

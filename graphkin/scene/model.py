@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from graphkin.scene.quantity import Quantity
 
@@ -21,8 +21,7 @@ Lengths = tuple[tuple[str, str, Quantity], ...]
 """Bars with their lengths, as (from, to, length)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(NamedTuple):
     """A number that a variant may change, with the range it may take."""
 
     name: str
@@ -32,8 +31,7 @@ class Parameter:
     step: Quantity | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class At:
+class At(NamedTuple):
     """``P = [x, y]``: a point by its coordinates in the link's axes."""
 
     point: str
@@ -45,8 +43,7 @@ class At:
         return ()
 
 
-@dataclass(frozen=True, slots=True)
-class Polar:
+class Polar(NamedTuple):
     """``P = {from, length, angle}``: so far from a point, at an angle to the link's x axis."""
 
     point: str
@@ -59,8 +56,7 @@ class Polar:
         return ((self.start, self.point, self.length),)
 
 
-@dataclass(frozen=True, slots=True)
-class Apart:
+class Apart(NamedTuple):
     """``P-Q = l`` for the link's first two points: Q at that distance along the x axis."""
 
     point: str
@@ -72,8 +68,7 @@ class Apart:
         return ((self.start, self.point, self.length),)
 
 
-@dataclass(frozen=True, slots=True)
-class Triangle:
+class Triangle(NamedTuple):
     """Two lengths and ``P = "left of A-B"``: side +1 left of the way from A to B, -1 right."""
 
     point: str
@@ -91,8 +86,7 @@ class Triangle:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class OnLine:
+class OnLine(NamedTuple):
     """``P = "on A-B"`` or ``"beyond B on A-B"``: at a distance from ``start`` along A to B.
 
     sense +1 steps from ``start`` the way from ``first`` to ``second``, -1 the other way.
@@ -110,8 +104,7 @@ class OnLine:
         return ((self.start, self.point, self.length),)
 
 
-@dataclass(frozen=True, slots=True)
-class Angled:
+class Angled(NamedTuple):
     """``P-Q-R`` with ``Q-R``: R at that distance from Q, turned counter-clockwise from QP."""
 
     point: str
@@ -128,8 +121,7 @@ class Angled:
 Placing = At | Polar | Apart | Triangle | OnLine | Angled
 
 
-@dataclass(frozen=True, slots=True)
-class Slide:
+class Slide(NamedTuple):
     """A block on a straight guide of link ``on``.
 
     The guide passes ``through`` a point of that link (a name, or coordinates) at an angle to its
@@ -145,8 +137,7 @@ class Slide:
     pin: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Wheel:
+class Wheel(NamedTuple):
     """A circle of a link about one of its points; ``inside`` for a ring with inner teeth."""
 
     centre: str
@@ -155,8 +146,7 @@ class Wheel:
     inside: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Rolling:
+class Rolling(NamedTuple):
     """A wheel that rolls without slip on a straight or circular track of link ``on``."""
 
     on: str
@@ -166,8 +156,7 @@ class Rolling:
     side: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Link:
+class Link(NamedTuple):
     """A rigid body: its points in the order written, how they are placed, what it slides on."""
 
     name: str
@@ -178,8 +167,7 @@ class Link:
     rolls: tuple[Rolling, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Driver:
+class Driver(NamedTuple):
     """A motion that is given: link ``link`` turns, slides or rolls ``against`` another.
 
     ``of`` names the line (from, to) of the link whose angle is meant; without it the link's x axis.
@@ -194,8 +182,7 @@ class Driver:
     of: tuple[str, str] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Side:
+class Side(NamedTuple):
     """``B = "right of A-O2"``: +1 left, -1 right of the way from ``first`` to ``second``."""
 
     first: str
@@ -203,15 +190,13 @@ class Side:
     side: int
 
 
-@dataclass(frozen=True, slots=True)
-class Way:
+class Way(NamedTuple):
     """``5 = "forward"``: +1 the larger, -1 the smaller slide coordinate of the two closures."""
 
     way: int
 
 
-@dataclass(frozen=True, slots=True)
-class Closure:
+class Closure(NamedTuple):
     """``2 = "closure 1"``: the number of a closure of a group of higher class."""
 
     number: int
@@ -220,8 +205,7 @@ class Closure:
 Branch = Side | Way | Closure
 
 
-@dataclass(frozen=True, slots=True)
-class Ask:
+class Ask(NamedTuple):
     """What is asked of the mechanism; points may be written ``A@3``."""
 
     velocity: tuple[str, ...] = ()
@@ -234,8 +218,7 @@ class Ask:
     slides: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Sheet:
+class Sheet(NamedTuple):
     """What the title block and the page say beyond the drawing."""
 
     owner: str = ""

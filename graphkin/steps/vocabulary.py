@@ -227,7 +227,7 @@ def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> 
 def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Point:
     """Normal component of a pin's acceleration about a pivot: v·(v/l), from pin to pivot (Rivals).
 
-    The product is taken in this order so that no square overflows; 2·eps relative.
+    The product is taken in this order so that no square overflows; 4·eps relative.
     """
     bar = pivot - pin
     length = abs(bar)

@@ -332,6 +332,11 @@ def fields_of(drawing: Drawing, page: Page) -> dict[str, tuple[Mark, ...]]:
     }
 
 
+def named(param: Sequence[object]) -> str:
+    """The name of a sheet in the list of tests."""
+    return "-".join(str(part) for part in param if part is not None)
+
+
 # --- marks ---------------------------------------------------------------------------------------
 
 

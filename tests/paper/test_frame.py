@@ -1,15 +1,8 @@
 import pytest
 
 from graphkin.errors import PageError
-from graphkin.paper.frame import (
-    A3_AREA,
-    A3_TITLE_BLOCK,
-    A4_AREA,
-    TitleBlock,
-    check_bar,
-    page_frame,
-    sheet_frame,
-)
+from graphkin.paper.areas import A3_AREA, A3_TITLE_BLOCK, A4_AREA
+from graphkin.paper.frame import TitleBlock, check_bar, page_frame, sheet_frame
 from graphkin.paper.marks import Line, Page, Polyline, Text, reach
 from graphkin.paper.richtext import plain
 

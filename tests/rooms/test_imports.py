@@ -43,7 +43,8 @@ TABLE: dict[str, set[str]] = {
     "handout": {"scene", "steps", "text", "paper", "mechanism", "witness"},
     "effects": NUMERIC,
     "closures": NUMERIC,
-    "report": NUMERIC | {"paper.scale"},
+    "report": NUMERIC | {"effects", "closures", "paper.scale"},
+    "console": set(),
     "__init__": {"mechanism"},
     "__main__": {"cli"},
 }

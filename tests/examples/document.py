@@ -1,0 +1,100 @@
+"""Reading the Markdown pages: fenced blocks by heading, and parts put into a whole scene."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples"
+SCENES_PAGE = EXAMPLES / "SCENES.md"
+README = ROOT / "README.md"
+FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+ROW = re.compile(r"^\| (\d+) \| (.+) \| `(.+)` \|$", re.MULTILINE)
+CODE = re.compile(r"`([^`]+)`")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block: the heading above it, its language, its line and its text."""
+
+    heading: str
+    language: str
+    line: int
+    text: str
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A row of the table of mistakes: its number, the part written, the message."""
+
+    number: int
+    part: str
+    message: str
+
+
+def blocks(page: Path, language: str) -> list[Block]:
+    """The fenced blocks of a page in one language."""
+    text = page.read_text(encoding="utf-8")
+    return [
+        Block(heading_above(text[: found.start()]), found[1], line_of(text, found), found[2])
+        for found in FENCE.finditer(text)
+        if found[1] == language
+    ]
+
+
+def heading_above(text: str) -> str:
+    """The last heading of a text."""
+    return re.findall(r"^#+ (.+)$", text, re.MULTILINE)[-1]
+
+
+def line_of(text: str, found: re.Match[str]) -> int:
+    """The line on which a block begins, counted from one."""
+    return text.count("\n", 0, found.start()) + 1
+
+
+def mistakes(page: Path) -> list[Mistake]:
+    """The rows of the table of mistakes; each piece of code in the second column is a line."""
+    rows = ROW.findall(page.read_text(encoding="utf-8"))
+    return [
+        Mistake(int(number), "\n".join(CODE.findall(part)), said) for number, part, said in rows
+    ]
+
+
+def with_part(whole: str, part: str) -> str:
+    """A scene with a part of it in place of what has the same headings."""
+    top, sections = divided(whole)
+    new_top, new_sections = divided(part)
+    keys = {key_of(line) for line in new_top.splitlines()} - {""}
+    kept = "".join(f"{line}\n" for line in top.splitlines() if key_of(line) not in keys)
+    for name, text in sections.items():
+        kept += new_sections.pop(name, text)
+    lines = kept.splitlines()
+    head = [line for line in new_top.splitlines() if line.strip()]
+    return "\n".join([*lines[:1], *head, *lines[1:], *new_sections.values()]) + "\n"
+
+
+def divided(text: str) -> tuple[str, dict[str, str]]:
+    """The lines before the first heading, and each section by the name in its brackets."""
+    top, *rest = re.split(r"^(?=\[)", text, flags=re.MULTILINE)
+    sections: dict[str, str] = {}
+    for section in rest:
+        name = section.partition("]")[0].strip("[")
+        sections[name] = sections.get(name, "") + section.rstrip() + "\n\n"
+    return top, sections
+
+
+def key_of(line: str) -> str:
+    """The key of a line such as ``time = 2``; empty for a comment or an empty line."""
+    key, equals, _ = line.partition("=")
+    return key.strip() if equals and not line.startswith("#") else ""
+
+
+def commands(page: Path) -> Iterator[tuple[str, str]]:
+    """Each command of a console block, and what it answers."""
+    for block in blocks(page, "console"):
+        for piece in block.text.split("$ ")[1:]:
+            command, _, answer = piece.partition("\n")
+            yield command, answer

@@ -1,0 +1,229 @@
+"""What a newcomer reads and runs, run: scripts, scenes, and every block of the two pages."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+import graphkin
+from graphkin.cli import app
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read import read_text
+from tests.examples.document import (
+    EXAMPLES,
+    README,
+    ROOT,
+    SCENES_PAGE,
+    Block,
+    Mistake,
+    blocks,
+    commands,
+    mistakes,
+    with_part,
+)
+
+SCRIPTS = sorted(EXAMPLES.glob("[0-9][0-9]_*.py"))
+SCENES = sorted((EXAMPLES / "scenes").glob("*.toml"))
+WHOLE, *PARTS = blocks(SCENES_PAGE, "toml")
+READ_ONLY = "Read, not constructed yet"
+DOCUMENTS = (
+    "velocity-{}.svg",
+    "velocity-{}.pdf",
+    "acceleration-{}.svg",
+    "acceleration-{}.pdf",
+    "calculation-{}.pdf",
+)
+
+
+def named(path: Path) -> str:
+    """The name of a file as the name of a test."""
+    return path.stem
+
+
+def run(*args: object) -> Result:
+    """Run a command in this process."""
+    return CliRunner().invoke(app, [str(arg) for arg in args])
+
+
+def python(folder: Path, *args: str) -> str:
+    """What a process of Python says, run in a folder, its warnings being errors."""
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"}
+    surroundings["TMPDIR"] = surroundings["TEMP"] = str(folder)
+    ran = subprocess.run(
+        [sys.executable, "-W", "error", *args],
+        cwd=folder,
+        env=surroundings,
+        capture_output=True,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stderr.decode("utf-8")
+    assert not ran.stderr
+    return ran.stdout.decode("utf-8")
+
+
+def my_scene(folder: Path, part: str = "") -> Path:
+    """The page's whole scene with a part of it written otherwise, as my.toml."""
+    path = folder / "my.toml"
+    path.write_text(with_part(WHOLE.text, part), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=named)
+def test_a_script_runs_and_has_something_to_show(script: Path, tmp_path: Path) -> None:
+    said = python(tmp_path, str(script))
+    assert len(said.splitlines()) >= 10
+    assert "nan" not in said.lower()
+    assert "False" not in said
+
+
+def test_there_are_scripts_and_scenes_to_test() -> None:
+    assert len(SCRIPTS) == 4
+    assert len(SCENES) == 4
+
+
+def test_sheets_go_into_the_folder_that_is_named(tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    said = python(tmp_path, str(EXAMPLES / "03_sheets.py"), str(folder))
+    written = sorted(path.name for path in folder.iterdir())
+    assert [name for name in written if name not in said] == []
+    assert written == sorted(
+        f"pump-n{n}-{document.format(view)}"
+        for n in (7, 8)
+        for view in ("task", "key")
+        for document in DOCUMENTS
+    )
+
+
+def test_the_textbook_is_met(tmp_path: Path) -> None:
+    said = python(tmp_path, str(EXAMPLES / "04_own_scene.py"))
+    off = [float(percent) for percent in re.findall(r"(\S+)%", said)]
+    assert len(off) == 4
+    assert max(off) < 3  # the book's values were read from a drawing
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=named)
+def test_a_scene_is_right_by_both_routes(scene: Path) -> None:
+    mechanism = graphkin.load(scene)
+    assert mechanism.witness(mechanism.solve()).agrees
+    assert run("check", scene).exit_code == 0
+
+
+@pytest.mark.parametrize("language", ["en", "ro"])
+@pytest.mark.parametrize("view", ["task", "key"])
+@pytest.mark.parametrize("scene", SCENES, ids=named)
+def test_a_scene_gives_its_sheets(scene: Path, view: str, language: str, tmp_path: Path) -> None:
+    result = run("sheet", scene, "-o", tmp_path, "--view", view, "--lang", language)
+    assert result.exit_code == 0, result.stderr
+    expected = {f"{scene.stem}-{document.format(view)}" for document in DOCUMENTS}
+    assert {path.name for path in tmp_path.iterdir()} == expected
+
+
+def test_the_scene_of_the_readme_is_read_solved_and_drawn(tmp_path: Path) -> None:
+    (block,) = blocks(README, "toml")
+    path = tmp_path / "my.toml"
+    path.write_text(block.text, encoding="utf-8")
+    assert run("check", path).exit_code == 0
+    result = run("sheet", path, "-o", tmp_path)
+    assert result.exit_code == 0, result.stderr
+    shipped = tomllib.loads((EXAMPLES / "scenes/offset-slider-crank.toml").read_text("utf-8"))
+    assert tomllib.loads(block.text) == shipped
+
+
+def test_the_python_of_the_readme_prints_what_it_says(tmp_path: Path) -> None:
+    (block,) = blocks(README, "python")
+    said = python(tmp_path, "-c", block.text).splitlines()
+    told = re.findall(r"^print\(.*?\)\s+# (.+)$", block.text, re.MULTILINE)
+    for line, comment in zip(said, told, strict=False):
+        for number in re.findall(r"-?\d+\.\d+|True", comment):
+            assert number in line
+
+
+def test_the_whole_scene_of_the_page_solves() -> None:
+    mechanism = Mechanism(read_text(WHOLE.text, "my"))
+    assert mechanism.witness(mechanism.solve()).agrees
+
+
+@pytest.mark.parametrize("block", PARTS, ids=lambda block: f"line {block.line}")
+def test_a_part_on_the_page_fits_into_its_scene(block: Block) -> None:
+    scene = read_text(with_part(WHOLE.text, block.text), "my")
+    if block.heading != READ_ONLY:
+        mechanism = Mechanism(scene)
+        assert mechanism.witness(mechanism.solve()).agrees
+
+
+def test_a_part_replaces_what_has_its_heading() -> None:
+    text = with_part(
+        WHOLE.text, 'time = 2\n[[drivers]]\nturn = 1\nangle = "30*t"\n[titles]\nen="x"'
+    )
+    before, after = tomllib.loads(WHOLE.text), tomllib.loads(text)
+    assert after == before | {
+        "time": 2,
+        "drivers": [{"turn": 1, "angle": "30*t"}],
+        "titles": {"en": "x"},
+    }
+
+
+@pytest.mark.parametrize("mistake", mistakes(SCENES_PAGE), ids=lambda each: str(each.number))
+def test_a_mistake_gives_the_message_on_the_page(mistake: Mistake, tmp_path: Path) -> None:
+    result = run("check", my_scene(tmp_path, mistake.part))
+    assert result.exit_code == 2
+    assert without_steps(result.stderr) == without_steps(f"graphkin: {mistake.message}\n")
+
+
+def test_there_are_ten_mistakes() -> None:
+    assert [each.number for each in mistakes(SCENES_PAGE)] == list(range(1, 11))
+
+
+def without_steps(text: str) -> str:
+    """A message without the number of a step, which depends on what else is constructed."""
+    return re.sub(r"step \d+", "step …", text)
+
+
+def test_commands_on_the_page_answer_as_it_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    my_scene(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    told = list(commands(SCENES_PAGE))
+    assert told
+    for command, answer in told:
+        assert run(*command.split()[1:]).output == answer
+
+
+def test_what_check_shows_on_the_page_is_what_it_shows(tmp_path: Path) -> None:
+    said = run("check", my_scene(tmp_path)).stdout
+    shown = blocks(SCENES_PAGE, "text")
+    assert shown
+    for block in shown:
+        assert block.text in said
+
+
+def test_a_scale_is_real_over_drawn_and_one_that_does_not_fit_is_refused(tmp_path: Path) -> None:
+    text = (EXAMPLES / "scenes/engine.toml").read_text("utf-8")
+    path = tmp_path / "engine.toml"
+    path.write_text(f"{text}\n[sheet]\nscale = 10\n", encoding="utf-8")
+    result = run("sheet", path, "-o", tmp_path / "out")
+    assert result.exit_code == 0, result.stderr
+    assert "1:10" in (tmp_path / "out/engine-velocity-key.svg").read_text("utf-8")
+    path.write_text(f"{text}\n[sheet]\nscale = 2\n", encoding="utf-8")
+    assert run("sheet", path, "-o", tmp_path / "none").exit_code == 2
+
+
+def test_links_on_the_page_lead_somewhere() -> None:
+    text = SCENES_PAGE.read_text(encoding="utf-8")
+    headings = {
+        re.sub(r"[^\w\- ]", "", title).lower().replace(" ", "-")
+        for title in re.findall(r"^## (.+)$", text, re.MULTILINE)
+    }
+    for target in re.findall(r"\]\(([^)]+)\)", text):
+        if target.startswith("#"):
+            assert target[1:] in headings
+        elif "://" not in target:
+            assert (EXAMPLES / target).exists()
