@@ -43,6 +43,10 @@ def hand_out(mechanism: Mechanism, view: str = "key", language: str | None = Non
     from graphkin.paper.sheet import sheet
 
     spoken = language_of(mechanism, language)
+    if mechanism.scene.sheet.sheets != len(WANTED):
+        raise SceneError(
+            Problem("sheet.sheets", "one sheet for both plans is not drawn yet", "2, or left out")
+        )
     verdict = proved(mechanism, mechanism.solve())
     drawings = drawings_of(mechanism, verdict, spoken)
     total = len(drawings)
@@ -90,11 +94,16 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
 def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[Drawing]:
     """The material of each sheet, all at the same scale."""
     chosen = scales(mechanism)
-    return [
+    drawings = [
         drawing(mechanism, kind, found, chosen, verdict, spoken)
         for kind in WANTED
         if (found := targets_of(mechanism, kind))
     ]
+    if not drawings:
+        raise SceneError(
+            Problem("ask", "asks for nothing that is drawn", "velocities, accelerations, centres …")
+        )
+    return drawings
 
 
 def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
@@ -112,12 +121,13 @@ def scales(mechanism: Mechanism) -> Scales:
     seconds = 1 / crank if crank else natural_seconds(mechanism)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     needs = []
-    for kind in WANTED:
-        if found := targets_of(mechanism, kind):
+    asked = {kind: targets_of(mechanism, kind) for kind in WANTED}
+    if not any(asked.values()):
+        asked = {kind: tuple(mechanism.program.targets) for kind in WANTED}
+    for kind, found in asked.items():
+        if found:
             trial = drawing(mechanism, kind, found, Scales(1.0, seconds), nobody, words("en"))
             needs.append((trial.mechanism_extent(), trial.plan_extent()))
-    if not needs:
-        raise SceneError(Problem("ask", "asks for nothing that can be drawn", "a velocity or more"))
     kL = fitting_scale(needs, WIDTH, HEIGHT)
     if mechanism.scene.sheet.scale is not None:
         kL = kept_scale(float(mechanism.scene.sheet.scale.number(mechanism.scene.values)), kL)

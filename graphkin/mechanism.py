@@ -10,6 +10,7 @@ from typing import Any
 
 from graphkin import labs
 from graphkin.arithmetic import FLOAT, batch_kind
+from graphkin.errors import Problem, StructureError
 from graphkin.plane import Ratio
 from graphkin.plans.compile import write
 from graphkin.scene.model import Scene
@@ -51,6 +52,7 @@ class Mechanism:
     def asked(self) -> tuple[Target, ...]:
         """What the scene asks for, as targets of the program; everything when it asks nothing."""
         ask = self.scene.ask
+        refuse_unconstructed(self.scene)
         wanted = [("velocity", point_of(name)) for name in ask.velocity]
         wanted += [("acceleration", point_of(name)) for name in ask.acceleration]
         wanted += [("omega", link) for link in ask.omega]
@@ -90,7 +92,7 @@ class Mechanism:
     def solve(self, *, asked: bool = False) -> Solution:
         """The motion of every point and link, or only what the scene asks for."""
         trace = self.trace(self.asked() if asked else None)
-        return gathered(trace)
+        return gathered(trace, self.scene.links)
 
     def witness(self, solution: Solution) -> Verdict:
         """The judgement of the independent route on a solution of this scene."""
@@ -118,12 +120,27 @@ class Mechanism:
                 values = dict(self.scene.values)
                 values |= {name: array[start : start + BLOCK] for name, array in given.items()}
                 blocks.append(run_batch(self.program, needed, values, kind, keep, margins=margins))
-        return gathered(joined(blocks))
+        return gathered(joined(blocks), self.scene.links)
 
 
 def point_of(name: str) -> str:
-    """The point of a name such as A@3, the point of link 3 under A."""
+    """The point of a name such as A@3 where link 3 owns A."""
     return name.partition("@")[0]
+
+
+def refuse_unconstructed(scene: Scene) -> None:
+    """Raise StructureError for everything asked that this version reads but does not construct."""
+    ask, problems = scene.ask, []
+    for key, names in (("velocity", ask.velocity), ("acceleration", ask.acceleration)):
+        for name in names:
+            point, _, link = name.partition("@")
+            if link and point not in scene.link(link).points:
+                found = f"{name}, the point of link {link} under {point}, is not constructed yet"
+                problems.append(Problem(f"ask.{key}", found, f"a point that link {link} owns"))
+    if ask.centrodes:
+        problems.append(Problem("ask.centrodes", "centrodes are not constructed yet", "centres"))
+    if problems:
+        raise StructureError(problems)
 
 
 def joined(blocks: list[Trace]) -> Trace:

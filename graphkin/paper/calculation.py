@@ -57,6 +57,8 @@ def all_rows(drawings: Sequence[Drawing], *, solved: bool) -> Iterator[Row]:
 def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> Iterator[Row]:
     """A relation in as many lines as it needs, its number beside the last."""
     parts = relation.parts(solved=solved)
+    if not relation.result:
+        parts = [word for part in parts for word in part.split(" ")]
     if relation.result and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {'. ' * 14}{relation.unit}".rstrip()]
     lines = flowed(parts, "", RIGHT - LEFT - NUMBER, LETTER)

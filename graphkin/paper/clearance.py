@@ -2,137 +2,51 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
-Mask = NDArray[np.bool_]
-Box = tuple[float, float, float, float]
-TINY = 1e-9  # mm
-NOWHERE = 1e9  # mm, where that is which has no place
+from graphkin.paper.candidates import (
+    NOWHERE,
+    TINY,
+    Array,
+    Blots,
+    Box,
+    Index,
+    Mask,
+    Shapes,
+    Subjects,
+    Tries,
+    cosines,
+    crossings,
+    distance,
+    distance_cost,
+    joined,
+    leaders,
+    merged,
+    rectangles,
+    segments,
+    separation,
+)
 
+AHEAD = 3  # how many places of a label are compared with all others at one go
 PAD = 0.6  # mm between a label and a taken box, a point, a leader or a label above or below it
 BESIDE = 1.2  # mm between labels side by side, so that they do not read as one
+APART = np.array([[BESIDE], [PAD]])
 OWN = 0.4  # mm within which a drawn line is taken for the subject itself
 ROOM = 1.4  # mm of air around a label beyond which more is no better
-LEADER = 2.5  # what a leader costs; all costs are in mm of distance
+LEADER = np.array([6.0, 3.6])  # what one costs to a point and to a segment; costs are in mm
 CROSSING = 0.9  # a line that a leader crosses
 SKIRT = 2.5  # a line that a leader runs along
 AIR = 0.7  # each mm of air that is missing
-OFF_MIDDLE = 4.0  # a segment's label at the segment's end
 
 # Kinds of shapes; how far (mm) each should be beyond a label's own subject, and the cost of each
 # mm that is missing, for the labels of points and of segments.
 LINE, BOX, DOT, CORE = range(4)
 MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
 WEIGHT = np.array([[0.4, 0.0, 1.5, 0.5], [1.1, 0.0, 0.7, 1.5]])
-
-
-class Shapes(NamedTuple):
-    """Segments, points and upright rectangles in one form, lengths in mm."""
-
-    x: Array  # centre
-    y: Array
-    ex: Array  # half extents
-    ey: Array
-    nx: Array  # unit normal of a segment, zero for the others
-    ny: Array
-    slack: Array  # takes the test across the normal out where there is none
-
-    def take(self, which: Index | Mask) -> Shapes:
-        """Return some of the shapes."""
-        return Shapes(*(column[which] for column in self))
-
-    def upright(self) -> Shapes:
-        """Return the shapes as columns, for arrays with a row for each."""
-        return Shapes(*(column[:, None] for column in self))
-
-
-def segments(ends: ArrayLike) -> Shapes:
-    """Return segments given as rows x0, y0, x1, y1 in mm; one without length is a point."""
-    x0, y0, x1, y1 = np.asarray(ends, dtype=np.float64).reshape(-1, 4).T
-    dx, dy = x1 - x0, y1 - y0
-    length = np.sqrt(dx * dx + dy * dy)
-    none = length < TINY
-    scale = np.where(none, 0.0, 1.0 / np.where(none, 1.0, length))
-    slack = np.where(none, NOWHERE, 0.0)
-    half = np.abs(dx) / 2, np.abs(dy) / 2
-    return Shapes((x0 + x1) / 2, (y0 + y1) / 2, *half, -dy * scale, dx * scale, slack)
-
-
-def rectangles(boxes: ArrayLike) -> Shapes:
-    """Return rectangles given as rows xmin, ymin, xmax, ymax in mm."""
-    x0, y0, x1, y1 = np.asarray(boxes, dtype=np.float64).reshape(-1, 4).T
-    zero = np.zeros_like(x0)
-    half = np.abs(x1 - x0) / 2, np.abs(y1 - y0) / 2
-    return Shapes((x0 + x1) / 2, (y0 + y1) / 2, *half, zero, zero, zero + NOWHERE)
-
-
-def joined(*parts: Shapes) -> Shapes:
-    """Return the shapes of several sets as one set."""
-    return Shapes(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
-
-
-def separation(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array:
-    """Return a length in mm never above the distance of boxes from shapes, below 0 if they meet.
-
-    The boxes have centre x, y and half extents hx, hy; all arguments broadcast. It is the largest
-    gap along x, along y or across a segment: short of the distance only between corners.
-    """
-    dx, dy = other.x - x, other.y - y
-    across = other.nx * dx
-    across += other.ny * dy
-    np.abs(across, out=across)
-    across -= hx * np.abs(other.nx) + hy * np.abs(other.ny) + other.slack
-    np.maximum(across, np.abs(dx) - (other.ex + hx), out=across)
-    return np.maximum(across, np.abs(dy) - (other.ey + hy), out=across)
-
-
-def distance(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array:
-    """Return the same as `separation`, but the distance itself at the corners too."""
-    dx = np.maximum(np.abs(other.x - x) - (other.ex + hx), 0.0)
-    dy = np.maximum(np.abs(other.y - y) - (other.ey + hy), 0.0)
-    return np.asarray(np.maximum(np.sqrt(dx * dx + dy * dy), separation(x, y, hx, hy, other)))
-
-
-def meetings(one: Array, other: Array) -> tuple[Mask, Array]:
-    """Return where segments cross and the cosines between them; rows x0, y0, x1, y1 broadcast."""
-    ux, uy = one[..., 2] - one[..., 0], one[..., 3] - one[..., 1]
-    vx, vy = other[..., 2] - other[..., 0], other[..., 3] - other[..., 1]
-    gx, gy = other[..., 0] - one[..., 0], other[..., 1] - one[..., 1]
-    turn = ux * vy - uy * vx
-    size, sign = np.abs(turn), np.sign(turn)
-    s, t = (gx * vy - gy * vx) * sign, (gx * uy - gy * ux) * sign
-    hit = (size > 0) & (s >= 0) & (s <= size) & (t >= 0) & (t <= size)
-    lengths = np.sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))
-    return hit, (ux * vx + uy * vy) / np.maximum(lengths, TINY)
-
-
-class Subjects(NamedTuple):
-    """The subjects of labels and the labels' sizes as arrays, a row for each; mm."""
-
-    ends: Array  # x0, y0, x1, y1
-    half: Array  # half extents of the label
-    gap: Array
-    radius: Array
-    lean: Array  # preferred direction times the cost of a place square to it
-    line: Mask  # the subject is a segment, not a point
-
-    def take(self, which: Index) -> Subjects:
-        """Return some of the subjects."""
-        ends, half, gap, radius, lean = (column[which] for column in self[:5])
-        return Subjects(ends, half, gap, radius, lean, self.line[which])
-
-
-class Tries(NamedTuple):
-    """Candidate places, a row for each subject and a column for each candidate; mm."""
-
-    centre: Array  # of the label, (n, k, 2)
-    toward: Array  # unit direction from the subject to the label, (n, k, 2)
-    root: Array  # the place on the subject that is meant, (n, k, 2)
 
 
 class Places(NamedTuple):
@@ -146,33 +60,65 @@ class Places(NamedTuple):
     cost: Array
     leader: Array  # x0, y0 at the label, x1, y1 at the subject
 
+    def take(self, which: Index) -> Places:
+        """Return some of the places."""
+        x, y, hx, hy, cost, leader = (column[which] for column in self[1:])
+        return Places(self.label[which], x, y, hx, hy, cost, leader)
+
 
 class Clashes:
     """Which places rule each other out, found when first asked for."""
 
     def __init__(self, places: Places) -> None:
-        self.places = places
-        self.led = np.flatnonzero(places.leader[:, 0] < NOWHERE)
-        self.path = segments(places.leader[self.led])
+        leader = places.leader
+        self.places, self.led = places, leader[:, 0] < NOWHERE
+        self.path = np.stack(segments(leader))
+        self.box = np.stack(places[1:5])
+        middle, half = self.box[:2], self.box[2:]
+        end = np.where(self.led, leader.T[2:], middle)
+        low, high = np.minimum(middle - half, end), np.maximum(middle + half, end)
+        self.extent = np.concatenate([(low + high) / 2, (high - low) / 2])
+        self.end = np.searchsorted(places.label, places.label, side="right").tolist()
         self.known: dict[int, Mask] = {}
 
     def of(self, k: int) -> Mask:
         """Return which places the place k rules out if a label sits there."""
         if k not in self.known:
-            self.known[k] = self._found(k)
+            self.find(j for j in range(k, min(k + AHEAD, self.end[k])) if j not in self.known)
         return self.known[k]
 
-    def _found(self, k: int) -> Mask:
-        """Compare a place with all others."""
-        label, x, y, hx, hy, _, leader = self.places
-        clash = np.abs(x - x[k]) < hx + (hx[k] + BESIDE)
-        clash &= np.abs(y - y[k]) < hy + (hy[k] + PAD)
-        if len(self.led):
-            clash[self.led] |= separation(x[k], y[k], hx[k], hy[k], self.path) < PAD
-            if leader[k, 0] < NOWHERE:
-                clash |= separation(x, y, hx, hy, segments(leader[k])) < PAD
-                clash[self.led] |= meetings(leader[k], leader[self.led])[0]
-        return np.asarray(clash & (label != label[k]))
+    def find(self, which: Iterable[int]) -> None:
+        """Compare some places with all others, at one go."""
+        ks = np.fromiter(which, dtype=np.intp)
+        self.known.update(zip(ks.tolist(), self._found(ks), strict=True))
+
+    def _found(self, ks: Index) -> Mask:
+        """Compare some places with all others: first their extents, then what meets there."""
+        label, (mx, my, ex, ey) = self.places.label, self.extent
+        near = np.abs(mx - mx[ks, None]) < ex + (ex[ks, None] + BESIDE)
+        near &= np.abs(my - my[ks, None]) < ey + (ey[ks, None] + PAD)
+        near &= label != label[ks, None]
+        row, there = near.nonzero()
+        near[row, there] = self._meet(ks[row], there)
+        return np.asarray(near)
+
+    def _meet(self, one: Index, other: Index) -> Mask:
+        """Return which pairs of places meet: their boxes, a box and a leader, or two leaders."""
+        here, there = self.box.take(one, axis=1), self.box.take(other, axis=1)
+        inside = np.abs(here[:2] - there[:2]) < here[2:] + there[2:] + APART
+        clash = np.asarray(inside[0] & inside[1])
+        led, back = self.led[other].nonzero()[0], self.led[one].nonzero()[0]
+        if len(led) or len(back):
+            box = np.concatenate([one[led], other[back]])
+            path = np.concatenate([other[led], one[back]])
+            shapes = Shapes(*self.path.take(path, axis=1))
+            x, y, hx, hy = self.box.take(box, axis=1)
+            hit = separation(x, y, hx, hy, shapes) < PAD
+            clash[np.concatenate([led, back])[hit]] = True
+            both = led[self.led[one[led]]]
+            leader = self.places.leader
+            clash[both] |= crossings(leader[one[both]], leader[other[both]])
+        return clash
 
 
 class Pairs(NamedTuple):
@@ -191,54 +137,83 @@ class Page:
         self, subjects: Subjects, lines: ArrayLike, boxes: ArrayLike, field: Box, stroke: ArrayLike
     ) -> None:
         drawn, taken = (np.asarray(a, dtype=np.float64).reshape(-1, 4) for a in (lines, boxes))
+        if not all(np.isfinite(ends).all() for ends in (drawn, taken, subjects.ends)):
+            raise ValueError("a line, a box or a subject of a label is not finite")
+        clear = np.broadcast_to(np.asarray(stroke, dtype=np.float64), len(drawn))
+        drawn, clear = merged(drawn, clear)
         start, end = subjects.ends[:, :2], subjects.ends[:, 2:]
         core = np.concatenate([start + (end - start) / 6, end - (end - start) / 6], axis=1)
         self.subjects, self.field = subjects, field
         self.ends = np.concatenate([drawn, taken, core])
-        if not np.isfinite(self.ends).all():
-            raise ValueError("a line, a box or a subject of a label is not finite")
         self.shapes = joined(segments(drawn), rectangles(taken), segments(core))
         kinds = [np.full(len(drawn), LINE), np.full(len(taken), BOX)]
         self.kind = np.concatenate([*kinds, np.where(subjects.line, CORE, DOT)])
         keep = np.where(subjects.line, -NOWHERE, subjects.radius + PAD)
-        clear = np.broadcast_to(np.asarray(stroke, dtype=np.float64), len(drawn))
         self.clear = np.concatenate([clear, np.full(len(taken), PAD), keep])
+        self.blots = Blots(drawn, field, 0.7 * float(clear.min(initial=PAD)))
         self.reach = np.maximum(self.clear, np.where(self.kind < DOT, ROOM, 2 * ROOM))
 
-    def places(self, which: Index, some: Tries, led: bool) -> Places:
+    def places(self, which: Index, some: Tries, span: slice, led: bool) -> Places:
         """Return the free ones among the candidates of some labels, with leaders or without."""
+        which, some, own, cost = self._promising(which, some, span)
+        if not len(which):
+            return NO_PLACES
         subjects = self.subjects.take(which)
         (x, y), (hx, hy) = np.moveaxis(some.centre, 2, 0), subjects.half.T[:, :, None]
-        own = distance(x, y, hx, hy, segments(subjects.ends).upright())
-        own -= subjects.radius[:, None]
         pairs = self._pairs(subjects, some)
         row, near = pairs.row, self.shapes.take(pairs.shape).upright()
         apart = separation(x[row], y[row], hx[row], hy[row], near)
         itself = pairs.shape == which[row] + len(self.kind) - len(self.subjects.gap)
         hard = np.where(itself, -NOWHERE, self.clear[pairs.shape])
-        free = ~np.logical_or.reduceat(apart < hard[:, None], pairs.start)
-        free &= (x - hx >= self.field[0]) & (x + hx <= self.field[2])
-        free &= (y - hy >= self.field[1]) & (y + hy <= self.field[3])
-        free &= own >= subjects.gap[:, None] - TINY
-        leader = _leaders(some, subjects) if led else np.full((*x.shape, 4), NOWHERE)
-        cost = np.where(free, distance_cost(some, own, subjects), np.inf)
+        cost[np.logical_or.reduceat(apart < hard[:, None], pairs.start)] = np.inf
         if led:
-            for i, part in enumerate(np.split(np.arange(len(row)), pairs.start[1:])):
-                toll = self._toll(leader[i, free[i]], pairs.shape[part], pairs.own[part])
-                cost[i, free[i]] += toll
+            leader = leaders(some, subjects)
+            cost += LEADER[subjects.line.astype(int), None]
+            cost += self._toll(leader, cost < np.inf, pairs)
         else:
+            leader = np.full((*x.shape, 4), NOWHERE)
             cost += self._doubt(subjects, own, apart, pairs)
-        at = np.nonzero(np.isfinite(cost))
+        at = np.nonzero(cost < np.inf)
         hx, hy = subjects.half[at[0]].T
         return Places(which[at[0]], x[at], y[at], hx, hy, cost[at], leader[at])
+
+    def _promising(
+        self, which: Index, some: Tries, span: slice
+    ) -> tuple[Index, Tries, Array, Array]:
+        """Return labels, their nearest candidates, not surely taken, how far these are, the cost.
+
+        A label without any is left out; one with few has infinite costs at the end of its row.
+        """
+        subjects = self.subjects.take(which)
+        (x, y), (hx, hy) = np.moveaxis(some.centre, 2, 0), subjects.half.T[:, :, None]
+        own = distance(x, y, hx, hy, segments(subjects.ends).upright())
+        own -= subjects.radius[:, None]
+        free = own >= subjects.gap[:, None] - TINY
+        free &= (x - hx >= self.field[0]) & (x + hx <= self.field[2])
+        free &= (y - hy >= self.field[1]) & (y + hy <= self.field[3])
+        free &= ~self.blots.hit(x, y, hx, hy)
+        cost = np.where(free, distance_cost(some, own, subjects), np.inf)
+        count = free.sum(axis=1) - span.start
+        left = np.flatnonzero(count > 0)
+        rows, last = left[:, None], span.start + count.max()
+        order = np.argsort(cost, axis=1, kind="stable")[left, span.start : min(span.stop, last)]
+        order = np.where(np.isfinite(cost[rows, order]), order, order[:, :1])
+        kept = Tries(*(column[rows, order] for column in some))
+        cost, own = cost[rows, order], own[rows, order]
+        cost[np.arange(order.shape[1]) >= count[rows]] = np.inf
+        return which[left], kept, own, cost
 
     def _pairs(self, subjects: Subjects, some: Tries) -> Pairs:
         """Return the shapes near the places of each label; each has its own subject at least."""
         ends = np.concatenate([some.centre, some.root], axis=1)
         low, high = ends.min(axis=1), ends.max(axis=1)
         (x, y), (hx, hy) = (low + high).T / 2, (high - low).T / 2 + subjects.half.T
-        apart = separation(x[:, None], y[:, None], hx[:, None], hy[:, None], self.shapes)
-        row, shape = np.nonzero(apart <= self.reach)
+        near, reach = self.shapes, self.reach
+        close = np.abs(x[:, None] - near.x) <= hx[:, None] + (near.ex + reach)
+        close &= np.abs(y[:, None] - near.y) <= hy[:, None] + (near.ey + reach)
+        row, shape = close.nonzero()
+        apart = separation(x[row], y[row], hx[row], hy[row], near.take(shape)) <= reach[shape]
+        row, shape = row[apart], shape[apart]
         start = np.searchsorted(row, np.arange(len(x)))
         return Pairs(row, shape, self._own(subjects, row, shape), start)
 
@@ -262,39 +237,51 @@ class Page:
         air = np.minimum.reduceat(room, pairs.start).clip(0.0, ROOM)
         return np.asarray(doubt * (1.0 + doubt / 5.0) + AIR * (ROOM - air))
 
-    def _toll(self, leader: Array, shape: Index, own: Mask) -> Array:
+    def _toll(self, leader: Array, free: Mask, pairs: Pairs) -> Array:
         """Return what leaders cost: lines crossed or skirted; infinite across a box or a point."""
-        near, kind, zero = self.shapes.take(shape), self.kind[shape], np.zeros(1)
-        hit, cosine = meetings(leader[:, None], self.ends[shape])
-        middle, root = (leader[:, :2] + leader[:, 2:])[..., None] / 2, leader[:, 2:, None]
-        beside = separation(middle[:, 0], middle[:, 1], zero, zero, near) < 2 * OWN
-        toll = np.where(hit & ~own, CROSSING * (1.0 + 2.0 * cosine * cosine), 0.0)
-        toll += np.where((np.abs(cosine) > 0.94) & (beside | own), SKIRT, 0.0)
-        toll[:, (kind == BOX) | (kind == DOT)] = 0.0
-        solid = np.where((kind == LINE) | own, -NOWHERE, self.clear[shape] - PAD / 2)
-        path = segments(leader).upright()
-        through = separation(near.x, near.y, near.ex, near.ey, path) < solid
-        away = separation(root[:, 0], root[:, 1], zero, zero, near) > solid
-        toll[through & away] = np.inf
-        return np.asarray(LEADER + toll.sum(axis=1))
+        kind = self.kind[pairs.shape]
+        solid = np.where((kind == LINE) | pairs.own, -NOWHERE, self.clear[pairs.shape] - PAD / 2)
+        at = _close(leader, free, pairs.row, self.shapes.take(pairs.shape), solid)
+        toll = np.zeros(len(at[0]))
+        path, shape = leader[pairs.row[at[0]], at[1]], pairs.shape[at[0]]
+        which = np.flatnonzero((kind[at[0]] == LINE) | (kind[at[0]] == CORE))
+        own = pairs.own[at[0][which]]
+        toll[which] = self._brush(path[which], shape[which], own)
+        which = np.flatnonzero(solid[at[0]] > 0)
+        some, zero, near = path[which], np.zeros(1), self.shapes.take(shape[which])
+        limit = solid[at[0][which]]
+        hit = separation(near.x, near.y, near.ex, near.ey, segments(some)) < limit
+        hit &= separation(some[:, 2], some[:, 3], zero, zero, near) > limit
+        toll[which[hit]] = np.inf
+        flat = np.bincount(pairs.row[at[0]] * free.shape[1] + at[1], toll, free.size)
+        return np.asarray(flat, dtype=np.float64).reshape(free.shape)
+
+    def _brush(self, path: Array, shape: Index, own: Mask) -> Array:
+        """Return what it costs that leaders cross or run along these lines, a line for each."""
+        line, zero = self.ends[shape], np.zeros(1)
+        cosine, middle = cosines(path, line), (path[:, :2] + path[:, 2:]).T / 2
+        toll = CROSSING * (1.0 + 2.0 * cosine * cosine) * (crossings(path, line) & ~own)
+        along = np.flatnonzero(np.abs(cosine) > 0.94)
+        near = self.shapes.take(shape[along])
+        beside = separation(middle[0, along], middle[1, along], zero, zero, near) < 2 * OWN
+        toll[along] += SKIRT * (beside | own[along])
+        return np.asarray(toll)
 
 
-def distance_cost(some: Tries, own: Array, subjects: Subjects) -> Array:
-    """Return what places cost by their distance, side and shift along a segment alone."""
-    lean = subjects.lean[:, None, :]
-    size = np.sqrt((lean * lean).sum(-1))
-    start, end = subjects.ends[:, None, :2], subjects.ends[:, None, 2:]
-    off = np.abs(some.root - (start + end) / 2).sum(-1)
-    span = np.maximum(np.abs(end - start).sum(-1), 10.0)
-    cost = own - subjects.gap[:, None] + size - (some.toward * lean).sum(-1)
-    return np.asarray(cost + OFF_MIDDLE * (off / span) ** 2)
+def _close(
+    leader: Array, free: Mask, row: Index, near: Shapes, solid: Array
+) -> tuple[Index, Index]:
+    """Return which pairs and columns have a leader that comes near the shape of the pair."""
+    (ax, ay, bx, by), wide = np.moveaxis(leader, 2, 0), np.maximum(solid, 2 * OWN)
+    left, right = (near.x - near.ex - wide)[:, None], (near.x + near.ex + wide)[:, None]
+    top, bottom = (near.y - near.ey - wide)[:, None], (near.y + near.ey + wide)[:, None]
+    close = np.maximum(ax, bx)[row] >= left
+    close &= np.where(free, np.minimum(ax, bx), NOWHERE)[row] <= right
+    close &= np.maximum(ay, by)[row] >= top
+    close &= np.minimum(ay, by)[row] <= bottom
+    at = np.nonzero(close)
+    return at[0], at[1]
 
 
-def _leaders(some: Tries, subjects: Subjects) -> Array:
-    """Return leaders from 0.5 mm off the labels' boxes, aimed at their centres, to the subjects."""
-    way = some.root - some.centre
-    length = np.sqrt((way * way).sum(-1, keepdims=True)).clip(TINY)
-    root = some.root - way / length * subjects.radius[:, None, None]
-    share = (subjects.half[:, None] + 0.5) / np.abs(way).clip(TINY)
-    start = some.centre + way * share.min(axis=-1, keepdims=True)
-    return np.concatenate([start, root], axis=-1)
+NONE = np.empty(0)
+NO_PLACES = Places(np.empty(0, dtype=np.intp), NONE, NONE, NONE, NONE, NONE, np.empty((0, 4)))

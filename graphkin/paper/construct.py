@@ -164,10 +164,16 @@ def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
     if length < TINY:
         note_tiny(desk, symbol(step.says["symbol"]), length)
         return
-    subject = (tail, tip) if length >= SHORT else tip
+    name, short = symbol(step.says["symbol"]), length < SHORT
+    subject = middle(tail, tip) if short else (tail, tip)
     desk.board.labels.append(
-        Label(symbol(step.says["symbol"]), cls, subject, 2.5, step.name, number, priority=1)
+        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short)
     )
+
+
+def middle(tail: XY, tip: XY) -> XY:
+    """The middle of a vector."""
+    return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
 
 
 def note_tiny(desk: Desk, name: str, length: float) -> None:
@@ -246,17 +252,18 @@ def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
     radius = hypot(end[0] - at[0], end[1] - at[1])
     name = f"a_{step.says['i']}^ν"
     if radius > SHORT:
-        middle = bearing((end[0] - at[0], end[1] - at[1]))
+        way = bearing((end[0] - at[0], end[1] - at[1]))
         half = min(degrees(SWEEP / radius / 2), 60.0)
-        span = (middle - half, middle + half)
+        span = (way - half, way + half)
         desk.board.marks.append(Arc(*at, radius, *span, "compass", step.name, number))
     if radius > 0:
         desk.board.marks += arrow(at, end, "normal", name, number)
     if radius < TINY:
         note_tiny(desk, symbol(name), radius)
         return
-    subject = (at, end) if radius >= SHORT else end
-    desk.board.labels.append(Label(symbol(name), "normal", subject, 2.5, name, number))
+    short = radius < SHORT
+    subject = middle(at, end) if short else (at, end)
+    desk.board.labels.append(Label(symbol(name), "normal", subject, 2.5, name, number, led=short))
     put_construction_point(desk, number, step, value)
 
 
@@ -337,7 +344,9 @@ def far_words(desk: Desk, step: Step, distance: float, way: complex) -> str:
     fields = {"name": symbol(step.name), "p": symbol(step.says["p"]), "angle": angle}
     if not distance:
         return words("page.centre_at_infinity", **fields)
-    return words("page.far_centre", distance=words.significant(100 * distance, 4), **fields)
+    fields["unit"] = desk.drawing.scene.units["length"]
+    away = words.significant(desk.drawing.length(distance), 4)
+    return words("page.far_centre", distance=away, **fields)
 
 
 def above_foot(rect: Rect) -> Rect:

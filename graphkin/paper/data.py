@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.scene.expression import TIME
 from graphkin.scene.model import (
     Angled,
     At,
@@ -19,19 +20,17 @@ from graphkin.scene.model import (
     Triangle,
     Way,
 )
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import Quantity, shortest
 from graphkin.text import Words
 
-UNIT_MARKS = {"deg": "°", "rev/min": " rev/min"}
+LONGEST = 9
+"""Signs of the longest number printed in full among the data."""
 
 
 def given(scene: Scene, words: Words) -> list[str]:
     """The data of a scene as short pieces of markup, in the order of the scene."""
     return [
-        *(
-            f"*{escape(name)}* = {words.decimal(str(value))}"
-            for name, value in scene.values.items()
-        ),
+        *(parameter(words, name, value) for name, value in scene.values.items()),
         *(piece for driver in scene.drivers for piece in of_driver(scene, words, driver)),
         *lengths(scene, words),
         *fixed_points(scene, words),
@@ -42,13 +41,23 @@ def given(scene: Scene, words: Words) -> list[str]:
             for link in scene.links.values()
             for slide in link.slides
         ),
+        *(escape(note) for note in [scene.notes.get(words.language)] if note),
     ]
+
+
+def parameter(words: Words, name: str, value: object) -> str:
+    """A parameter as set; t is the moment of laws of time, in seconds."""
+    unit = " s" if name == TIME else ""
+    return f"*{escape(name)}* = {words.decimal(shortest(value))}{unit}"
 
 
 def written(scene: Scene, words: Words, quantity: Quantity) -> str:
     """A quantity as printed: in its written unit, in the language's own way."""
     unit = words(f"unit.{quantity.unit}") if words.has(f"unit.{quantity.unit}") else quantity.unit
-    return words.decimal(quantity.written(scene.values)) + ("" if unit == "°" else " ") + unit
+    text = quantity.written(scene.values)
+    if len(text) > LONGEST:
+        text = f"{float(text):.{LONGEST - 3}g}"
+    return words.decimal(text) + ("" if unit == "°" else " ") + unit
 
 
 def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
@@ -80,7 +89,7 @@ def angle_symbol(scene: Scene, driver: Driver) -> str:
 def lengths(scene: Scene, words: Words) -> Iterator[str]:
     """The lengths of bars, those of equal length together."""
     equal: dict[str, list[str]] = {}
-    for link in scene.links.values():
+    for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             for p, q, length in placing.lengths():
                 equal.setdefault(written(scene, words, length), []).append(bar(p, q))
@@ -98,10 +107,14 @@ def fixed_points(scene: Scene, words: Words) -> Iterator[str]:
 
 def plates(scene: Scene, words: Words) -> Iterator[str]:
     """Points of links that are given by coordinates or by an angle."""
-    for link in scene.links.values():
+    for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             point = symbol(placing.point)
-            if isinstance(placing, At) and not (placing.x.is_zero() and placing.y.is_zero()):
+            if (
+                isinstance(placing, At)
+                and link is not scene.frame
+                and not (placing.x.is_zero() and placing.y.is_zero())
+            ):
                 x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
                 yield f"{point} ({x}; {y}) {placing.x.unit}, {words('page.on_link', k=link.name)}"
             elif isinstance(placing, Polar):
@@ -110,22 +123,27 @@ def plates(scene: Scene, words: Words) -> Iterator[str]:
             elif isinstance(placing, Angled):
                 turn = written(scene, words, placing.angle)
                 corner = f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point}"
-                yield f"{corner} = {turn}, {written(scene, words, placing.length)}"
+                yield f"{corner} = {turn}"
 
 
 def sides(scene: Scene, words: Words) -> Iterator[str]:
     """The sides on which points lie, of plates and of closures."""
-    for link in scene.links.values():
+    for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             if isinstance(placing, Triangle):
                 yield side(words, placing.point, placing.first, placing.second, placing.side)
             elif isinstance(placing, OnLine):
-                line = bar(placing.first, placing.second)
-                key = "page.on_line" if placing.sense > 0 else "page.beyond"
-                yield words(key, point=symbol(placing.point), bar=line)
+                key = "page.on_line" if lies_between(placing) else "page.beyond"
+                fields = {"point": symbol(placing.point), "start": symbol(placing.start)}
+                yield words(key, bar=bar(placing.first, placing.second), **fields)
     for point, branch in scene.branches.items():
         if isinstance(branch, Side):
             yield side(words, point, branch.first, branch.second, branch.side)
+
+
+def lies_between(placing: OnLine) -> bool:
+    """True for a point on the bar itself, false for one on the bar produced."""
+    return (placing.start == placing.first) is (placing.sense > 0)
 
 
 def side(words: Words, point: str, p: str, q: str, sign: int) -> str:
@@ -141,7 +159,11 @@ def of_guide(scene: Scene, words: Words, link: Link, slide: Slide) -> str:
     fields = {
         "point": symbol(link.points[0]),
         "way": words("page.forward" if forward else "page.backward"),
+        "offset": "",
     }
+    if not slide.offset.is_zero():
+        amount = written(scene, words, slide.offset)
+        fields["offset"] = words("page.offset", offset=amount)
     if slide.along:
         return words("page.guide_along", bar=bar(*slide.along), **fields)
     assert slide.angle is not None

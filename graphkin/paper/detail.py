@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import hypot
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphkin.paper.areas import Rect
 from graphkin.paper.field import XY
@@ -17,7 +17,7 @@ ENLARGED = (5, 10)
 """How many times a detail is enlarged."""
 RADIUS = 11.0
 """Radius of a detail circle in mm."""
-TOO_SHORT = 0.2
+TOO_SHORT = 0.5
 """Vectors shorter than this, in mm, are not worth a detail."""
 GRID = 3.0
 """Distance of the places tried for a detail, in mm."""
@@ -32,27 +32,46 @@ def length_of(line: Line) -> float:
     return hypot(line.x2 - line.x1, line.y2 - line.y1)
 
 
-def enlarged(marks: Sequence[Mark], rect: Rect) -> list[Mark]:
-    """A detail circle for the shortest vectors of a drawing, where there is a free place for it."""
-    short = [
-        mark
-        for mark in marks
-        if isinstance(mark, Line)
-        and mark.cls.split()[0] in VECTORS
-        and TOO_SHORT <= length_of(mark) < SHORT
-    ]
-    if not short:
-        return []
-    times = ENLARGED[0] if length_of(short[0]) * ENLARGED[0] >= 4 else ENLARGED[1]
-    source = ((short[0].x1 + short[0].x2) / 2, (short[0].y1 + short[0].y2) / 2)
-    place = free_place(marks, rect, source, RADIUS + 4)
-    return [] if place is None else list(circled(marks, source, place, times))
+class Source(NamedTuple):
+    """What is to be enlarged: the middle of a small circle, and how many times."""
+
+    at: XY
+    times: int
+
+    def circle(self) -> Circle:
+        """The small circle, which labels keep clear of."""
+        return Circle(*self.at, RADIUS / self.times, "detail", "detail")
+
+
+def source(marks: Sequence[Mark]) -> Source | None:
+    """The place of a drawing's shortest vector worth a detail; None where there is none."""
+    for mark in marks:
+        if not isinstance(mark, Line) or mark.cls.split()[0] not in VECTORS:
+            continue
+        if TOO_SHORT <= length_of(mark) < SHORT:
+            times = ENLARGED[0] if length_of(mark) * ENLARGED[0] >= 4 else ENLARGED[1]
+            return Source(((mark.x1 + mark.x2) / 2, (mark.y1 + mark.y2) / 2), times)
+    return None
+
+
+def with_detail(board: Board) -> list[Mark]:
+    """A finished field, with a detail circle for very short vectors where there is room for it."""
+    spot = source(board.marks)
+    if spot is None:
+        return board.finish()
+    small = spot.circle()
+    board.marks.append(small)
+    marks = board.finish()
+    place = free_place(marks, board.rect, spot.at, RADIUS + 4)
+    if place is None:
+        return [mark for mark in marks if mark is not small]
+    return [*marks, *circled(marks, spot.at, place, spot.times)]
 
 
 def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY | None:
     """The middle of a free disc as near as possible to a place; None when there is none.
 
-    Of the nearest, one is preferred whose line to the drawing crosses no text.
+    The line from there to the drawing crosses no text.
     """
     import numpy as np
     import shapely
@@ -67,20 +86,18 @@ def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY |
     tries: Any = shapely.points(grid)
     crowded = taken.query(tries, predicate="dwithin", distance=room)[0]
     free = np.delete(grid, crowded, axis=0)
-    if not len(free):
-        return None
     nearest = free[np.hypot(*(free - near).T).argsort(kind="stable")][:TRIES]
-    ways: Any = shapely.linestrings([[near, place] for place in nearest])
-    crossed = shapely.STRtree(texts).query(ways, predicate="intersects")[0]
+    ways: Any = shapely.linestrings(
+        np.array([[near, place] for place in nearest]).reshape(-1, 2, 2)
+    )
+    crossed = shapely.STRtree(texts).query(ways, predicate="dwithin", distance=0.5)[0]
     clear = np.delete(nearest, crossed, axis=0)
-    x, y = (clear if len(clear) else nearest)[0]
-    return float(x), float(y)
+    return (float(clear[0][0]), float(clear[0][1])) if len(clear) else None
 
 
 def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterator[Mark]:
     """What lies in a small circle, drawn again in a large one."""
     small = RADIUS / times
-    yield Circle(*source, small, "detail")
     yield Circle(*place, RADIUS, "detail")
     away = hypot(place[0] - source[0], place[1] - source[1])
     u, v = (place[0] - source[0]) / away, (place[1] - source[1]) / away
@@ -89,7 +106,7 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
         source[1] + small * v,
         place[0] - RADIUS * u,
         place[1] - RADIUS * v,
-        "leader",
+        "detail",
     )
     beneath = place[1] + RADIUS + 3.6 if v > 0 else place[1] - RADIUS - 1.1
     yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")

@@ -15,6 +15,8 @@ from graphkin.steps.run import Trace
 from graphkin.steps.solution import Verdict
 from graphkin.text import Words
 
+METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
+"""The units in which a scene may write lengths."""
 NOISE = 1e-9
 """A quantity this small beside the largest of its kind is rounding and shown as nought."""
 
@@ -114,6 +116,10 @@ class Drawing:
         targets, values = self.trace.program.targets, self.trace.values
         numbers = (number for (what, _), number in targets.items() if what == quantity)
         return [0.0, *(values[number] for number in numbers if number in values)]
+
+    def length(self, metres: float) -> float:
+        """A length in the scene's own unit."""
+        return metres / METRES[self.scene.units["length"]]
 
     def at_scale(self, plane: Plane, value: complex) -> complex:
         """A value of a plan in metres of the mechanism, drawn side by side with it."""

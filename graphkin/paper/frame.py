@@ -46,7 +46,7 @@ class TitleBlock:
 CELLS: tuple[tuple[str, Rect, float], ...] = (
     ("legal_owner", (0, 0, 50, 24), 3.5),
     ("document_type", (50, 0, 130, 12), 3.5),
-    ("title", (50, 12, 130, 24), 5.0),
+    ("title", (50, 12, 130, 24), 3.5),
     ("creator", (130, 0, 180, 12), 3.5),
     ("approved_by", (130, 12, 180, 24), 3.5),
     ("scale", (0, 24, 50, 36), 3.5),

@@ -8,7 +8,7 @@ from math import ceil, cos, radians, sin
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import Rect
-from graphkin.paper.field import XY
+from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, reach
 from graphkin.paper.place import Spot, Wish, place
 from graphkin.paper.richtext import extent, flowed, plain
@@ -17,9 +17,20 @@ NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
 
 
+ROUNDS = 4
+"""How often labels are placed anew with more key numbers before a field counts as full."""
+KEY = 4
+"""Priority of a key number."""
+GAP, LED = 0.9, 3.4
+"""Clear distance of a label from its subject, and of one that always has a leader, in mm."""
+
+
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A text that wants a place at a subject; ``ring`` puts it into a circle (a link's number)."""
+    """A text that wants a place at a subject.
+
+    ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader.
+    """
 
     markup: str
     cls: str
@@ -31,33 +42,43 @@ class Label:
     priority: int = 0
     radius: float = 0.0
     ring: bool = False
+    led: bool = False
+
+    def size(self) -> tuple[float, float]:
+        """Width and height of the label's box."""
+        width, top, bottom = extent(self.markup, self.height)
+        return (2 * NUMBER, 2 * NUMBER) if self.ring else (width, bottom - top)
 
     def wish(self) -> Wish:
         """The box that the label needs, and where."""
-        width, top, bottom = extent(self.markup, self.height)
-        if self.ring:
-            width, top, bottom = 2 * NUMBER, -2 * NUMBER, 0.0
-        return Wish(width, bottom - top, self.subject, self.away, self.priority, 0.9, self.radius)
+        gap = LED if self.led else GAP
+        return Wish(*self.size(), self.subject, self.away, self.priority, gap, self.radius)
 
     def marks(self, spot: Spot) -> Iterable[Mark]:
         """The label at its place, with its leader or circle."""
-        width, top, bottom = extent(self.markup, self.height)
-        if spot.leader:
-            (x0, y0), (x1, y1) = spot.leader
-            yield Line(x0, y0, x1, y1, f"leader {self.cls}".strip(), self.name, self.step)
+        leader = spot.leader or (self.short_leader(spot) if self.led else None)
+        if leader:
+            style = f"leader {self.cls}".strip()
+            yield Line(*leader[0], *leader[1], style, self.name, self.step)
         if self.ring:
             yield Circle(spot.x, spot.y, NUMBER, f"number {self.cls}".strip(), self.name)
+        yield self.text(spot)
+
+    def text(self, spot: Spot) -> Text:
+        """The label's text with the middle of its ink at a place."""
+        width, top, bottom = extent(self.markup, self.height)
         x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
-        yield Text(
-            x,
-            y,
-            self.markup,
-            f"label {self.cls}".strip(),
-            self.height,
-            "start",
-            self.name,
-            self.step,
-        )
+        style = f"label {self.cls}".strip()
+        return Text(x, y, self.markup, style, self.height, "start", self.name, self.step)
+
+    def short_leader(self, spot: Spot) -> tuple[XY, XY]:
+        """From the nearest side of the label's box, a little off it, to the point it names."""
+        x, y = self.subject
+        assert isinstance(x, float) and isinstance(y, float)
+        half_width, half_height = (side / 2 + 0.3 for side in self.size())
+        near_x = min(max(x, spot.x - half_width), spot.x + half_width)
+        near_y = min(max(y, spot.y - half_height), spot.y + half_height)
+        return (near_x, near_y), (x, y)
 
 
 @dataclass
@@ -80,23 +101,35 @@ class Board:
 
         Raises PageError when a label finds no place even so.
         """
-        foot = self.footed(self.notes)
-        spots = self.spots(foot)
-        if not all(spot.free for spot in spots):
-            foot = self.footed([*self.notes, *self.shortened([spot.free for spot in spots])])
+        meanings: list[str] = []
+        for _ in range(ROUNDS):
+            foot = self.footed([*self.notes, *meanings])
             spots = self.spots(foot)
+            if all(spot.free for spot in spots) and not self.unled(spots):
+                break
+            self.shorten([spot.free for spot in spots], meanings)
         refuse_crowds(self.labels, spots)
         return [*self.marks, *foot, *marks_of(self.labels, spots)]
 
-    def shortened(self, free: Sequence[bool]) -> list[str]:
-        """Give crowded labels key numbers; the meanings are for the foot of the field."""
-        meanings: list[str] = []
+    def unled(self, spots: Sequence[Spot]) -> bool:
+        """Bring labels nearer whose leaders would cross others; true when there were any."""
+        texts = [label.text(spot) for label, spot in zip(self.labels, spots, strict=True)]
+        blocked = [
+            i
+            for i, (label, spot) in enumerate(zip(self.labels, spots, strict=True))
+            if label.led and not spot.leader and not is_clear(label, spot, texts)
+        ]
+        for i in blocked:
+            self.labels[i] = replace(self.labels[i], led=False)
+        return bool(blocked)
+
+    def shorten(self, free: Sequence[bool], meanings: list[str]) -> None:
+        """Give crowded labels key numbers; what they mean is for the foot of the field."""
         for i, label in enumerate(self.labels):
-            if not free[i]:
+            if not free[i] and label.priority < KEY:
                 meanings.append(f"{len(meanings) + 1}) {label.markup}")
                 key = f"{len(meanings)})"
-                self.labels[i] = replace(label, markup=key, height=1.8, priority=4)
-        return meanings
+                self.labels[i] = replace(label, markup=key, height=1.8, priority=KEY)
 
     def footed(self, notes: Sequence[str]) -> list[Mark]:
         """Notes in lines at the foot of the field."""
@@ -123,6 +156,19 @@ class Board:
 def marks_of(labels: Sequence[Label], spots: Sequence[Spot]) -> list[Mark]:
     """The labels at their places."""
     return [mark for label, spot in zip(labels, spots, strict=True) for mark in label.marks(spot)]
+
+
+def is_clear(label: Label, spot: Spot, texts: Sequence[Text]) -> bool:
+    """True when a leader from a label's box to its point crosses no other label."""
+    start, end = label.short_leader(spot)
+    others = [reach(text) for text in texts if text.name != label.name]
+    return not any(clipped(start, end, box) for box in others if near(box, *start))
+
+
+def near(box: Rect, x: float, y: float) -> bool:
+    """True when a box lies within reach of a short leader that starts at a place."""
+    far = 2 * LED
+    return box[0] - far < x < box[2] + far and box[1] - far < y < box[3] + far
 
 
 def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:

@@ -22,6 +22,8 @@ from graphkin.steps.program import Part, Plane
 
 BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
+LEAST = 110.0
+"""Width that a plan's field gets where the mechanism leaves it, in mm."""
 SWEEP = 7.0
 """Half the length of a compass arc drawn where it is needed, in mm."""
 
@@ -66,7 +68,9 @@ def shared_width(mechanism: float, plan: float) -> float:
                 "leave [sheet] scale out, or give a larger number",
             )
         )
-    return mechanism + 2 * MARGIN + spare * 0.5
+    fair = mechanism + 2 * MARGIN + spare * 0.5
+    most = max(AREA[2] - AREA[0] - LEAST, mechanism + 2 * MARGIN)
+    return min(fair, most)
 
 
 def centre(rect: Rect) -> tuple[float, float]:

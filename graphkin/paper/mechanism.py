@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from cmath import phase
+from collections.abc import Iterable, Iterator
 from math import degrees, hypot
 
+from graphkin.paper.areas import Rect
 from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board, Label
-from graphkin.paper.marks import Arc, Line, polygon
+from graphkin.paper.marks import Arc, Line, Mark, polygon
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import (
     PIN,
@@ -19,9 +21,9 @@ from graphkin.paper.symbols import (
     turned_arrow,
 )
 from graphkin.plane import cross
-from graphkin.scene.model import FRAME, Link, Slide
+from graphkin.scene.model import FRAME, Driver, Link, Slide
 
-REACH = 17.0
+REACH = 15.0
 """Half the length of a drawn guide in mm."""
 ANGLE = 11.0
 """Radius of the arc of a driver's angle in mm."""
@@ -167,13 +169,22 @@ def draw_blocks(board: Board, drawing: Drawing, field: Field, link: Link) -> Non
             continue
         at = field(drawing.positions[link.points[0]])
         way = field.way(line[1])
-        board.marks += block_on_guide(at, way, REACH, link.name)
+        board.marks += within(block_on_guide(at, way, REACH, link.name), field.rect)
         u, v = way
         side = (
             (at[0] - 3 * u + 3.2 * v, at[1] - 3 * v - 3.2 * u),
             (at[0] + 3 * u + 3.2 * v, at[1] + 3 * v - 3.2 * u),
         )
         board.labels.append(Label(link.name, "", side, 2.5, link.name, priority=3, ring=True))
+
+
+def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
+    """Marks whose lines end at the edge of a field."""
+    for mark in marks:
+        if not isinstance(mark, Line):
+            yield mark
+        elif part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), rect):
+            yield Line(*part[0], *part[1], mark.cls, mark.name)
 
 
 def outward(drawing: Drawing, field: Field, name: str) -> XY | None:
@@ -195,15 +206,15 @@ def draw_drivers(board: Board, drawing: Drawing, field: Field) -> None:
     """The angle of each crank from the x axis, with its value, and the sense of its turning."""
     for driver in drawing.scene.drivers:
         link = drawing.scene.links[driver.link]
-        if driver.kind != "turn" or link.points[0] not in drawing.positions:
+        start = (driver.of or link.points)[0]
+        if driver.kind != "turn" or start not in drawing.positions:
             continue
-        centre = field(drawing.positions[link.points[0]])
-        turn = complex(driver.position.direction(drawing.scene.values))
-        end = degrees(phase(turn)) % 360
+        centre = field(drawing.positions[start])
+        end = drawn_angle(drawing, driver)
         board.marks.append(
             Line(*centre, centre[0] + ANGLE + 6, centre[1], "centre-line", f"x {driver.link}")
         )
-        if end > 0.5:
+        if abs(end) > 0.5:
             board.marks.append(Arc(*centre, ANGLE, 0, end, "angle", "phi"))
         middle = Arc(*centre, ANGLE, 0, 1, "angle").at(end / 2)
         value = drawing.words.decimal(driver.position.written(drawing.scene.values))
@@ -218,6 +229,13 @@ def draw_drivers(board: Board, drawing: Drawing, field: Field) -> None:
             )
         )
         draw_sense(board, drawing, centre, end, driver.link)
+
+
+def drawn_angle(drawing: Drawing, driver: Driver) -> float:
+    """The driver's angle in degrees, as written where that is less than a turn either way."""
+    turn = degrees(phase(complex(driver.position.direction(drawing.scene.values))))
+    written = degrees(float(driver.position.si(drawing.scene.values)))
+    return written if abs(written) < 360 else turn % 360
 
 
 def unit(start: XY, end: XY) -> XY:

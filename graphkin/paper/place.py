@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphkin.paper.clearance import (
-    LEADER,
-    NOWHERE,
-    TINY,
-    Array,
-    Box,
-    Clashes,
-    Page,
-    Places,
-    Subjects,
-    Tries,
-)
+from graphkin.paper.candidates import NOWHERE, Array, Box, Subjects, tries
+from graphkin.paper.clearance import Clashes, Page, Places
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]
@@ -27,10 +19,15 @@ Segment = tuple[Point, Point]
 CLEAR = 0.6  # mm between a label and a drawn line, unless the caller says otherwise
 NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
 FAR = np.array([4.0, 7.0, 11.0, 17.0])  # mm beyond the gap, with a leader
+FARTHEST = np.array([*FAR, 24.0, 33.0])  # for labels that find no other place
+
+NEAREST = slice(0, 32)  # which of a label's places without a leader are looked at, by distance
+FIRST, REST = slice(0, 32), slice(32, 999)  # with a leader: at first, and where nothing was free
 
 SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
 UNPLACED = 1000.0  # a label without a place
-BAD = 2.0  # what a label may pay above its best before places are traded
+DEAR = 6.5  # what a label may pay before places with a leader are looked for
+BAD = 3.0  # what a label may pay above its best before places are traded
 CROWD = 8  # how many labels are settled anew for one without a place
 PUSH = 4.0  # what it is reckoned to cost to push a label aside
 WEAR = 4.0  # what a place costs more each time that it is taken in a chase
@@ -81,6 +78,10 @@ def place(
     if board.widen([j for i in board.homeless() for j in board.crowd(i)] + board.dear()):
         board.chase(board.sorry(BAD), 8)
     board.chase(board.homeless(), 60)
+    if crowd := [j for i in board.homeless() for j in board.crowd(i)]:
+        board.widen(crowd)
+        board.widen(crowd, REST)
+        board.chase(board.homeless(), 60)
     board.settle(board.sorry(0.2))
     return [board.spot(i) for i in range(len(wishes))]
 
@@ -103,38 +104,45 @@ class _Board:
 
     def __init__(self, wishes: Sequence[Wish], page: Page) -> None:
         self.page = page
-        self.fine = UNPLACED * np.array([1.2**wish.priority for wish in wishes])
-        self.rank = self.fine.tolist()
+        self.fine = [UNPLACED * 1.2**wish.priority for wish in wishes]
         self.pick = np.full(len(wishes), -1)
-        self.paid = self.fine.copy()
+        self.paid = [*self.fine]
         near = tries(page.subjects, NEAR)
         self.hope = near.centre[:, 0]
         self.middle = (page.subjects.ends[:, :2] + page.subjects.ends[:, 2:]) / 2
-        self.wide: set[int] = set()
-        self._open(page.places(np.arange(len(wishes)), near, led=False))
-        self.widen(np.flatnonzero(self.best > LEADER + FAR[0]).tolist())
+        self.wide: dict[int, set[int]] = {FIRST.start: set(), REST.start: set()}
+        self._open(page.places(np.arange(len(wishes)), near, NEAREST, led=False))
+        self.widen(i for i, best in enumerate(self.best) if best > DEAR)
 
     def _open(self, places: Places) -> None:
-        """Offer these places; those offered before come first, in the order they had."""
-        self.places, self.clashes = places, Clashes(places)
+        """Offer these places; those of a label that cost the same keep their order."""
         order = np.lexsort((places.cost, places.label))
-        ends = np.searchsorted(places.label[order], np.arange(1, len(self.pick)))
-        self.menus = np.split(order, ends)
-        best = [places.cost[menu[0]] if len(menu) else np.inf for menu in self.menus]
-        self.best = np.array(best)
+        self.places = places.take(order)
+        self.clashes = Clashes(self.places)
+        bounds = np.searchsorted(self.places.label, np.arange(len(self.pick) + 1)).tolist()
+        self.menus = [slice(*ends) for ends in itertools.pairwise(bounds)]
+        self.cost = self.places.cost.tolist()
+        offered = [i for i, menu in enumerate(self.menus) if menu.start < menu.stop]
+        self.best = [inf] * len(self.menus)
+        for i in offered:
+            self.best[i] = self.cost[bounds[i]]
         self.load = np.zeros(len(order), dtype=np.int64)
-        for k in self.pick[self.pick >= 0].tolist():
+        put = self.pick >= 0
+        self.pick[put] = np.argsort(order)[self.pick[put]]
+        self.clashes.find(self.pick[put].tolist() if put.any() else [bounds[i] for i in offered])
+        for k in self.pick[put].tolist():
             self.load += self.clashes.of(k)
 
     def order(self) -> list[int]:
         """Return the labels, those with few places first, then by priority."""
-        count = [len(menu) for menu in self.menus]
-        return sorted(range(len(count)), key=lambda i: (count[i] > 7, -self.rank[i], count[i], i))
+        count = [menu.stop - menu.start for menu in self.menus]
+        return sorted(range(len(count)), key=lambda i: (count[i] > 7, -self.fine[i], count[i], i))
 
     def sorry(self, limit: float) -> list[int]:
         """Return the labels that pay this much above their cheapest place, worst first."""
-        regret = self.paid - self.best
-        return [int(i) for i in np.argsort(-regret, kind="stable") if regret[i] > limit]
+        regret = [paid - best for paid, best in zip(self.paid, self.best, strict=True)]
+        worst = sorted(range(len(regret)), key=lambda i: -regret[i])
+        return [i for i in worst if regret[i] > limit]
 
     def settle(self, which: Iterable[int]) -> None:
         """Give each of the labels the cheapest place that is left, if there is one."""
@@ -142,11 +150,11 @@ class _Board:
             self._lift(i)
             left = self.load[self.menus[i]] == 0
             if left.any():
-                self._put(i, int(self.menus[i][left.argmax()]))
+                self._put(i, self.menus[i].start + int(left.argmax()))
 
     def dear(self) -> list[int]:
         """Return the labels that pay more than a leader would cost."""
-        return np.flatnonzero(self.paid > LEADER + FAR[0]).tolist()
+        return [i for i, paid in enumerate(self.paid) if paid > DEAR]
 
     def homeless(self) -> list[int]:
         """Return the labels without a place."""
@@ -158,14 +166,15 @@ class _Board:
         near = np.argsort(apart, kind="stable")[:CROWD].tolist()
         return [i, *(j for j in near if j != i and apart[j] < 20.0)]
 
-    def widen(self, labels: Iterable[int]) -> bool:
+    def widen(self, labels: Iterable[int], span: slice = FIRST) -> bool:
         """Offer places with a leader to those of the labels that had none of these yet, if any."""
-        which = np.array(sorted({*labels} - self.wide), dtype=np.intp)
+        which = np.array(sorted({*labels} - self.wide[span.start]), dtype=np.intp)
         if not len(which):
             return False
-        self.wide.update(which.tolist())
-        some = tries(self.page.subjects.take(which), NEAR, FAR)
-        both = zip(self.places, self.page.places(which, some, led=True), strict=True)
+        self.wide[span.start].update(which.tolist())
+        far = FAR if span == FIRST else FARTHEST
+        some = tries(self.page.subjects.take(which), NEAR, far)
+        both = zip(self.places, self.page.places(which, some, span, led=True), strict=True)
         self._open(Places(*(np.concatenate(pair) for pair in both)))
         if (self.pick >= 0).any():
             self.settle(i for i in self.order() if i in which)
@@ -174,29 +183,32 @@ class _Board:
     def chase(self, labels: Iterable[int], steps: int) -> None:
         """Let each of the labels push others aside and those others in turn, if it pays in all."""
         for i in labels:
-            saved = self.pick.copy(), self.paid.copy(), self.load.copy()
-            limit = self.paid.sum() - 0.01
+            saved = self.pick.copy(), [*self.paid], self.load.copy()
+            limit = sum(self.paid) - 0.01
             worn = np.zeros(len(self.load))
             if self.pick[i] >= 0:
                 worn[self.pick[i]] = WEAR
             queue = [i]
             for _ in range(steps):
                 queue += self._push(queue.pop(0), worn)
-                hope = self.paid.sum() - (self.fine - self.best)[queue].sum()
+                hope = sum(self.paid) - sum(self.fine[j] - self.best[j] for j in queue)
                 if not queue or hope > limit:
                     break
-            if self.paid.sum() > limit:
+            if sum(self.paid) > limit:
                 self.pick, self.paid, self.load = saved
 
     def _push(self, i: int, worn: Array) -> list[int]:
         """Put a label on the place with the best price, and return those it pushed aside."""
         self._lift(i)
         menu = self.menus[i]
-        if not len(menu):
+        if menu.start == menu.stop:
             return []
         price = self.places.cost[menu] + PUSH * self.load[menu] + worn[menu]
-        k = int(menu[price.argmin()])
-        others = np.flatnonzero((self.pick >= 0) & self.clashes.of(k)[self.pick]).tolist()
+        k = menu.start + int(price.argmin())
+        others: list[int] = []
+        if self.load[k]:
+            clash = self.clashes.of(k)[self.pick] & (self.pick >= 0)
+            others = clash.nonzero()[0].tolist()
         for j in others:
             self._lift(j)
         self._put(i, k)
@@ -205,13 +217,14 @@ class _Board:
 
     def _put(self, i: int, k: int) -> None:
         """Put a label on a place."""
-        self.pick[i], self.paid[i] = k, self.places.cost[k]
+        self.pick[i], self.paid[i] = k, self.cost[k]
         self.load += self.clashes.of(k)
 
     def _lift(self, i: int) -> None:
         """Take a label off the page."""
-        if self.pick[i] >= 0:
-            self.load -= self.clashes.of(int(self.pick[i]))
+        k = int(self.pick[i])
+        if k >= 0:
+            self.load -= self.clashes.of(k)
         self.pick[i], self.paid[i] = -1, self.fine[i]
 
     def spot(self, i: int) -> Spot:
@@ -222,61 +235,3 @@ class _Board:
         return Spot(
             float(x), float(y), ((x0, y0), (x1, y1)) if x0 < NOWHERE else None, bool(k >= 0)
         )
-
-
-def tries(subjects: Subjects, near: Array, far: Array | None = None) -> Tries:
-    """Return candidates at the distances ``near`` beyond the gap or, if given, at ``far``, in mm.
-
-    The far ones lie on rings around a point or three places of a segment; the near ones on rings
-    around a point or along both sides of the middle two thirds of a segment.
-    """
-    start, end = subjects.ends[:, None, :2], subjects.ends[:, None, 2:]
-    extent = np.abs(subjects.ends[:, 2:] - subjects.ends[:, :2]) / 2
-    middle = (start + end) / 2
-    if far is not None:
-        around = _rings(subjects, middle, 0 * extent, 36, far)
-        roots = start + (end - start) * np.array([0.5, 0.3, 0.7])[:, None]
-        lines = _rings(subjects, roots, 0 * extent, 12, far)
-    else:
-        around = _rings(subjects, middle, 0 * extent, 20, near)
-        ring = _rings(subjects, middle, np.minimum(extent, 3.0), 24, near[:1])
-        both = zip(_sides(subjects, 7, near), ring, strict=True)
-        lines = Tries(*(np.concatenate(pair, axis=1) for pair in both))
-    rows = subjects.line[:, None, None]
-    return Tries(*(np.where(rows, a, b) for a, b in zip(lines, around, strict=True)))
-
-
-def _rings(subjects: Subjects, root: Array, extent: Array, angles: int, steps: Array) -> Tries:
-    """Return places around roots (n, a, 2), each as wide as a half extent (n, 2); mm.
-
-    Each root has its own share of the directions. The label's box slides around the root, and a
-    push makes good what the sliding loses of the gap beside the box's edges.
-    """
-    roots = root.shape[1]
-    turn = (np.arange(angles) * roots + np.arange(roots)[:, None]) * (2 * np.pi / angles / roots)
-    u = np.stack([np.cos(turn), np.sin(turn)], axis=-1)[:, :, None, :]
-    reach = (subjects.half + extent)[:, None, None, None, :]
-    slide = np.clip(u * np.sqrt(2), -1, 1) * reach
-    gap = (subjects.gap + subjects.radius)[:, None, None, None, None] + steps[:, None]
-    edge = np.maximum(np.abs(slide) - reach + gap * np.abs(u), 0.0)
-    push = gap * gap / np.sqrt((edge * edge).sum(-1, keepdims=True)).clip(TINY)
-    centre = root[:, :, None, None, :] + slide + push * u
-    return _flat(centre, u, root[:, :, None, None, :])
-
-
-def _sides(subjects: Subjects, count: int, steps: Array) -> Tries:
-    """Return places along both sides of the middle two thirds of segments; mm."""
-    start, along = subjects.ends[:, None, :2], (subjects.ends[:, 2:] - subjects.ends[:, :2])
-    unit = along / np.sqrt((along * along).sum(-1, keepdims=True)).clip(TINY)
-    normal = np.stack([-unit[:, 1], unit[:, 0]], axis=-1)[:, None] * [[1.0], [-1.0]]
-    support = (np.abs(normal) * subjects.half[:, None]).sum(-1)[:, :, None]
-    off = (support + subjects.gap[:, None, None] + steps)[:, None, :, :, None]
-    root = start + along[:, None] * np.linspace(1 / 6, 5 / 6, count)[:, None]
-    root, normal = root[:, :, None, None], normal[:, None, :, None]
-    return _flat(root + normal * off, normal, root)
-
-
-def _flat(*fields: Array) -> Tries:
-    """Return the candidates of a grid whose first axis is the subject."""
-    shape = fields[0].shape
-    return Tries(*(np.broadcast_to(f, shape).reshape(shape[0], -1, 2) for f in fields))

@@ -92,9 +92,9 @@ def data_line(drawing: Drawing) -> Relation:
     return Relation(first, more=tuple(more))
 
 
-def figure(drawing: Drawing, value: float) -> str:
+def figure(drawing: Drawing, value: float, digits: int = DIGITS) -> str:
     """A number as it is put into a relation, without noughts at its end."""
-    text = drawing.words.significant(value, DIGITS)
+    text = drawing.words.significant(value, digits)
     mark = drawing.words("decimal_mark")
     return text.rstrip("0").rstrip(mark) if mark in text and "·" not in text else text
 
@@ -214,7 +214,7 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
         yield Relation("*k*_v", "", "", kv, "(m/s)/mm", drawing.words("calculation.chosen"))
         yield Relation("*k*_a", "*k*_v^2/*k*_L", f"1000·{kv}^2/{number}", ka, "(m/s^2)/mm")
         return
-    w = figure(drawing, 1 / scales.seconds)
+    w = figure(drawing, 1 / scales.seconds, DIGITS + 2)
     yield Relation("*k*_v", "*ω*·*k*_L", f"{w}·{number}/1000", kv, "(m/s)/mm")
     yield Relation("*k*_a", "*ω*^2·*k*_L", f"{w}^2·{number}/1000", ka, "(m/s^2)/mm")
 
@@ -340,7 +340,7 @@ def length_of(drawing: Drawing, p: str, q: str) -> float:
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:
-    """Where instantaneous centres and acceleration poles lie, in centimetres."""
+    """Where instantaneous centres and acceleration poles lie, in the scene's unit of length."""
     part = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
     for _, step, value in drawing.mechanism_steps():
         if step.part is part and isinstance(value, Ratio):
@@ -352,5 +352,5 @@ def coordinates(drawing: Drawing, value: Ratio) -> str:
     point: Any = place_of(value)
     if point is None:
         return drawing.words("calculation.at_infinity")
-    x, y = (answer(drawing, 100 * part) for part in (point.real, point.imag))
-    return f"({x}; {y}) cm"
+    x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
+    return f"({x}; {y}) {drawing.scene.units['length']}"

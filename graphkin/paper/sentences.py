@@ -21,7 +21,7 @@ LINES = (
     "velocity-normal",
     "centripetal",
 )
-WHOLE = ("acceleration-pole",)
+WHOLE = ("acceleration-pole", "beside", "arm", "arm-by-axis")
 """Actions whose own sentence says all that the hand does."""
 
 
@@ -56,7 +56,7 @@ def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
         return False
     if step.plane is Plane.MECHANISM:
         wanted = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
-        return step.part in (Part.POSITION, wanted)
+        return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.frame.points
     return step.plane is drawing.plane and step.action.key != "pole"
 
 
@@ -66,7 +66,7 @@ def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
     last = drawing.trace.program.steps[step.by_hand] if by_hand and step.by_hand else step
     assert step.action is not None
     if step.action.key in WHOLE:
-        last = step
+        return phrase(drawing, step, step.name, step)
     parts = [clause for arg in last.args for clause in clauses(drawing, arg)]
     parts.append(phrase(drawing, last, step.name, step))
     return "; ".join(parts)
@@ -76,6 +76,8 @@ def clauses(drawing: Drawing, number: int) -> Iterator[str]:
     """The clause of a line or an arc, after that of the vector laid off before it."""
     step = drawing.trace.program.steps[number]
     if step.action is None or step.action.key not in LINES or step.name:
+        return
+    if step.plane is Plane.NUMBERS:
         return
     if step.action.key in ("square-to", "shifted", "driven-tangential"):
         for arg in step.args:

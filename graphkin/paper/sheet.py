@@ -7,7 +7,7 @@ from graphkin.paper import construct, mechanism
 from graphkin.paper.areas import A3_AREA, AREA, BELOW, TABLES, Rect
 from graphkin.paper.construct import Desk
 from graphkin.paper.data import given
-from graphkin.paper.detail import enlarged
+from graphkin.paper.detail import with_detail
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import TitleBlock, check_bar, sheet_frame
 from graphkin.paper.inset import insets
@@ -30,13 +30,12 @@ LEADING = 4.6
 def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     layout = layout or lay_out(drawing)
-    plan = right_board(drawing, layout, view).finish()
+    plan = with_detail(right_board(drawing, layout, view))
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
         *heading(drawing),
         *mechanism_marks(drawing, layout, view),
         *plan,
-        *enlarged(plan, layout.plan.rect),
         Line(layout.plan.rect[0], AREA[1] - 6, layout.plan.rect[0], AREA[3] - 2, "panel"),
         Line(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
         *below(drawing, view),
@@ -90,25 +89,31 @@ def heading(drawing: Drawing) -> list[Mark]:
     name = f"{words('sheet.' + drawing.kind)} – {title_of(drawing)}"
     height = next((h for h in (5, 3.5) if extent(escape(name), h)[0] <= TITLE), 2.5)
     marks: list[Mark] = [Text(left, top + 10, escape(name), "title", height, name="title")]
-    pieces = given(drawing.scene, words)
-    lines = flowed(
-        [f"{words('page.data')}: {pieces[0]}", *pieces[1:]], "; ", AREA[2] - left - 3, 2.5
-    )
     marks += check_bar(AREA[2] - 106, top + 7, "")
     bar = words("page.check_bar")
     marks.append(Text(AREA[2] - 109, top + 7, bar, "check-bar", 1.8, "end"))
-    if len(lines) > 2:
-        raise PageError(
-            Problem(
-                "data",
-                f"does not fit: {len(lines)} lines",
-                "two lines above the drawing",
-                "shorten names or split the scene",
-            )
+    return [*marks, *data_lines(drawing, left, top + 15.2, AREA[2] - left - 3)]
+
+
+def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]:
+    """The data in two lines, or in three of smaller lettering."""
+    first, *pieces = given(drawing.scene, drawing.words)
+    pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
+    for height, leading, room in ((2.5, 4.2, 2), (1.8, 2.9, 3)):
+        lines = flowed(pieces, "; ", width, height)
+        if len(lines) <= room:
+            return [
+                Text(x, y + i * leading, line, "caption", height, name="data")
+                for i, line in enumerate(lines)
+            ]
+    raise PageError(
+        Problem(
+            "data",
+            f"does not fit: {len(lines)} lines of small lettering",
+            "three lines above the drawing",
+            "shorten names and notes, or split the scene",
         )
-    for i, line in enumerate(lines):
-        marks.append(Text(left, top + 15.2 + i * 4.2, line, "caption", 2.5, name="data"))
-    return marks
+    )
 
 
 def mechanism_marks(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
@@ -164,7 +169,9 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
 
 def headline(rect: Rect, caption: str) -> Mark:
     """The caption of a field, at its upper left."""
-    return Text(rect[0] + 3, rect[1] - 2.5, caption, "caption", 3.5)
+    room = rect[2] - rect[0] - 5
+    height = next((h for h in (3.5, 2.5) if extent(caption, h)[0] <= room), 1.8)
+    return Text(rect[0] + 3, rect[1] - 2.5, caption, "caption", height)
 
 
 def below(drawing: Drawing, view: str) -> list[Mark]:
@@ -202,7 +209,10 @@ def asked(drawing: Drawing) -> list[str]:
         "poles": () if first else ask.poles,
     }
     return [
-        words(f"ask.{what}", list=words("list_mark").join(symbol(name) for name in names))
+        words(
+            f"ask.{what}" + ("_many" if len(names) > 1 else ""),
+            list=words("list_mark").join(symbol(name) for name in names),
+        )
         for what, names in groups.items()
         if names
     ]

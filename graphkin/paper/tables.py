@@ -87,21 +87,30 @@ def table(
     for width in (*widths, 0.0):
         marks.append(Line(left, y, left, y + height, "panel"))
         left += width
-    for i, row in enumerate((head, *rows)):
-        marks += cells(x, y + i * ROW + 3.55, widths, row)
+    marks += cells(x, y + 3.55, widths, head, size_for(widths, [head]))
+    height = size_for(widths, rows)
+    for i, row in enumerate(rows, 1):
+        marks += cells(x, y + i * ROW + 3.55, widths, row, height)
     return marks
 
 
-def cells(x: float, baseline: float, widths: Sequence[float], row: Row) -> list[Mark]:
-    """The texts of one row, each in the middle of its column, all in one size."""
+def size_for(widths: Sequence[float], rows: Sequence[Row]) -> float:
+    """The lettering in which every cell of some rows fits its column."""
     fits = all(
         extent(markup, HEIGHT)[0] <= width - 1
+        for row in rows
         for width, markup in zip(widths, row.cells, strict=True)
     )
+    return HEIGHT if fits else SMALL
+
+
+def cells(
+    x: float, baseline: float, widths: Sequence[float], row: Row, height: float
+) -> list[Mark]:
+    """The texts of one row, each in the middle of its column."""
     marks: list[Mark] = []
     for width, markup in zip(widths, row.cells, strict=True):
         if markup:
-            height = HEIGHT if fits else SMALL
             marks.append(Text(x + width / 2, baseline, markup, "table", height, "middle", row.name))
         x += width
     return marks
@@ -120,7 +129,7 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     marks: list[Mark] = []
     x = rect[0]
     for block in blocks:
-        marks += table(x, rect[1], (14, 15, 12, 15), head, block)
+        marks += table(x, rect[1], (14, 14, 12, 16), head, block)
         x += 56 + 3
     left = room - len(blocks[-1]) - 1 if blocks else room
     below = len(blocks) > 1 and left > len(turns)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.errors import Problem, StructureError
 from graphkin.plans import acceleration, centres, position, velocity
-from graphkin.plans.links import Base, bases, crank_tip
+from graphkin.plans.links import Base, bases, crank_tip, unused_branches
 from graphkin.plans.pen import Pen
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import Scene
@@ -40,6 +40,7 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
             standing.append((group, bases(scene, group)))
         except StructureError as error:
             problems += error.problems
+    problems += [] if problems else unused_branches(scene, groups)
     if problems:
         raise StructureError(problems)
     return standing

@@ -74,7 +74,7 @@ def no_construction(group: Group) -> StructureError:
     if isinstance(group, Dyad):
         what = f"a dyad {group.type}" + moving_guide(group)
     elif isinstance(group, Unresolved):
-        what = "a group of class III or higher, or links without a driver"
+        what = "a group of class III or higher, or moved by a driver that slides or rolls"
     return StructureError(
         Problem(
             "links." + ", ".join(links),
@@ -83,6 +83,23 @@ def no_construction(group: Group) -> StructureError:
             "graphkin check names every group",
         )
     )
+
+
+def unused_branches(scene: Scene, groups: tuple[Group, ...]) -> list[Problem]:
+    """A problem for each branch that no group has a choice for."""
+    dyads = [group for group in groups if isinstance(group, Dyad)]
+    needed = {g.inner.point for g in dyads if isinstance(g.inner, Pin) and g.type == "RRR"}
+    needed |= {g.right.block for g in dyads if isinstance(g.right, Sliding)}
+    return [
+        Problem(
+            f"branches.{name}",
+            "no group has a choice here",
+            "branches of " + (", ".join(sorted(needed)) or "nothing"),
+            "take it out, or graphkin check shows which groups there are",
+        )
+        for name in scene.branches
+        if name not in needed
+    ]
 
 
 def moving_guide(dyad: Dyad) -> str:

@@ -58,7 +58,8 @@ def crank(pen: Pen, shapes: Shapes, group: Crank) -> None:
         else:
             locals_ = [shapes.local(group.link, point) for point in (*line, pivot, tip)]
             turned = arm if line else arm_by_axis
-            found = pen.draw(turned, start, turn, *locals_, name=tip, p=pivot, q=tip)
+            says: Says = {"p": pivot, "q": tip, "k": group.link}
+            found = pen.draw(turned, start, turn, *locals_, name=tip, **says)
     pen.want("position", tip, found)
 
 

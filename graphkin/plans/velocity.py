@@ -87,6 +87,8 @@ def sliding(pen: Pen, base: Base) -> None:
     if base.end is not None:
         return
     guide = pen.guides[base.link]
+    for quantity in ("omega", "epsilon"):
+        pen.want(quantity, base.link, pen.given("nought"))
     for quantity, result, plane in (
         ("velocity", "slide speed", Plane.VELOCITIES),
         ("acceleration", "slide acceleration", Plane.ACCELERATIONS),

@@ -76,4 +76,7 @@ def syntax_problem(message: str, text: str) -> Problem:
     hint = ""
     if found.startswith("cannot overwrite") or "twice" in found:
         hint = "the same key or table is written above"
+    lines = text.splitlines()
+    if int(line) <= len(lines) and re.search(r"=\s*-?\d+,\d", lines[int(line) - 1]):
+        hint = "numbers are written with a point: 37.5"
     return Problem(f"line {line}", f"not TOML: {found}", hint=hint)

@@ -24,6 +24,8 @@ from graphkin.scene.words import FRAME_WORD, LONGEST_NAME, is_link_name
 FORMAT = 1
 """Version of the scene format that is read."""
 MOST_LINKS = 500
+SPELLINGS = {"rpm": "rev/min", "r.p.m.": "rev/min", "rot/min": "rev/min", "degrees": "deg"}
+"""Other spellings of units, for hints."""
 UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "rad/s")}
 NO_SETTINGS: Mapping[str, object] = {}
 
@@ -107,7 +109,7 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
         if raw is None and not lost:
             findings.add(table.at(key), f"no unit of {key}", listed(choices))
         elif raw is not None and raw != units[key]:
-            hint = nearest(raw, choices) if isinstance(raw, str) else ""
+            hint = nearest(SPELLINGS.get(str(raw).lower(), str(raw)), choices)
             findings.add(table.at(key), shown(raw), listed(choices), hint)
     table.finish()
     return units

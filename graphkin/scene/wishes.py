@@ -99,7 +99,7 @@ def lenient_text(table: Table, key: str) -> str:
 
 
 def read_scale(table: Table, measures: Measures) -> Quantity | None:
-    """The scale of the drawing, a number or ``"1:5"``; None where it is left to the page."""
+    """The scale kL, real over drawn: 5 or ``"1:5"``; None where it is left to the page."""
     raw, place = table.take("scale"), table.at("scale")
     if raw is None:
         return None
@@ -107,7 +107,7 @@ def read_scale(table: Table, measures: Measures) -> Quantity | None:
     if len(parts) == 2 and all(part.strip().isdecimal() and len(part) < 9 for part in parts):
         drawn, true = int(parts[0]), int(parts[1])
         if drawn and true:
-            return Quantity(str(raw), exact(Fraction(drawn, true)).tree, "", place)
+            return Quantity(str(raw), exact(Fraction(true, drawn)).tree, "", place)
     return measures.number(place, raw, positive=True)
 
 

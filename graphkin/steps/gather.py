@@ -15,11 +15,12 @@ LINK = ("omega", "epsilon", "centre", "pole")
 SLIDE = ("slide", "slide speed", "slide acceleration", "coriolis")
 
 
-def gathered(trace: Trace) -> Solution:
-    """The solution that a trace holds; quantities that were not run are None."""
+def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
+    """The solution that a trace holds, links in the given order; what was not run is None."""
+    motions = dict(of_kind(trace, LINK))
     return Solution(
         points={name: PointMotion(*found) for name, found in of_kind(trace, POINT)},
-        links={name: LinkMotion(*found) for name, found in of_kind(trace, LINK)},
+        links={name: LinkMotion(*motions[name]) for name in links or motions if name in motions},
         slides={name: SlideMotion(*found) for name, found in of_kind(trace, SLIDE)},
         margin=smallest_margin(trace),
     )
@@ -35,15 +36,13 @@ def of_kind(trace: Trace, quantities: tuple[str, ...]) -> Iterable[tuple[str, li
 
 
 def smallest_margin(trace: Trace) -> Real:
-    """The smallest sine of crossing among the steps that were run; 1 when nothing crossed."""
+    """The smallest sine of crossing in the construction; 1 when nothing crossed.
+
+    The flat triangles of plates do not count: their points follow by similarity.
+    """
     smallest: Real = 1.0
     for number, margin in trace.margins.items():
-        if not trace.program.steps[number].hand:
+        step = trace.program.steps[number]
+        if not step.hand and step.part is not Part.SHAPE:
             smallest = pick(margin < smallest, margin, smallest)
     return smallest
-
-
-def crossings(trace: Trace, part: Part) -> dict[int, Real]:
-    """The margins of one part of the work, by step."""
-    steps = trace.program.steps
-    return {number: sine for number, sine in trace.margins.items() if steps[number].part is part}

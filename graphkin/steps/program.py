@@ -42,8 +42,8 @@ class Given:
 
     def value(self, values: Mapping[str, Any], kind: Kind) -> Any:
         """The given value in SI, as a number of a kind."""
-        if self.form == "one":
-            return 1.0
+        if not self.quantities:
+            return 1.0 if self.form == "one" else 0.0
         first = self.quantities[0]
         match self.form:
             case "direction":

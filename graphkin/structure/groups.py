@@ -73,17 +73,27 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
 def refuse_wrong_drivers(scene: Scene) -> None:
     """Raise StructureError unless there are as many drivers as the count leaves freedoms."""
     freedoms, drivers = count(scene).mobility, len(scene.drivers)
-    if freedoms != drivers:
-        noun = "freedom" if freedoms == 1 else "freedoms"
-        raise StructureError(
-            Problem(
-                "drivers",
-                f"{drivers} given, but the count 3·{count(scene).moving} - "
-                f"2·{count(scene).pairs} leaves {freedoms} {noun}",
-                "as many drivers as freedoms",
-                "add or remove a driver, or look for a pin or a guide that is missing",
-            )
+    if freedoms == drivers:
+        return
+    noun = "freedom" if freedoms == 1 else "freedoms"
+    hint = "add a driver" if freedoms > drivers else "take a driver away"
+    if freedoms > drivers and (loose := lone_points(scene)):
+        hint += f", or a pin is missing: only one link has the points {', '.join(loose)}"
+    raise StructureError(
+        Problem(
+            "drivers",
+            f"{drivers} given, but the count 3·{count(scene).moving} - "
+            f"2·{count(scene).pairs} leaves {freedoms} {noun}",
+            "as many drivers as freedoms",
+            hint,
         )
+    )
+
+
+def lone_points(scene: Scene) -> list[str]:
+    """The points that only one link has, each with its link."""
+    owners = sharers(scene)
+    return [f"{point} ({links[0]})" for point, links in owners.items() if len(links) == 1]
 
 
 def next_crank(scene: Scene, known: frozenset[str], waiting: list[Driver]) -> Crank | None:

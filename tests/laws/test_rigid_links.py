@@ -39,8 +39,13 @@ class Moving:
 
     def turning(self):
         """Each link that can turn, with the motion of its points."""
-        for name, link in self.solution.links.items():
+        for name, link in self.links().items():
             yield link, [self.solution.points[p] for p in self.scene.link(name).points]
+
+    def links(self):
+        """The links that can turn; a block on the frame has no centre and no pole."""
+        found = self.solution.links.items()
+        return {name: link for name, link in found if link.instant_centre is not None}
 
     def bars(self):
         """Each link that can turn, with each two of its points."""
@@ -118,7 +123,7 @@ def mehmke(moving: Moving) -> None:
 
 def kennedy(moving: Moving) -> None:
     """The centres of three links lie on one line: two links, the frame, and the pin between."""
-    links, points = moving.solution.links, moving.solution.points
+    links, points = moving.links(), moving.solution.points
     for pair in pairs(moving.scene):
         if not isinstance(pair, Pin) or not all(name in links for name in pair.links):
             continue
@@ -133,7 +138,7 @@ def kennedy(moving: Moving) -> None:
 
 def kennedy_on_a_guide(moving: Moving) -> None:
     """A block's centre is at infinity across its guide: its rod's lies straight above the pin."""
-    links, points = moving.solution.links, moving.solution.points
+    links, points = moving.links(), moving.solution.points
     for pair in pairs(moving.scene):
         if not isinstance(pair, Sliding):
             continue

@@ -199,7 +199,7 @@ centres = [2]
 """Scenes beside the shipped ones."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Drawn:
     """One sheet with what it was drawn from; ``marks`` holds those of its two fields."""
 
@@ -290,9 +290,8 @@ def drawing_of(name: str, n: int | None, kind: str, language: str = "en") -> Dra
     return next(drawing for drawing in drawings(name, n, language) if drawing.kind == kind)
 
 
-def drawn(
-    name: str, n: int | None, kind: str, view: str = "key", language: str = "en"
-) -> Drawn:
+@cache
+def drawn(name: str, n: int | None, kind: str, view: str = "key", language: str = "en") -> Drawn:
     """One sheet. Raises PageError when it cannot be made."""
     layout, page = attempt(name, n, kind, view, language)
     if isinstance(page, PageError):
@@ -366,27 +365,19 @@ def half_width(mark: Mark) -> float:
 
 
 def labels_of(marks: Sequence[Mark]) -> list[Labelled]:
-    """The labels among marks; leader and ring stand just before their text."""
+    """The labels among marks; a ring stands just before its text."""
+    leaders = {
+        (mark.name, mark.step): mark
+        for mark in marks
+        if isinstance(mark, Line) and kind_of(mark) == "leader" and mark.name
+    }
     found = []
     for i, mark in enumerate(marks):
-        if not isinstance(mark, Text) or kind_of(mark) != "label":
-            continue
-        before = list(marks[max(i - 2, 0) : i])
-        ring = before.pop() if before and kind_of(before[-1]) == "number" else None
-        leader = before.pop() if before and is_leader(before[-1], mark) else None
-        found.append(Labelled(mark, leader, ring))
+        if isinstance(mark, Text) and kind_of(mark) == "label":
+            before = marks[i - 1]
+            ring = before if isinstance(before, Circle) and kind_of(before) == "number" else None
+            found.append(Labelled(mark, leaders.get((mark.name, mark.step)), ring))
     return found
-
-
-def is_leader(mark: Mark, text: Text) -> bool:
-    """True for the leader of this very text."""
-    return (
-        isinstance(mark, Line)
-        and kind_of(mark) == "leader"
-        and mark.name == text.name
-        and mark.step == text.step
-        and bool(mark.name)
-    )
 
 
 def outline(mark: Mark) -> BaseGeometry:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from math import hypot
 
@@ -10,16 +11,19 @@ import pytest
 import shapely
 
 from graphkin.errors import PageError
+from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text, reach
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import SHORT
+from tests.mechanisms import SHIPPED
 from tests.paper.sheet_tools import (
     EVERY,
     KINDS,
     OTHERS,
-    PAPER,
     Drawn,
     attempt,
+    both,
+    calculations,
     drawn,
     half_width,
     is_label,
@@ -29,6 +33,7 @@ from tests.paper.sheet_tools import (
     length_of,
     named,
     outline,
+    texts,
     told,
     within,
 )
@@ -222,3 +227,107 @@ def misfits(line: Line, head: Polyline) -> list[str]:
     if shapely.Point(middle).distance(outline(line)) > 1e-6:
         found.append("head askew")
     return found
+
+
+def test_every_enlarged_detail_names_a_vector_in_it(page):
+    marks = page.marks["plan"]
+    large = [m for m in marks if isinstance(m, Circle) and m.cls == "detail" and m.r > 10]
+    names = [label.text for label in labels_of(marks) if not label.text.name]
+    for circle in large:
+        disc = shapely.Point(circle.cx, circle.cy).buffer(circle.r)
+        assert any(disc.contains(shapely.box(*reach(text))) for text in names)
+
+
+def test_every_inset_names_both_ends_of_its_link_and_the_centre(page):
+    marks = page.marks["mechanism"]
+    boxes = [m for m in marks if isinstance(m, Polyline) and m.cls == "panel"]
+    names = [label.text for label in labels_of(marks) if not label.text.name]
+    for panel in boxes:
+        inside = [t.markup for t in names if within(t, reach(panel))]
+        assert len(inside) == len(set(inside)) == 3, inside
+
+
+# --- the task view -------------------------------------------------------------------------------
+
+TASKS = [(lab, n) for lab in SHIPPED for n in (1, 7, 16, 29)]
+TASKS += [(name, None) for name in list(OTHERS)[1:3]]
+GIVEN_CLASSES = {"fixed-pivot", "guide", "ground", "pin", "centre-line", "pole", "label", "link"}
+
+
+@pytest.fixture(params=TASKS, ids=named)
+def pair(request) -> list[tuple[Drawn, Drawn]]:
+    tasks, keys = both(*request.param, "task"), both(*request.param, "key")
+    return list(zip(tasks, keys, strict=True))
+
+
+def test_a_task_shows_only_fixed_pivots_lines_of_guides_and_the_pole(pair):
+    for task, _ in pair:
+        frame = task.drawing.scene.frame.points
+        assert {kind_of(mark) for mark in task.marks["plan"]} == {"pole", "label"}
+        assert {mark.name for mark in task.marks["plan"]} == {task.drawing.pole}
+        for mark in task.marks["mechanism"]:
+            assert kind_of(mark) in GIVEN_CLASSES, told(mark)
+            assert mark.step is None, told(mark)
+            if kind_of(mark) in ("pin", "link", "label", "leader"):
+                assert mark.name in frame, told(mark)
+            elif kind_of(mark) == "centre-line":
+                assert mark.name.startswith("guide "), told(mark)
+
+
+def test_what_a_task_shows_stands_where_the_key_has_it(pair):
+    for task, key in pair:
+        for field in FIELDS:
+            shown = [m for m in task.marks[field] if not is_label(m)]
+            assert shown
+            assert not [told(mark) for mark in shown if mark not in key.marks[field]]
+
+
+def test_the_cells_for_results_are_empty_in_a_task_and_full_in_the_key(pair):
+    for task, key in pair:
+        blank, full = (
+            {(m.x, m.y, m.markup) for m in texts([side.page]) if kind_of(m) == "table"}
+            for side in (task, key)
+        )
+        heads = {m for m in blank if m[1] == min(y for _, y, _ in blank)}
+        assert blank < full
+        rows = Counter(m.name for m in texts([key.page]) if kind_of(m) == "table" and m.name)
+        left = Counter(m.name for m in texts([task.page]) if kind_of(m) == "table" and m.name)
+        assert left.keys() == rows.keys() and heads
+        for name, count in rows.items():
+            assert left[name] == count - 2, name
+        assert not [m for m in blank if re.search(r"\d[.,]\d", m[2])]
+
+
+def test_a_task_has_the_data_line_of_the_key(pair):
+    for task, key in pair:
+        lines = [[m.markup for m in texts([s.page]) if m.name == "data"] for s in (task, key)]
+        assert lines[0] == lines[1] != []
+
+
+def test_no_number_of_the_solution_stands_on_a_task(pair):
+    task, _ = pair[0]
+    name = task.drawing.scene.name
+    n = next((int(v) for v in task.drawing.scene.values.values()), None)
+    secret = solution_numbers([key.drawing for _, key in pair])
+    for view, pages in (
+        ("task", [*(t.page for t, _ in pair), *calculations(name, n, "task")]),
+        ("key", [*(k.page for _, k in pair), *calculations(name, n, "key")]),
+    ):
+        words = [m.markup for m in texts(pages) if m.name not in ("data", "witness")]
+        found = set(re.findall(r"\d+[.,]\d+(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?", " ".join(words)))
+        assert bool(found & secret) == (view == "key"), found & secret
+
+
+def solution_numbers(drawings: list[Drawing]) -> set[str]:
+    """How the numbers of a solution may be printed, from three to six digits."""
+    numbers = [drawings[0].scales.kv / 1000, drawings[0].scales.ka / 1000]
+    for drawing in drawings:
+        scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+        for target, number in drawing.trace.program.targets.items():
+            value = drawing.trace.values.get(number)
+            if target[0] in ("velocity", "acceleration", "omega", "epsilon") and value:
+                numbers += [abs(value), 1000 * abs(value) / scale]
+    words = drawings[0].words
+    printed = {words.significant(x, k) for x in numbers for k in range(3, 7) if x > 1e-9}
+    printed |= {words.fixed(x, k) for x in numbers for k in (1, 2, 3)}
+    return {text for text in printed if re.search(r"[1-9]\d*[.,]\d*[1-9]|[.,]\d*[1-9]", text)}

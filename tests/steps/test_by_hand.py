@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 from graphkin.plane import Circle, Line, Ratio, Vector
+from graphkin.steps.gather import gathered
 from graphkin.steps.program import Part, Plane
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
 
@@ -160,6 +161,17 @@ def test_a_crank_momentarily_at_rest_is_drawn_at_the_scale_one(acceleration):
     assert trace.values[mechanism.program.seconds] == 1.0
     assert trace.value("velocity", "B") == 0
     assert (trace.value("acceleration", "B") == 0) == (acceleration == 0)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_flat_crossing_that_only_the_hand_uses_does_not_count_for_the_margin(name):
+    flatter = 0
+    for n in range(1, 31):
+        mechanism = shipped(name, n)
+        trace = mechanism.trace(by_hand=True)
+        assert gathered(trace, ()).margin == mechanism.solve().margin
+        flatter += min(trace.margins.values()) < mechanism.solve().margin
+    assert flatter
 
 
 def test_every_drawn_step_has_a_place_on_a_drawing():

@@ -309,7 +309,7 @@ def test_too_few_drivers_are_told_with_the_count():
     assert words(FIVE_BAR + DRIVEN) == (
         "drivers: 1 given, but the count 3·4 - 2·5 leaves 2 freedoms; "
         "expected as many drivers as freedoms; "
-        "add or remove a driver, or look for a pin or a guide that is missing"
+        "add a driver"
     )
 
 

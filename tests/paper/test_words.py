@@ -1,0 +1,341 @@
+"""The sentences: the same in every language, each of them used, none of them missing."""
+
+from __future__ import annotations
+
+import ast
+import re
+from functools import partial
+from pathlib import Path
+from string import Formatter
+
+import pytest
+
+import graphkin
+from graphkin.errors import PageError
+from graphkin.handout import drawings_of, proved
+from graphkin.mechanism import Mechanism
+from graphkin.paper.calculation import calculation
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.marks import Page, Text
+from graphkin.paper.richtext import plain
+from graphkin.paper.sheet import sheet
+from graphkin.scene.read import read_text
+from graphkin.text import LANGUAGES, Words, words
+from tests.mechanisms import SHIPPED
+from tests.paper.sheet_tools import (
+    HEAD,
+    KINDS,
+    OTHERS,
+    attempt,
+    calculations,
+    mechanism_named,
+    named,
+    texts,
+)
+
+CODE = Path(graphkin.__file__).parent
+MARKS = {"en": ".", "ro": ","}
+
+RARE = {
+    "frame point given by distance and angle": """
+[frame]
+O1 = [0, 0]
+O2 = { from = "O1", length = 250, angle = 10 }
+[links.1]
+O1-A = 80
+[links.2]
+A-B = 230
+A-E = 60
+E = "beyond A on A-B"
+[links.3]
+O2-B = 160
+B-O2-F = 40
+O2-F = 90
+[[drivers]]
+turn = 1
+angle = 65
+speed = 12
+[branches]
+B = "left of A-O2"
+[ask]
+velocity = ["E", "F"]
+acceleration = ["E"]
+omega = [2, 3]
+epsilon = [2, 3]
+centres = [3]
+""",
+    "block with a second point, two cranks": """
+[frame]
+O1 = [0, 0]
+O2 = [250, 0]
+[links.1]
+O1-A = 80
+[links.2]
+O2-E = 70
+[links.3]
+A-B = 150
+[links.4]
+E-B = 160
+[links.5]
+B-C = 150
+[links.6]
+C = [0, 0]
+G = [25, 15]
+slides = { on = 0, through = [0, 240], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 65
+speed = 12
+[[drivers]]
+turn = 2
+angle = 100
+speed = -5
+acceleration = 3
+[branches]
+B = "left of A-E"
+6 = "backward"
+[ask]
+velocity = ["G"]
+acceleration = ["G"]
+omega = [3, 4]
+epsilon = [3, 4]
+""",
+    "guide along two points of the frame, link in its own axes": """
+[frame]
+O = [0, 0]
+P = [0, 40]
+Q = [100, 40]
+[links.1]
+O = [0, 0]
+A = [60, 10]
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = { on = 0, along = "P-Q" }
+[[drivers]]
+turn = 1
+angle = 50
+speed = 60
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+poles = [2]
+centres = [2, 1]
+""",
+    "link given by a distance and an angle": """
+[frame]
+O = [0, 0]
+P = [260, 30]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+C = { from = "A", length = 90, angle = 25 }
+[links.3]
+P-B = 140
+[[drivers]]
+turn = 1
+angle = 50
+speed = 20
+[branches]
+B = "left of A-P"
+[ask]
+velocity = ["C"]
+acceleration = ["C"]
+""",
+    "flat plate, poles and centres of links about fixed pivots": """
+[frame]
+O = [0, 0]
+P = [260, 30]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+A-C = 120
+B-C = 81
+C = "right of A-B"
+[links.3]
+P-B = 140
+[[drivers]]
+turn = 1
+angle = 50
+speed = 20
+[branches]
+B = "left of A-P"
+[ask]
+velocity = ["C"]
+acceleration = ["C"]
+centres = [1, 2, 3]
+poles = [1, 2, 3]
+""",
+    "crank with its own axes": """
+[frame]
+O = [0, 0]
+P = [260, 30]
+[links.1]
+A = [60, 5]
+O = [2, 3]
+[links.2]
+A-B = 200
+[links.3]
+P-B = 140
+[[drivers]]
+turn = 1
+angle = 50
+speed = 20
+[branches]
+B = "left of A-P"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+""",
+}
+"""Scenes that use what the others do not."""
+
+
+class Recording(Words):
+    """Words that remember which keys were asked for."""
+
+    def __call__(self, key: str, **fields: object) -> str:
+        USED.add(key)
+        return super().__call__(key, **fields)
+
+    def has(self, key: str) -> bool:
+        found = super().has(key)
+        USED.update([key] * found)
+        return found
+
+
+USED: set[str] = set()
+
+
+def every_page(mechanism: Mechanism, spoken: Words) -> list[Page]:
+    """All pages of a mechanism, both views; what does not fit is left out."""
+    verdict = proved(mechanism, mechanism.solve())
+    drawings = drawings_of(mechanism, verdict, spoken)
+    pages: list[Page] = []
+    for view in ("key", "task"):
+        made = [partial(calculation, drawings, view)]
+        made += [partial(one_page, drawing, view) for drawing in drawings]
+        for make in made:
+            try:
+                pages += make()
+            except PageError as error:
+                assert "does not fit" in str(error)
+    return pages
+
+
+def one_page(drawing: Drawing, view: str) -> list[Page]:
+    """One sheet."""
+    return [sheet(drawing, view, "1/1")]
+
+
+def rare(name: str) -> Mechanism:
+    """A scene that uses what the others do not."""
+    return Mechanism(read_text(HEAD.format(title=name) + RARE[name], name, None, {}))
+
+
+def fields(sentence: str) -> set[str]:
+    """The names of the gaps of a sentence."""
+    return {name for _, name, _, _ in Formatter().parse(sentence) if name is not None}
+
+
+def literals() -> set[str]:
+    """Every string that stands in the code by itself."""
+    found = set()
+    for path in CODE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                found.add(node.value)
+    return found
+
+
+def spoken_keys() -> set[str]:
+    """Every string that stands in the code as the key of words(...)."""
+    found = set()
+    for path in CODE.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        found |= set(re.findall(r'\bwords\(\s*"([^"{}]+)"', text))
+    return found - set(LANGUAGES)
+
+
+def test_every_language_has_the_same_keys():
+    keys = {language: words(language).sentences.keys() for language in LANGUAGES}
+    assert keys["en"] == keys["ro"], keys["en"] ^ keys["ro"]
+
+
+def test_every_sentence_has_the_same_gaps_in_every_language():
+    english, romanian = words("en").sentences, words("ro").sentences
+    differing = [key for key in english if fields(english[key]) != fields(romanian[key])]
+    assert not differing
+
+
+def test_romanian_is_not_left_in_english():
+    english, romanian = words("en").sentences, words("ro").sentences
+    same = {key for key in english if english[key] == romanian[key]}
+    long = {key for key in same if re.search(r"[a-z]{4,}", re.sub(r"\{.*?\}", "", english[key]))}
+    assert long <= {"page.constant"}
+
+
+def test_every_key_in_the_code_has_a_sentence():
+    assert len(spoken_keys()) > 20
+    assert spoken_keys() <= words("en").sentences.keys()
+
+
+def test_every_sentence_is_used():
+    USED.clear()
+    spoken = Recording("en", words("en").sentences)
+    every = [mechanism_named(lab, n) for lab in SHIPPED for n in (7,)]
+    every += [mechanism_named(name) for name in OTHERS] + [rare(name) for name in RARE]
+    for mechanism in every:
+        every_page(mechanism, spoken)
+    unused = words("en").sentences.keys() - USED - literals()
+    assert not unused, " ".join(sorted(unused))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", RARE)
+def test_rare_ways_to_write_a_scene_have_their_sentences(name, language):
+    assert every_page(rare(name), words(language))
+
+
+PAGES = [(lab, n, language) for lab in SHIPPED for n in (7, 17) for language in LANGUAGES]
+PAGES += [(name, None, language) for name in list(OTHERS)[1:3] for language in LANGUAGES]
+
+
+@pytest.fixture(params=PAGES, ids=named)
+def spoken(request) -> tuple[str, list[Text]]:
+    name, n, language = request.param
+    pages: list[Page] = []
+    for view in ("key", "task"):
+        tried = [attempt(name, n, kind, view, language)[1] for kind in KINDS]
+        pages += [page for page in tried if isinstance(page, Page)]
+        pages += calculations(name, n, view, language)
+    return language, texts(pages)
+
+
+def test_no_gap_is_left_open(spoken):
+    _, found = spoken
+    assert not [mark.markup for mark in found if re.search(r"[{}]|None|nan\b", plain(mark.markup))]
+
+
+def test_decimals_are_written_in_the_language_of_the_page(spoken):
+    language, found = spoken
+    wrong = ({".", ","} - {MARKS[language]}).pop()
+    both = [mark.markup for mark in found if re.search(rf"\d{re.escape(wrong)}\d", mark.markup)]
+    assert not both
+    right = [m for m in found if re.search(rf"\d{re.escape(MARKS[language])}\d", m.markup)]
+    assert len(right) > 10
+
+
+def test_a_true_minus_stands_before_negative_numbers(spoken):
+    _, found = spoken
+    assert not [m.markup for m in found if re.search(r"(?:^|[\s(;])-\d", m.markup)]
+
+
+def test_every_text_says_something(spoken):
+    _, found = spoken
+    assert not [mark for mark in found if not plain(mark.markup).strip()]
