@@ -21,7 +21,7 @@ LINES = (
     "velocity-normal",
     "centripetal",
 )
-WHOLE = ("acceleration-pole", "beside", "arm", "arm-by-axis")
+WHOLE = ("acceleration-pole", "beside", "arm")
 """Actions whose own sentence says all that the hand does."""
 
 

@@ -174,7 +174,7 @@ pe două rânduri.'''
     scene = changed("[ask]", sheet + "[ask]")
     assert (scene.sheet.date, scene.sheet.number) == ("2024-05-17", "12")
     assert (scene.sheet.owner, scene.sheet.sheets) == ("Universitatea", 1)
-    assert scene.sheet.scale is not None and scene.sheet.scale.number({}) == Fraction(1, 5)
+    assert scene.sheet.scale is not None and scene.sheet.scale.number({}) == Fraction(5)
     assert scene.notes == {"ro": "O notă\npe două rânduri."}
 
 
