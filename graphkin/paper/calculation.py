@@ -10,7 +10,8 @@ from graphkin.paper.areas import A4_AREA, A4_SIZE
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import page_frame
 from graphkin.paper.marks import Mark, Page, Text
-from graphkin.paper.relations import Relation, relations
+from graphkin.paper.relation import Relation
+from graphkin.paper.relations import relations
 from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.sheet import title_of
 
@@ -57,13 +58,17 @@ def all_rows(drawings: Sequence[Drawing], *, solved: bool) -> Iterator[Row]:
 def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> Iterator[Row]:
     """A relation in as many lines as it needs, its number beside the last."""
     parts = relation.parts(solved=solved)
-    if not relation.result:
-        parts = [word for part in parts for word in part.split(" ")]
+    room = RIGHT - LEFT - NUMBER
+    parts = [
+        piece
+        for part in parts
+        for piece in (part.split(" ") if extent(part, LETTER)[0] > room else [part])
+    ]
     if relation.result and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {'. ' * 14}{relation.unit}".rstrip()]
-    lines = flowed(parts, "", RIGHT - LEFT - NUMBER, LETTER)
+    lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):
-        if extent(line, LETTER)[0] > RIGHT - LEFT - NUMBER:
+        if extent(line, LETTER)[0] > room:
             raise PageError(
                 Problem(
                     "calculation",

@@ -17,6 +17,8 @@ from graphkin.text import Words
 
 METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
 """The units in which a scene may write lengths."""
+ENDLESS = 1e9
+"""A centre so many mechanisms away counts as at infinity."""
 NOISE = 1e-9
 """A quantity this small beside the largest of its kind is rounding and shown as nought."""
 
@@ -60,6 +62,18 @@ class Drawing:
         for number, step, value in self.steps(Plane.MECHANISM):
             if step.part in (*own, arrows):
                 yield number, step, value
+
+    def place(self, centre: Ratio) -> complex | None:
+        """The point of a centre or pole; None at infinity, or as far away as makes no odds."""
+        if abs(centre.size) * ENDLESS * self.reach <= abs(centre.shift):
+            return None
+        return complex(centre.start + centre.shift / centre.size)
+
+    @cached_property
+    def reach(self) -> float:
+        """The largest distance in the mechanism, in metres."""
+        box = extent_of(list(self.positions.values()))
+        return max(box.width, box.height)
 
     @cached_property
     def positions(self) -> Mapping[str, complex]:
@@ -153,11 +167,3 @@ def ends(value: Any) -> tuple[complex, ...]:
     if isinstance(value, Line | Circle | Ratio) or not isinstance(value, complex):
         return ()
     return (value,)
-
-
-def place_of(ratio: Ratio) -> complex | None:
-    """The point of a ratio, None at infinity."""
-    if ratio.size == 0:
-        return None
-    point = ratio.start + ratio.shift / ratio.size
-    return complex(point)

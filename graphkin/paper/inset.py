@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from graphkin.paper.detail import free_place
-from graphkin.paper.drawing import Drawing, place_of
+from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Circle, Line, Mark, Text, box
@@ -28,7 +28,7 @@ def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
     for _, step, value in drawing.mechanism_steps():
         if step.part not in (Part.CENTRE, Part.POLE) or not isinstance(value, Ratio):
             continue
-        point = place_of(value)
+        point = drawing.place(value)
         if point is None or field.holds(point, 2.0):
             continue
         if abs(point - value.start) * field.mm > FARTHEST * (field.rect[2] - field.rect[0]):

@@ -14,7 +14,7 @@ from typing import Any
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import AREA, MARGIN, WIDTH, Rect
-from graphkin.paper.drawing import Drawing, place_of
+from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field
 from graphkin.paper.scale import Extent
 from graphkin.plane import Circle, Line, Ratio
@@ -83,7 +83,7 @@ def with_poles(drawing: Drawing, extent: Extent, mm: float, rect: Rect) -> Exten
     room = rect[2] - rect[0] - 1.4 * MARGIN, rect[3] - rect[1] - 1.4 * MARGIN
     for _, step, value in drawing.mechanism_steps():
         if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
-            point = place_of(value)
+            point = drawing.place(value)
             grown = extent.grown([point]) if point is not None else extent
             if grown.width * mm <= room[0] and grown.height * mm <= room[1]:
                 extent = grown
@@ -109,7 +109,7 @@ def points_on(drawing: Drawing, number: int) -> list[complex]:
     for child in drawing.children.get(number, ()):
         value: Any = drawing.trace.values[drawing.results.get(child, child)]
         if isinstance(value, Ratio):
-            value = place_of(value)
+            value = drawing.place(value)
         if isinstance(value, complex):
             points.append(value)
     return points

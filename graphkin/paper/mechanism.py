@@ -132,7 +132,8 @@ def draw_body(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
         on_page = tuple(field(place) for place in corners)
         board.marks.append(polygon(on_page, "plate", link.name))
         ends = on_page[0], on_page[1]
-    board.labels.append(Label(link.name, "", ends, 2.5, link.name, priority=3, ring=True))
+    if not link.slides:
+        board.labels.append(Label(link.name, "", ends, 2.5, link.name, priority=3, ring=True))
 
 
 def places_of(drawing: Drawing, link: Link) -> list[complex]:

@@ -29,6 +29,9 @@ SCALED = ("turned-velocity", "centripetal")
 """Actions that draw a vector as long as its bar, if the scale follows from the driver."""
 
 
+CENTRES = ("instant-centre", "acceleration-pole")
+
+
 @dataclass(frozen=True, slots=True)
 class Sentence:
     """A sentence of the construction with the number of the step that it ends with."""
@@ -98,6 +101,8 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         key = "step.similar-in-line"
     elif step.action.key in SCALED and step.name and not drawing.scales.from_driver:
         key += "-scaled"
+    elif words_of.action and words_of.action.key in CENTRES and is_endless(drawing, words_of):
+        key = f"step.{words_of.action.key}-far"
     elif step.action.key == "acceleration-pole" and step.by_hand is None:
         key += "-pivot"
     elif step.action.key == "centripetal" and not step.name:
@@ -108,6 +113,12 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         fields["side"] = drawing.words(f"{key}.side{step.extra[0]:+d}", **fields)
         key += ".say"
     return drawing.words(key, name=symbol(name), **fields)
+
+
+def is_endless(drawing: Drawing, step: Step) -> bool:
+    """True when a centre or a pole lies at infinity."""
+    number = drawing.trace.program.steps.index(step)
+    return drawing.place(drawing.trace.values[number]) is None
 
 
 def in_line(drawing: Drawing, step: Step) -> bool:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, mechanism
 from graphkin.paper.areas import A3_AREA, AREA, BELOW, TABLES, Rect
-from graphkin.paper.construct import Desk
 from graphkin.paper.data import given
+from graphkin.paper.desk import Desk
 from graphkin.paper.detail import with_detail
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import TitleBlock, check_bar, sheet_frame
@@ -14,6 +14,7 @@ from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.plan import put_pole
 from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.sentences import sentences
 from graphkin.paper.symbolic import symbol
@@ -161,7 +162,7 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     if view == "task":
         for number, step, value in drawing.steps(drawing.plane):
             if step.action and step.action.key == "pole":
-                construct.put_pole(desk, number, step, value)
+                put_pole(desk, number, step, value)
         return board
     construct.draw_plan_steps(desk)
     return board

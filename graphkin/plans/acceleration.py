@@ -6,9 +6,10 @@ from graphkin.plans.links import Base, crank_tip
 from graphkin.plans.pen import PRIME, Pen, Says, about, second_image
 from graphkin.plans.position import crosses_well
 from graphkin.plans.shape import Shapes
-from graphkin.plans.velocity import along_guide, block_points, named
+from graphkin.plans.velocity import along_guide, named
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
+    alike,
     bar_line,
     centripetal,
     driven_tangential,
@@ -123,7 +124,7 @@ def square(pen: Pen, pivot: str, pin: str, corner: int) -> int:
 def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
     """Second images of the other points of a link, similar to the link (Mehmke)."""
     if base.end is None:
-        block_points(pen, base, "acceleration")
+        block_points(pen, base)
         return
     ends = pen.the("acceleration", base.start), pen.the("acceleration", base.end)
     for point in base.others:
@@ -143,6 +144,17 @@ def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
                 component_arrow(pen, corner, found, "τ", point, pivot)
         pen.want("acceleration", point, found)
         arrow_to(pen, point)
+
+
+def block_points(pen: Pen, base: Base) -> None:
+    """All points of a block on a fixed guide have one second image."""
+    for point in base.others:
+        if not pen.has("acceleration", point):
+            start = pen.the("acceleration", base.start)
+            with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+                found = pen.draw(alike, start, name=second_image(point), p=base.start, q=point)
+            pen.want("acceleration", point, found)
+            arrow_to(pen, point)
 
 
 def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str, int]]:

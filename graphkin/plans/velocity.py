@@ -8,6 +8,7 @@ from graphkin.plans.position import crosses_well
 from graphkin.plans.shape import Shapes
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
+    alike,
     join,
     meet,
     omega,
@@ -103,7 +104,7 @@ def sliding(pen: Pen, base: Base) -> None:
 def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
     """Images of the other points of a link: the triangle abc is similar to ABC, turned 90°."""
     if base.end is None:
-        block_points(pen, base, "velocity")
+        block_points(pen, base)
         return
     ends = pen.the("velocity", base.start), pen.the("velocity", base.end)
     for point in base.others:
@@ -125,11 +126,15 @@ def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
         arrow_to(pen, point, base.end)
 
 
-def block_points(pen: Pen, base: Base, quantity: str) -> None:
-    """All points of a block on a fixed guide move alike."""
+def block_points(pen: Pen, base: Base) -> None:
+    """All points of a block on a fixed guide have one image."""
     for point in base.others:
-        if not pen.has(quantity, point):
-            pen.want(quantity, point, pen.the(quantity, base.start))
+        if not pen.has("velocity", point):
+            start = pen.the("velocity", base.start)
+            with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+                found = pen.draw(alike, start, name=image(point), p=base.start, q=point)
+            pen.want("velocity", point, found)
+            arrow_to(pen, point, None)
 
 
 def turning(pen: Pen, base: Base) -> None:

@@ -174,6 +174,12 @@ def pole() -> Point:
     return 0j
 
 
+@action("alike")
+def alike(image: Point) -> Point:
+    """The image of a point that moves as another does: a block does not turn."""
+    return image
+
+
 @action("turned-velocity")
 def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
     """Image of a pin turning about a pivot: omega times the bar, turned a quarter (Galileo)."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, MultiLineString, Point, box
 
+from graphkin.paper.candidates import LOOSE, Blots, merged, segments, separation
 from graphkin.paper.clearance import PAD
 from graphkin.paper.place import CLEAR, Spot, Wish, place
 
@@ -233,3 +234,43 @@ def test_a_plan_is_labelled_without_leaders():
         assert near.index(min(near)) == k
     again = place([replace(wish, priority=3) for wish in asked], lines, NONE, FIELD)
     assert all(spot.free for spot in again)
+
+
+@settings(max_examples=100, deadline=None)
+@given(inner, st.floats(0.2, 9), st.integers(3, 60), st.floats(0.1, 2 * math.pi))
+def test_chords_merged_keep_labels_as_far_as_all_of_them(at, r, count, turn):
+    steps = [turn * k / count for k in range(count + 1)]
+    points = [(at[0] + r * math.cos(t), at[1] + r * math.sin(t)) for t in steps]
+    chords = np.array([(*a, *b) for a, b in pairwise(points)])
+    fewer, clear = merged(chords, np.full(count, CLEAR))
+    assert len(fewer) <= count
+    assert (clear <= CLEAR + LOOSE).all()
+    kept = MultiLineString([((a, b), (c, d)) for a, b, c, d in fewer])
+    slack = float(clear.max()) - CLEAR
+    assert all(kept.distance(Point(point)) <= slack + 1e-9 for point in points)
+
+
+def test_only_tiny_lines_that_follow_one_another_are_merged():
+    long = np.array([(0.0, 0, 5, 0), (5, 0, 9, 0), (9, 1, 9.1, 1), (9.2, 1, 9.3, 1)])
+    assert np.array_equal(merged(long, np.full(4, CLEAR))[0], long)
+    tiny = np.array([(0.0, 0, 0.1, 0), (0.1, 0, 0.2, 0)])
+    assert merged(tiny, np.full(2, CLEAR))[0].tolist() == [[0, 0, 0.2, 0]]
+    assert len(merged(tiny, np.array([0.6, 1.2]))[0]) == 2
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.tuples(inner, inner), min_size=1, max_size=10), st.lists(inner), sizes)
+def test_what_is_ruled_out_at_a_glance_is_too_near_a_line(ends, at, size):
+    lines = np.array([(*a, *b) for a, b in ends])
+    x, y = np.array(at).reshape(-1, 2).T
+    hx, hy = np.full(len(x), size[0] / 2), np.full(len(x), size[1] / 2)
+    hit = Blots(lines, FIELD, 0.7 * CLEAR).hit(x, y, hx, hy)
+    apart = separation(x[:, None], y[:, None], hx[:, None], hy[:, None], segments(lines))
+    assert (apart[hit] < CLEAR).any(axis=1).all()
+
+
+def test_a_label_walled_in_far_around_still_finds_a_place():
+    walls = [(k, 12.0, k, 48.0) for k in np.arange(20, 61, 2.0)]
+    (spot,) = place([Wish(6, 3, (40, 30))], walls, NONE, FIELD)
+    assert spot.free
+    assert spot.leader

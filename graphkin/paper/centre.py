@@ -1,0 +1,84 @@
+"""The marks of instantaneous centres and acceleration poles, near and far."""
+
+from __future__ import annotations
+
+from cmath import phase
+from math import degrees
+from typing import Any
+
+from graphkin.paper.desk import Desk, above_foot, line_ends
+from graphkin.paper.field import clipped
+from graphkin.paper.labels import Label
+from graphkin.paper.marks import Circle, Line
+from graphkin.paper.plan import line_name
+from graphkin.paper.symbolic import symbol
+from graphkin.paper.symbols import head
+from graphkin.steps.program import Part, Step
+
+LAST = 20.0
+"""How much of a ray to a far centre its name belongs to, in mm."""
+FAR = 2000.0
+"""Longer than any way on a page, in mm."""
+
+
+def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """An instantaneous centre or acceleration pole; one off its field by its way and distance."""
+    point = desk.drawing.place(value)
+    if point is not None and desk.field.holds(point, 2.0):
+        at = desk.field(point)
+        x, y = at
+        desk.board.marks += (
+            Circle(x, y, 1.3, f"centre {desk.colour}", step.name, number),
+            Line(x - 2.2, y, x + 2.2, y, f"centre {desk.colour}", step.name, number),
+            Line(x, y - 2.2, x, y + 2.2, f"centre {desk.colour}", step.name, number),
+        )
+        desk.board.labels.append(
+            Label(
+                symbol(step.name), desk.colour, at, 3.5, step.name, number, priority=2, radius=2.2
+            )
+        )
+        return
+    put_far_centre(desk, number, step, value)
+
+
+def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A centre off the field: name, direction and distance where a ray to it leaves the field."""
+    endless = desk.drawing.place(value) is None
+    if step.part is Part.POLE and endless:
+        words = desk.drawing.words
+        name, link = symbol(step.name), step.says["k"]
+        desk.board.notes.append(words("page.pole_at_infinity", name=name, k=link))
+        return
+    way = value.shift / value.size if value.size else value.shift
+    if way == 0:
+        return
+    start, (u, v) = desk.field(value.start), desk.field.way(way)
+    part = clipped(start, (start[0] + FAR * u, start[1] + FAR * v), above_foot(desk.field.rect))
+    if part is None:
+        return
+    desk.board.marks.append(head(*part, desk.colour, step.name, number))
+    if step.by_hand not in desk.drawing.trace.values:
+        desk.board.marks.append(Line(*part[0], *part[1], "ray", step.name, number))
+    text = far_words(desk, step, 0.0 if endless else abs(way), way)
+    end = part[1]
+    subject = ((end[0] - LAST * u, end[1] - LAST * v), end)
+    desk.board.labels.append(Label(text, desk.colour, subject, 2.5, step.name, number, priority=2))
+
+
+def far_words(desk: Desk, step: Step, distance: float, way: complex) -> str:
+    """Words for where a centre lies that is not on the sheet; at infinity for distance nought."""
+    words = desk.drawing.words
+    angle = words.fixed(degrees(phase(way)) % 360, 1)
+    fields = {"name": symbol(step.name), "p": symbol(step.says["p"]), "angle": angle}
+    if not distance:
+        return words("page.centre_at_infinity", **fields)
+    fields["unit"] = desk.drawing.scene.units["length"]
+    away = words.significant(desk.drawing.length(distance), 4)
+    return words("page.far_centre", distance=away, **fields)
+
+
+def put_ray(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A ray that finds a centre or a pole."""
+    ends = line_ends(desk, number, value)
+    if ends:
+        desk.board.marks.append(Line(*ends[0], *ends[1], "ray", line_name(step), number))

@@ -1,0 +1,61 @@
+"""Where the steps of one drawing are put down, and what every kind of step needs there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.paper.areas import Rect
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.field import XY, Field, clipped
+from graphkin.paper.labels import Board
+from graphkin.paper.layout import Layout
+
+TINY = 0.5
+"""Vectors shorter than this, in mm, are named at the foot of their field."""
+NOTHING = 1e-6
+"""Vectors shorter than this, in mm, are nought."""
+FOOT = 6.5
+"""Height kept free of construction lines at the foot of a field, in mm."""
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Where steps of one drawing are put down: board, field, and the sheet's material."""
+
+    board: Board
+    field: Field
+    drawing: Drawing
+    layout: Layout
+
+    @property
+    def colour(self) -> str:
+        """The class that colours this sheet's plan."""
+        return self.drawing.kind
+
+
+def line_ends(desk: Desk, number: int, value: Any) -> tuple[XY, XY] | None:
+    """Both ends of the drawn part of a line, within its field."""
+    low, high = desk.layout.spans[number]
+    unit = value.along / abs(value.along) / desk.field.mm
+    start, end = desk.field(value.point + low * unit), desk.field(value.point + high * unit)
+    return clipped(start, end, above_foot(desk.field.rect))
+
+
+def above_foot(rect: Rect) -> Rect:
+    """A field without its lowest part, which is for notes."""
+    return rect[0] + 1, rect[1] + 1, rect[2] - 1, rect[3] - FOOT
+
+
+def middle(tail: XY, tip: XY) -> XY:
+    """The middle of a vector."""
+    return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
+
+
+def note_tiny(desk: Desk, name: str, length: float) -> None:
+    """Name a vector that is too short to be seen at the foot of its field."""
+    words = desk.drawing.words
+    key = "page.tiny" if length > NOTHING else "page.nought"
+    note = words(key, name=name, length=words.fixed(length, 2))
+    if note not in desk.board.notes:
+        desk.board.notes.append(note)

@@ -1,0 +1,160 @@
+"""The relations that come first: the driver, what it gives its pin, and the scale factors."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from graphkin.paper.data import angle_symbol, written
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.richtext import escape
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.tables import sense
+from graphkin.scene.model import Driver
+from graphkin.scene.quantity import Quantity, shortest
+from graphkin.steps.program import Plane
+
+OMEGA = 6
+"""Significant digits of the driver's angular velocity, from which all else follows."""
+
+
+def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
+    """Position and speed from the parameters, angular velocity, speed of the driven pin."""
+    words, scene = drawing.words, drawing.scene
+    index = f"_{{{escape(driver.link)}}}"
+    angle = angle_symbol(scene, driver)
+    for letter, quantity in ((angle, driver.position), (f"*n*{index}", driver.speed)):
+        if quantity.uses():
+            value = written(scene, words, quantity)
+            amount, _, unit = value.partition(" ")
+            yield Relation(
+                letter,
+                expression(drawing, quantity, values=False),
+                expression(drawing, quantity, values=True),
+                amount,
+                unit,
+            )
+    if driver.kind != "turn":
+        return
+    omega = float(driver.speed.si(scene.values))
+    if driver.speed.unit == "rev/min":
+        turns = words.decimal(driver.speed.written(scene.values).lstrip("-"))
+        yield Relation(
+            f"*ω*{index}",
+            f"π·*n*{index}/30",
+            f"π·{turns}/30",
+            figure(drawing, abs(omega), OMEGA),
+            "rad/s",
+            sense(words, omega),
+        )
+    for p, q in driven_bars(drawing, driver):
+        yield from of_pin(drawing, driver, p, q)
+
+
+def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
+    """The bar of a driver's link from its pivot to its pin."""
+    for _, step, _ in drawing.steps(Plane.VELOCITIES):
+        if step.action is not None and step.action.key == "turned-velocity":
+            p, q = step.says["p"], step.says["q"]
+            if {p, q} <= set(drawing.scene.links[driver.link].points):
+                yield p, q
+
+
+def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relation]:
+    """Velocity of a driven pin, its normal acceleration, and the tangential one if there is any."""
+    index, words = f"_{{{escape(driver.link)}}}", drawing.words
+    omega, epsilon = (
+        abs(float(rate.si(drawing.scene.values))) for rate in (driver.speed, driver.acceleration)
+    )
+    steady = driver.acceleration.is_zero()
+    length = length_of(drawing, p, q)
+    bar_length, w = figure(drawing, length), figure(drawing, omega, OMEGA)
+    line = bar(p, q)
+    speed = answer(drawing, omega * length)
+    yield Relation(
+        symbol(f"v_{q}"), f"*ω*{index}·{line}", f"{w}·{bar_length}", speed, "m/s", f"⊥ {line}"
+    )
+    yield Relation(
+        symbol(f"a_{q}" if steady else f"a_{q}^ν"),
+        f"*ω*{index}^2·{line}",
+        f"{w}^2·{bar_length}",
+        answer(drawing, omega * omega * length),
+        "m/s^2",
+        words("calculation.towards", p=symbol(p), q=symbol(q)),
+    )
+    if not steady:
+        yield Relation(
+            symbol(f"a_{q}^τ"),
+            f"*ε*{index}·{line}",
+            f"{figure(drawing, epsilon)}·{bar_length}",
+            answer(drawing, epsilon * length),
+            "m/s^2",
+            f"⊥ {line}",
+        )
+
+
+def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
+    """The text of a quantity as markup, its parameters as symbols or as figures."""
+    text = quantity.text.replace("**", "^")
+    known = drawing.scene.values
+
+    def replaced(match: re.Match[str]) -> str:
+        name = match[0]
+        if name not in known:
+            return name
+        return drawing.words.decimal(shortest(known[name])) if values else f"*{escape(name)}*"
+
+    parts = re.split(r"([A-Za-z_]\w*)", text)
+    return "".join(
+        re.sub(r"^\w+$", replaced, part) if i % 2 else spelled(drawing, part)
+        for i, part in enumerate(parts)
+    )
+
+
+def spelled(drawing: Drawing, text: str) -> str:
+    """Signs of an expression as they are printed."""
+    return escape(drawing.words.decimal(text).replace("*", "·").replace(" · ", "·"))
+
+
+def of_scales(drawing: Drawing) -> Iterator[Relation]:
+    """kL, kv and ka, and the drawn length of the driven bar."""
+    words, scales = drawing.words, drawing.scales
+    number = words.decimal(f"{scales.kL:g}")
+    yield Relation("*k*_L", "", "", number, "", words("calculation.scale", scale=scales.words))
+    for p, q, length in drawn_bars(drawing):
+        yield Relation(
+            f"{bar(p, q)}/*k*_L",
+            "",
+            f"{figure(drawing, 1000 * length)}/{number}",
+            figure(drawing, 1000 * length / scales.kL),
+            "mm",
+            words("calculation.drawn"),
+        )
+    yield from plan_scales(drawing, number)
+
+
+def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
+    """kv and ka: from the driving crank, or kv chosen and ka = kv²/kL."""
+    scales = drawing.scales
+    kv, ka = figure(drawing, scales.kv / 1000), figure(drawing, scales.ka / 1000)
+    if not scales.from_driver:
+        yield Relation("*k*_v", "", "", kv, "(m/s)/mm", drawing.words("calculation.chosen"))
+        yield Relation("*k*_a", "*k*_v^2/*k*_L", f"1000·{kv}^2/{number}", ka, "(m/s^2)/mm")
+        return
+    w = figure(drawing, 1 / scales.seconds, OMEGA)
+    index = f"_{{{escape(drawing.scene.drivers[0].link)}}}"
+    yield Relation("*k*_v", f"*ω*{index}·*k*_L", f"{w}·{number}/1000", kv, "(m/s)/mm")
+    yield Relation("*k*_a", f"*ω*{index}^2·*k*_L", f"{w}^2·{number}/1000", ka, "(m/s^2)/mm")
+
+
+def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
+    """The bars whose lengths are given, one for each length, in metres."""
+    seen = set()
+    for link in drawing.scene.links.values():
+        for placing in link.placings:
+            for p, q, quantity in placing.lengths():
+                length = float(quantity.si(drawing.scene.values))
+                if length not in seen:
+                    seen.add(length)
+                    yield p, q, length

@@ -1,0 +1,123 @@
+"""The marks of a plan's steps: lines with what they are square to, points, poles, arrows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot
+from typing import Any
+
+from graphkin.paper.desk import TINY, Desk, line_ends, middle, note_tiny
+from graphkin.paper.field import XY
+from graphkin.paper.labels import Label
+from graphkin.paper.marks import Arc, Circle, Line
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.symbols import PIN, SHORT, arrow
+from graphkin.steps.program import Plane, Step
+
+DOT = 0.7
+"""Radius of a point of a plan in mm."""
+
+
+def put_line(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A construction line, as far as the layout says, with what it is to its bar."""
+    ends = line_ends(desk, number, value)
+    if ends is None:
+        return
+    name = line_name(step)
+    desk.board.marks.append(Line(*ends[0], *ends[1], "construction", name, number))
+    markup = line_label(desk, step)
+    if markup:
+        desk.board.labels.append(
+            Label(markup, "construction", ends, 1.8, name, number, priority=-1)
+        )
+
+
+def line_name(step: Step) -> str:
+    """Name of a construction line: what it is drawn through and what it is square to."""
+    key = step.action.key if step.action else ""
+    sign = {"square-to": "⊥", "parallel-to": "∥"}.get(key, "")
+    return sign + step.says.get("p", step.says.get("g", "")) + step.says.get("q", "")
+
+
+def line_label(desk: Desk, step: Step) -> str:
+    """What is written along a construction line of a plan."""
+    key = step.action.key if step.action else ""
+    if key == "square-to":
+        return f"⊥ {bar(step.says['p'], step.says['q'])}"
+    if key == "parallel-to":
+        return f"∥ {desk.drawing.words('page.guide_of', g=step.says['g'])}"
+    return ""
+
+
+def put_arc(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The part of a compass arc that finds a point."""
+    if number not in desk.layout.spans:
+        return
+    name = step.says["p"] + step.says["q"]
+    centre, radius = desk.field(value.centre), value.radius * desk.field.mm
+    span = desk.layout.spans[number]
+    desk.board.marks.append(Arc(*centre, radius, *span, "compass", name, number))
+
+
+def put_driver_ray(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The line at the driver's angle; guides are drawn with their symbols."""
+    if "g" not in step.says:
+        put_line(desk, number, step, value)
+
+
+def put_point(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A named point of a plan."""
+    if step.name:
+        at = desk.field(value)
+        desk.board.marks.append(Circle(*at, DOT, f"point {desk.colour}", step.name, number))
+        name_point(desk, number, step, at, DOT)
+
+
+def put_pole(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The pole of a plan."""
+    at = desk.field(value)
+    desk.board.marks.append(Circle(*at, PIN, f"pole {desk.colour}", step.name, number))
+    name_point(desk, number, step, at, PIN)
+
+
+def name_point(desk: Desk, number: int, step: Step, at: XY, radius: float) -> None:
+    """The letter of a point; points that fall together share one label, o ≡ a."""
+    board = desk.board
+    for i, (x, y) in board.lettered.items():
+        if hypot(x - at[0], y - at[1]) < TINY:
+            label = board.labels[i]
+            together = f"{label.markup} ≡ {symbol(step.name)}"
+            board.labels[i] = replace(label, markup=together, name=f"{label.name} {step.name}")
+            return
+    board.lettered[len(board.labels)] = at
+    letter = symbol(step.name)
+    board.labels.append(
+        Label(letter, desk.colour, at, 3.5, step.name, number, priority=2, radius=radius)
+    )
+
+
+def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A vector with its symbol; a very short one without head, named at the end of a leader."""
+    tail, tip = desk.field(value.tail), desk.field(value.tip)
+    length = hypot(tip[0] - tail[0], tip[1] - tail[1])
+    cls = arrow_class(step, desk)
+    if length > 0:
+        desk.board.marks += arrow(tail, tip, cls, step.name, number)
+    if length < TINY:
+        note_tiny(desk, symbol(step.says["symbol"]), length)
+        return
+    name, short = symbol(step.says["symbol"]), length < SHORT
+    subject = middle(tail, tip) if short else (tail, tip)
+    desk.board.labels.append(
+        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short)
+    )
+
+
+def arrow_class(step: Step, desk: Desk) -> str:
+    """The look of a vector: normal and tangential components, relative and absolute ones."""
+    kind = {"ν": "normal", "τ": "tangential"}.get(step.says.get("kind", ""))
+    if kind:
+        return kind
+    relative = len(step.says["symbol"].partition("_")[2]) > 1 and step.name[0] != desk.drawing.pole
+    starts_at_pole = step.name.startswith(desk.drawing.pole) or step.plane is Plane.MECHANISM
+    return f"relative-{desk.colour}" if relative and not starts_at_pole else desk.colour

@@ -1,0 +1,113 @@
+"""The marks of the right triangle that gives a normal component on the mechanism."""
+
+from __future__ import annotations
+
+from math import degrees, hypot
+from typing import Any
+
+from graphkin.paper.desk import TINY, Desk, line_ends, middle, note_tiny
+from graphkin.paper.labels import Label
+from graphkin.paper.layout import BEYOND, SWEEP
+from graphkin.paper.marks import Arc, Circle, Line
+from graphkin.paper.symbolic import symbol
+from graphkin.paper.symbols import SHORT, arrow, bearing, square_mark
+from graphkin.steps.program import Part, Plane, Step
+
+
+def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The relative velocity set at its pin, and b″ at its tip."""
+    if is_tiny(desk, step, value):
+        return
+    tail, tip = desk.field(desk.drawing.positions[step.says["q"]]), desk.field(value)
+    name = "v_" + step.says["i"]
+    desk.board.marks += arrow(tail, tip, "relative-velocity", name, number)
+    desk.board.labels.append(
+        Label(symbol(name), "relative-velocity", (tail, tip), 2.5, name, number)
+    )
+    put_construction_point(desk, number, step, value)
+
+
+def is_tiny(desk: Desk, step: Step, tip: complex) -> bool:
+    """True when a right triangle is too small to be seen: its velocity is hardly any."""
+    return abs(tip - desk.drawing.positions[step.says["q"]]) * desk.field.mm < TINY
+
+
+def put_triangle_edge(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """From the pivot to b″, and at b″ square to it as far as the bar's line."""
+    if is_tiny(desk, step, value.point):
+        return
+    pivot = desk.field(desk.drawing.positions[step.says["p"]])
+    corner = desk.field(value.point)
+    desk.board.marks.append(Line(*pivot, *corner, "construction", step.name, number))
+    ends = line_ends(desk, number, value)
+    if ends:
+        desk.board.marks.append(Line(*ends[0], *ends[1], "construction", step.name, number))
+    back = hypot(pivot[0] - corner[0], pivot[1] - corner[1])
+    if back > 6:
+        first = ((pivot[0] - corner[0]) / back, (pivot[1] - corner[1]) / back)
+        second = desk.field.way(value.along)
+        low, high = desk.layout.spans[number]
+        if -low > high:
+            second = (-second[0], -second[1])
+        desk.board.marks.append(square_mark(corner, first, second, number))
+
+
+def put_bar_line(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The bar produced beyond its pin, as far as the right triangle needs it."""
+    low, high = desk.layout.spans[number]
+    if high - low < 2 * BEYOND + TINY:
+        return
+    ends = line_ends(desk, number, value)
+    if ends:
+        desk.board.marks.append(Line(*ends[0], *ends[1], "construction", step.name, number))
+
+
+def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """b‴ turned over into b⁗, and the normal component from the pin to b⁗."""
+    pin = desk.drawing.positions[step.says["q"]]
+    at, end = desk.field(pin), desk.field(value)
+    radius = hypot(end[0] - at[0], end[1] - at[1])
+    name = f"a_{step.says['i']}^ν"
+    if radius > SHORT:
+        way = bearing((end[0] - at[0], end[1] - at[1]))
+        half = min(degrees(SWEEP / radius / 2), 60.0)
+        span = (way - half, way + half)
+        desk.board.marks.append(Arc(*at, radius, *span, "compass", step.name, number))
+    if radius > 0:
+        desk.board.marks += arrow(at, end, "normal", name, number)
+    if radius < TINY:
+        note_tiny(desk, symbol(name), radius)
+        return
+    short = radius < SHORT
+    subject = middle(at, end) if short else (at, end)
+    desk.board.labels.append(Label(symbol(name), "normal", subject, 2.5, name, number, led=short))
+    put_construction_point(desk, number, step, value)
+
+
+def put_crossing(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A crossing on the mechanism: b‴ of a triangle; the others have their own marks."""
+    if step.part is Part.NORMAL:
+        put_construction_point(desk, number, step, value)
+
+
+def put_construction_point(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A small named point of the right triangle, unless it falls on its pin."""
+    at = desk.field(value)
+    if abs(value - desk.drawing.positions[step.says["q"]]) * desk.field.mm < TINY:
+        return
+    name = short_name(desk, step)
+    desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
+    desk.board.labels.append(
+        Label(symbol(name), "construction", at, 1.8, step.name, number, radius=0.5)
+    )
+
+
+def short_name(desk: Desk, step: Step) -> str:
+    """The name of a triangle's point, its index left out where its pin has only one triangle."""
+    base = step.name.partition("_")[0]
+    same = [
+        other
+        for _, other, _ in desk.drawing.steps(Plane.MECHANISM)
+        if other.part is Part.NORMAL and other.name.partition("_")[0] == base
+    ]
+    return base if len(same) == 1 else step.name
