@@ -37,9 +37,11 @@ BESIDE = 1.2  # mm between labels side by side, so that they do not read as one
 APART = np.array([[BESIDE], [PAD]])
 OWN = 0.4  # mm within which a drawn line is taken for the subject itself
 ROOM = 1.4  # mm of air around a label beyond which more is no better
-LEADER = np.array([6.0, 3.6])  # what one costs to a point and to a segment; costs are in mm
+LEADER = np.array([6.0, 3.7])  # what one costs to a point and to a segment; costs are in mm
 CROSSING = 0.9  # a line that a leader crosses
 SKIRT = 2.5  # a line that a leader runs along
+ASTRAY = 4.0  # a label further than FAR_OFF from its segment and nearer to another of length LONG
+FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
 AIR = 0.7  # each mm of air that is missing
 
 # Kinds of shapes; how far (mm) each should be beyond a label's own subject, and the cost of each
@@ -148,6 +150,7 @@ class Page:
         self.shapes = joined(segments(drawn), rectangles(taken), segments(core))
         kinds = [np.full(len(drawn), LINE), np.full(len(taken), BOX)]
         self.kind = np.concatenate([*kinds, np.where(subjects.line, CORE, DOT)])
+        self.long = (np.hypot(self.shapes.ex, self.shapes.ey) > LONG / 2) & (self.kind != BOX)
         keep = np.where(subjects.line, -NOWHERE, subjects.radius + PAD)
         self.clear = np.concatenate([clear, np.full(len(taken), PAD), keep])
         self.blots = Blots(drawn, field, 0.7 * float(clear.min(initial=PAD)))
@@ -235,7 +238,15 @@ class Page:
         doubt = np.maximum.reduceat(short, pairs.start).clip(0.0)
         room = np.where(pairs.own[:, None], ROOM, apart)
         air = np.minimum.reduceat(room, pairs.start).clip(0.0, ROOM)
-        return np.asarray(doubt * (1.0 + doubt / 5.0) + AIR * (ROOM - air))
+        astray = ASTRAY * self._astray(subjects, own, apart, pairs)
+        return np.asarray(doubt * (1.0 + doubt / 5.0) + AIR * (ROOM - air) + astray)
+
+    def _astray(self, subjects: Subjects, own: Array, apart: Array, pairs: Pairs) -> Mask:
+        """Return where a label is far from its own segment and nearer to another long one."""
+        other = ~pairs.own & subjects.line[pairs.row] & self.long[pairs.shape]
+        nearer = (apart < own[pairs.row]) & other[:, None]
+        far = own > subjects.gap[:, None] + FAR_OFF
+        return np.asarray(np.logical_or.reduceat(nearer, pairs.start) & far)
 
     def _toll(self, leader: Array, free: Mask, pairs: Pairs) -> Array:
         """Return what leaders cost: lines crossed or skirted; infinite across a box or a point."""

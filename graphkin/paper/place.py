@@ -26,8 +26,8 @@ FIRST, REST = slice(0, 32), slice(32, 999)  # with a leader: at first, and where
 
 SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
 UNPLACED = 1000.0  # a label without a place
-DEAR = 6.5  # what a label may pay before places with a leader are looked for
-BAD = 3.0  # what a label may pay above its best before places are traded
+DEAR = 7.4  # what a label may pay before places with a leader are looked for
+BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD = 8  # how many labels are settled anew for one without a place
 PUSH = 4.0  # what it is reckoned to cost to push a label aside
 WEAR = 4.0  # what a place costs more each time that it is taken in a chase
