@@ -19,7 +19,7 @@ RADIUS = 11.0
 """Radius of a detail circle in mm."""
 TOO_SHORT = 0.5
 """Vectors shorter than this, in mm, are not worth a detail."""
-GRID = 3.0
+GRID = 5.0
 """Distance of the places tried for a detail, in mm."""
 
 
@@ -112,12 +112,20 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
     yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")
     board = Board((place[0] - RADIUS, place[1] - RADIUS, place[0] + RADIUS, place[1] + RADIUS))
     for mark in marks:
-        if isinstance(mark, Line) and mark.cls.split()[0] in (*VECTORS, "construction"):
+        shown = isinstance(mark, Line) and mark.cls.split()[0] in (*VECTORS, "construction")
+        if isinstance(mark, Line) and shown and passes(mark, source, small):
             draw_part(board, mark, source, place, times)
     board.marks.append(Circle(*place, RADIUS, "detail"))
     board.labels = named(board, marks, source, place, times)
     yield from board.marks[:-1]
     yield from board.placed()
+
+
+def passes(line: Line, centre: XY, radius: float) -> bool:
+    """True when a line's carrier passes through a circle."""
+    dx, dy = line.x2 - line.x1, line.y2 - line.y1
+    across = dx * (centre[1] - line.y1) - dy * (centre[0] - line.x1)
+    return abs(across) <= radius * hypot(dx, dy)
 
 
 def draw_part(board: Board, line: Line, source: XY, place: XY, times: int) -> None:

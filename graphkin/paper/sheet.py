@@ -42,9 +42,7 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
         *below(drawing, view),
     ]
     title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
-    page = Page(420, 297, tuple(marks), title, drawing.words.language)
-    page.check()
-    return page
+    return Page(420, 297, tuple(marks), title, drawing.words.language)
 
 
 def title_of(drawing: Drawing) -> str:
