@@ -19,6 +19,8 @@ NUMBER = 2.3
 
 ROUNDS = 4
 """How often labels are placed anew with more key numbers before a field counts as full."""
+SMALL = 1.8
+"""Height of the smallest lettering in mm."""
 KEY = 4
 """Priority of a key number."""
 GAP, LED = 0.9, 3.4
@@ -48,6 +50,11 @@ class Label:
         """Width and height of the label's box."""
         width, top, bottom = extent(self.markup, self.height)
         return (2 * NUMBER, 2 * NUMBER) if self.ring else (width, bottom - top)
+
+    @property
+    def shrinks(self) -> bool:
+        """True for a letter of the construction that may still be made smaller."""
+        return self.cls == "construction" and self.height > SMALL
 
     def wish(self) -> Wish:
         """The box that the label needs, and where."""
@@ -124,12 +131,19 @@ class Board:
         return bool(blocked)
 
     def shorten(self, free: Sequence[bool], meanings: list[str]) -> None:
-        """Give crowded labels key numbers; what they mean is for the foot of the field."""
+        """Make crowded triangles' letters smaller, all at one pin, and give others key numbers.
+
+        What key numbers mean is for the foot of the field.
+        """
+        crowded = [i for i, spot_is_free in enumerate(free) if not spot_is_free]
+        letters = {self.labels[i].name[:1] for i in crowded if self.labels[i].shrinks}
         for i, label in enumerate(self.labels):
-            if not free[i] and label.priority < KEY:
+            if label.shrinks and label.name[:1] in letters:
+                self.labels[i] = replace(label, height=SMALL)
+            elif i in crowded and label.priority < KEY:
                 meanings.append(f"{len(meanings) + 1}) {label.markup}")
                 key = f"{len(meanings)})"
-                self.labels[i] = replace(label, markup=key, height=1.8, priority=KEY)
+                self.labels[i] = replace(label, markup=key, height=SMALL, priority=KEY)
 
     def footed(self, notes: Sequence[str]) -> list[Mark]:
         """Notes in lines at the foot of the field."""

@@ -98,7 +98,7 @@ def put_construction_point(desk: Desk, number: int, step: Step, value: Any) -> N
     name = short_name(desk, step)
     desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
     desk.board.labels.append(
-        Label(symbol(name), "construction", at, 1.8, step.name, number, radius=0.5)
+        Label(symbol(name), "construction", at, 2.5, step.name, number, radius=0.5)
     )
 
 
