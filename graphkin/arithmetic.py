@@ -94,6 +94,11 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
     return np.where(condition, yes, no)
 
 
+def least(a: Real, b: Real) -> Real:
+    """The smaller of two numbers, element by element in a batch; NaN where either is."""
+    return pick(a < b, a, pick(a == a, b, a))  # noqa: PLR0124
+
+
 def is_finite(z: Any) -> bool:
     """True when a scalar has neither a NaN nor an infinite part."""
     return cmath.isfinite(z)

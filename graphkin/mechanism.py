@@ -10,19 +10,16 @@ from typing import Any
 
 from graphkin import labs
 from graphkin.arithmetic import FLOAT, batch_kind
-from graphkin.errors import Problem, StructureError
-from graphkin.plane import Ratio
+from graphkin.errors import Problem, SceneError, StructureError
 from graphkin.plans.compile import write
 from graphkin.scene.model import Scene
 from graphkin.scene.read import read_scene
+from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
 from graphkin.steps.program import Program, Target
-from graphkin.steps.run import StepFailed, Trace, run, run_batch
+from graphkin.steps.run import StepFailed, Trace, run
 from graphkin.steps.solution import Solution, Verdict
 from graphkin.structure.groups import Group, decompose
-
-BLOCK = 2048
-"""Variants run at once: few enough that the values of a step stay in the processor's cache."""
 
 
 def load(name: str | Path, /, **settings: object) -> Mechanism:
@@ -103,24 +100,24 @@ class Mechanism:
     def batch(self, *, asked: bool = False, margins: bool = False, **parameters: Any) -> Solution:
         """The motion of many variants at once, each parameter an array of equal length.
 
-        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each.
+        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each. Raises
+        SceneError for a name that is no parameter of the scene.
         """
         import numpy as np
 
-        kind = batch_kind()
-        arrays = np.broadcast_arrays(*(np.asarray(p, dtype=float) for p in parameters.values()))
-        given = dict(zip(parameters, arrays, strict=True))
+        strangers = sorted(set(parameters) - set(self.scene.values))
+        if strangers:
+            known = ", ".join(self.scene.values) or "none: the scene has no parameters"
+            raise SceneError([Problem(name, "is no parameter", known) for name in strangers])
+        arrays = np.broadcast_arrays(*(np.atleast_1d(p) for p in parameters.values()))
+        floats = (np.asarray(array, dtype=float) for array in arrays)
+        values = {**self.scene.values, **dict(zip(parameters, floats, strict=True))}
         targets = self.asked() if asked else tuple(self.program.targets)
         needed = self.program.needed(targets)
-        keep = sorted({self.program.targets[target] for target in targets})
-        size = arrays[0].size
-        blocks = []
+        keep = [self.program.targets[target] for target in targets]
         with np.errstate(all="ignore"):
-            for start in range(0, size, BLOCK):
-                values = dict(self.scene.values)
-                values |= {name: array[start : start + BLOCK] for name, array in given.items()}
-                blocks.append(run_batch(self.program, needed, values, kind, keep, margins=margins))
-        return gathered(joined(blocks), self.scene.links)
+            trace = run_blocks(self.program, needed, values, batch_kind(), keep, margins=margins)
+        return gathered(trace, self.scene.links)
 
 
 def point_of(name: str) -> str:
@@ -141,24 +138,3 @@ def refuse_unconstructed(scene: Scene) -> None:
         problems.append(Problem("ask.centrodes", "centrodes are not constructed yet", "centres"))
     if problems:
         raise StructureError(problems)
-
-
-def joined(blocks: list[Trace]) -> Trace:
-    """One trace of whole arrays from the traces of the blocks."""
-    first = blocks[0]
-    values = {number: joined_value([b.values[number] for b in blocks]) for number in first.values}
-    margins = {
-        number: joined_value([b.margins[number] for b in blocks]) for number in first.margins
-    }
-    return Trace(first.program, values, margins)
-
-
-def joined_value(parts: list[Any]) -> Any:
-    """One array from the arrays of the blocks; a value that all variants share stays as it is."""
-    import numpy as np
-
-    if isinstance(parts[0], Ratio):
-        return Ratio(*(joined_value(list(column)) for column in zip(*parts, strict=True)))
-    if not isinstance(parts[0], np.ndarray):
-        return parts[0]
-    return np.concatenate(parts)

@@ -9,8 +9,9 @@ from graphkin.arithmetic import batch_kind
 from graphkin.errors import ClosureError, Problem
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import shortest
+from graphkin.steps.batch import run_batch
 from graphkin.steps.program import Part, Program
-from graphkin.steps.run import StepFailed, miss, run_batch
+from graphkin.steps.run import StepFailed, miss
 
 SAMPLES = 7200
 """Driver angles tried in one turn: every twentieth of a degree."""

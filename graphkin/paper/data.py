@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Iterator
+from math import degrees
 
+from graphkin.paper.drawing import Drawing
 from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.expression import TIME
@@ -21,14 +24,15 @@ from graphkin.scene.model import (
     Way,
 )
 from graphkin.scene.quantity import Quantity, shortest
-from graphkin.text import Words
+from graphkin.text import MINUS, Words
 
 LONGEST = 9
 """Signs of the longest number printed in full among the data."""
 
 
-def given(scene: Scene, words: Words) -> list[str]:
+def given(drawing: Drawing) -> list[str]:
     """The data of a scene as short pieces of markup, in the order of the scene."""
+    scene, words = drawing.scene, drawing.words
     return [
         *(parameter(words, name, value) for name, value in scene.values.items()),
         *(piece for driver in scene.drivers for piece in of_driver(scene, words, driver)),
@@ -36,11 +40,7 @@ def given(scene: Scene, words: Words) -> list[str]:
         *fixed_points(scene, words),
         *plates(scene, words),
         *sides(scene, words),
-        *(
-            of_guide(scene, words, link, slide)
-            for link in scene.links.values()
-            for slide in link.slides
-        ),
+        *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
         *(escape(note) for note in [scene.notes.get(words.language)] if note),
     ]
 
@@ -69,15 +69,20 @@ def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
     yield f"{angle_symbol(scene, driver)} = {written(scene, words, driver.position)}"
     steady = driver.acceleration.is_zero()
     tail = f" = {words('page.constant')}" if steady else ""
-    sense = ""
-    turning = float(driver.speed.si(scene.values))
-    if driver.kind == "turn" and turning:
-        sense = ", " + words(
-            "page.turning_anticlockwise" if turning > 0 else "page.turning_clockwise"
-        )
-    yield f"{speed}{index} = {written(scene, words, driver.speed)}{tail}{sense}"
+    yield f"{speed}{index} = {with_sense(scene, words, driver, driver.speed, tail)}"
     if not steady:
-        yield f"*ε*{index} = {written(scene, words, driver.acceleration)}"
+        yield f"*ε*{index} = {with_sense(scene, words, driver, driver.acceleration)}"
+
+
+def with_sense(
+    scene: Scene, words: Words, driver: Driver, quantity: Quantity, tail: str = ""
+) -> str:
+    """A driver's speed or acceleration; of a crank the magnitude, and its sense in words."""
+    text, value = written(scene, words, quantity), float(quantity.si(scene.values))
+    if driver.kind != "turn" or not value:
+        return text + tail
+    key = "page.turning_anticlockwise" if value > 0 else "page.turning_clockwise"
+    return f"{text.removeprefix(MINUS)}{tail}, {words(key)}"
 
 
 def angle_symbol(scene: Scene, driver: Driver) -> str:
@@ -101,29 +106,32 @@ def fixed_points(scene: Scene, words: Words) -> Iterator[str]:
     """The coordinates of the frame's points."""
     for placing in scene.frame.placings:
         if isinstance(placing, At):
-            x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
-            yield f"{symbol(placing.point)} ({x}; {y}) {placing.x.unit}"
+            yield f"{coordinates(scene, words, placing)} {placing.x.unit}"
 
 
 def plates(scene: Scene, words: Words) -> Iterator[str]:
     """Points of links that are given by coordinates or by an angle."""
     for link in (scene.frame, *scene.links.values()):
+        fixed = link is scene.frame
+        places = [placing for placing in link.placings if isinstance(placing, At)]
+        if not fixed and len(places) > 1:
+            points = ", ".join(coordinates(scene, words, placing) for placing in places)
+            yield f"{points} {places[0].x.unit}, {words('page.on_link', k=escape(link.name))}"
         for placing in link.placings:
             point = symbol(placing.point)
-            if (
-                isinstance(placing, At)
-                and link is not scene.frame
-                and not (placing.x.is_zero() and placing.y.is_zero())
-            ):
-                x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
-                yield f"{point} ({x}; {y}) {placing.x.unit}, {words('page.on_link', k=link.name)}"
-            elif isinstance(placing, Polar):
+            if isinstance(placing, Polar):
+                key = "page.polar_frame" if fixed else "page.polar"
                 turn = written(scene, words, placing.angle)
-                yield words("page.polar", bar=bar(placing.start, placing.point), angle=turn)
+                yield words(key, bar=bar(placing.start, placing.point), angle=turn)
             elif isinstance(placing, Angled):
                 turn = written(scene, words, placing.angle)
-                corner = f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point}"
-                yield f"{corner} = {turn}"
+                yield f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point} = {turn}"
+
+
+def coordinates(scene: Scene, words: Words, placing: At) -> str:
+    """A point with its coordinates."""
+    x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
+    return f"{symbol(placing.point)} ({x}; {y})"
 
 
 def sides(scene: Scene, words: Words) -> Iterator[str]:
@@ -152,18 +160,20 @@ def side(words: Words, point: str, p: str, q: str, sign: int) -> str:
     return words(key, point=symbol(point), p=symbol(p), q=symbol(q))
 
 
-def of_guide(scene: Scene, words: Words, link: Link, slide: Slide) -> str:
+def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
     """Words for a block's guide, and for which of the two crossings it stands at."""
+    scene, words = drawing.scene, drawing.words
+    line = drawing.guide(slide)
+    fields = {"point": symbol(link.points[0]), "way": "", "offset": ""}
     branch = scene.branches.get(link.name)
-    forward = not isinstance(branch, Way) or branch.way > 0
-    fields = {
-        "point": symbol(link.points[0]),
-        "way": words("page.forward" if forward else "page.backward"),
-        "offset": "",
-    }
-    if not slide.offset.is_zero():
-        amount = written(scene, words, slide.offset)
-        fields["offset"] = words("page.offset", offset=amount)
+    if line and isinstance(branch, Way) and link.name in drawing.pivots:
+        side = words(f"page.{heading(line[1] * branch.way)}")
+        fields["way"] = words("page.way", side=side, pivot=symbol(drawing.pivots[link.name]))
+    if line and not slide.offset.is_zero():
+        amount = written(scene, words, slide.offset).removeprefix(MINUS)
+        sign = 1 if float(slide.offset.si(scene.values)) > 0 else -1
+        side = words(f"page.{heading(1j * line[1] * sign)}")
+        fields["offset"] = words("page.offset", offset=amount, side=side)
     if slide.along:
         return words("page.guide_along", bar=bar(*slide.along), **fields)
     assert slide.angle is not None
@@ -173,3 +183,9 @@ def of_guide(scene: Scene, words: Words, link: Link, slide: Slide) -> str:
     assert slide.through is not None
     x, y = (words.decimal(q.written(scene.values)) for q in slide.through)
     return words("page.guide_xy", x=x, y=y, unit=slide.through[0].unit, **fields)
+
+
+def heading(way: complex) -> str:
+    """Which side of a point a direction leads to: the nearest of right, above, left, below."""
+    sides = ("right", "above", "left", "below")
+    return sides[round(degrees(phase(way)) / 90) % 4]

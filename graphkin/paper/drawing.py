@@ -9,7 +9,7 @@ from typing import Any
 
 from graphkin.paper.scale import Extent, Scales, extent_of
 from graphkin.plane import Circle, Line, Ratio, Vector
-from graphkin.scene.model import Scene
+from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.steps.program import Part, Plane, Step
 from graphkin.steps.run import Trace
 from graphkin.steps.solution import Verdict
@@ -69,6 +69,11 @@ class Drawing:
             return None
         return complex(centre.start + centre.shift / centre.size)
 
+    def is_everywhere(self, centre: Ratio) -> bool:
+        """True when every point is a centre or pole: the link stands still."""
+        least = NOISE * (self.largest or 1.0)
+        return bool(abs(centre.size) <= least and abs(centre.shift) <= least * self.reach)
+
     @cached_property
     def reach(self) -> float:
         """The largest distance in the mechanism, in metres."""
@@ -83,6 +88,35 @@ class Drawing:
             of: self.trace.values[number]
             for (quantity, of), number in targets.items()
             if quantity == "position" and number in self.trace.values
+        }
+
+    def guide(self, slide: Slide) -> tuple[complex, complex] | None:
+        """A point and the unit direction of a guide of the frame; None for a guide that moves."""
+        values = self.scene.values
+        if slide.on != FRAME:
+            return None
+        if slide.along:
+            start, end = (self.positions[point] for point in slide.along)
+            along = (end - start) / abs(end - start)
+        else:
+            assert slide.angle is not None and slide.through is not None
+            along = complex(slide.angle.direction(values))
+            start = (
+                self.positions[slide.through]
+                if isinstance(slide.through, str)
+                else complex(*(float(q.si(values)) for q in slide.through))
+            )
+        return start + 1j * along * float(slide.offset.si(values)), along
+
+    @cached_property
+    def pivots(self) -> Mapping[str, str]:
+        """For each block that an arc puts on its guide, the point that the arc is about."""
+        return {
+            link.name: step.says["p"]
+            for _, step, _ in self.steps(Plane.MECHANISM)
+            if step.action is not None and step.action.key == "arc-cuts-line"
+            for link in self.scene.links.values()
+            if link.slides and step.name in link.points
         }
 
     @cached_property

@@ -21,7 +21,7 @@ from graphkin.paper.symbols import (
     turned_arrow,
 )
 from graphkin.plane import cross
-from graphkin.scene.model import FRAME, Driver, Link, Slide
+from graphkin.scene.model import Driver, Link
 
 REACH = 15.0
 """Half the length of a drawn guide in mm."""
@@ -52,7 +52,7 @@ def moving_points(drawing: Drawing) -> set[str]:
 def draw_guide_line(board: Board, drawing: Drawing, field: Field, block: Link) -> None:
     """The line of a fixed guide across the field, chain-dotted."""
     for slide in block.slides:
-        line = guide_line(drawing, slide)
+        line = drawing.guide(slide)
         if line is None:
             continue
         start, along = line
@@ -66,25 +66,6 @@ def stretched(start: XY, end: XY) -> tuple[XY, XY]:
     dx, dy = end[0] - start[0], end[1] - start[1]
     far = 2000 / max(abs(dx), abs(dy))
     return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)
-
-
-def guide_line(drawing: Drawing, slide: Slide) -> tuple[complex, complex] | None:
-    """A point and the unit direction of a guide of the frame; None for a guide that moves."""
-    if slide.on != FRAME:
-        return None
-    values = drawing.scene.values
-    if slide.along:
-        start, end = (drawing.positions[point] for point in slide.along)
-        along = (end - start) / abs(end - start)
-    else:
-        assert slide.angle is not None and slide.through is not None
-        along = complex(slide.angle.direction(values))
-        start = (
-            drawing.positions[slide.through]
-            if isinstance(slide.through, str)
-            else complex(*(float(q.si(values)) for q in slide.through))
-        )
-    return start + 1j * along * float(slide.offset.si(values)), along
 
 
 def draw_plates(board: Board, drawing: Drawing, field: Field) -> None:
@@ -165,7 +146,7 @@ def corners_of(drawing: Drawing, link: Link) -> list[complex] | None:
 def draw_blocks(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
     """A block between the sides of its fixed guide."""
     for slide in link.slides:
-        line = guide_line(drawing, slide)
+        line = drawing.guide(slide)
         if line is None or link.points[0] not in drawing.positions:
             continue
         at = field(drawing.positions[link.points[0]])

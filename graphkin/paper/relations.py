@@ -51,7 +51,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
 
 def data_line(drawing: Drawing) -> Relation:
     """The data, as one relation that may be broken after each piece."""
-    *pieces, last = given(drawing.scene, drawing.words)
+    *pieces, last = given(drawing)
     first, *more = [f"{piece};" for piece in pieces] + [last]
     return Relation(first, more=tuple(more))
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from graphkin.paper.data import angle_symbol
+from graphkin.paper.data import angle_symbol, heading
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import Part, Plane, Step
 
@@ -42,15 +43,19 @@ class Sentence:
 
 
 def sentences(drawing: Drawing) -> list[Sentence]:
-    """What to draw on a sheet, in the order of drawing."""
+    """What to draw on a sheet, in the order of drawing, and what to read off at the end."""
     found: list[Sentence] = []
-    for number, step, _ in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
+    shown = False
+    for number, step, value in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
         if step.action and step.action.key == "normal":
-            text = normal_sentence(drawing, step, first=not any(s.name == "ν" for s in found))
-            found.append(Sentence(number, "ν", text))
+            first = not shown and drawing.settled(abs(value)) > 0
+            shown = shown or first
+            name = "ν1" if first else "ν"
+            found.append(Sentence(number, name, normal_sentence(drawing, step, first=first)))
         elif is_found_point(drawing, number, step):
             found.append(Sentence(number, step.name, point_sentence(drawing, number, step)))
-    return merged(drawing, found)
+    last = Sentence(-1, "", drawing.words(f"step.read-{drawing.kind}"))
+    return [*merged(drawing, found), last]
 
 
 def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
@@ -101,24 +106,32 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         key = "step.similar-in-line"
     elif step.action.key in SCALED and step.name and not drawing.scales.from_driver:
         key += "-scaled"
-    elif words_of.action and words_of.action.key in CENTRES and is_endless(drawing, words_of):
-        key = f"step.{words_of.action.key}-far"
+    elif words_of.action and words_of.action.key in CENTRES and (odd := oddity(drawing, words_of)):
+        key = f"step.{words_of.action.key}-{odd}"
     elif step.action.key == "acceleration-pole" and step.by_hand is None:
         key += "-pivot"
     elif step.action.key == "centripetal" and not step.name:
         key = "step.lay-off"
     elif words_of.action and words_of.action.key == "instant-centre":
         key = "step.instant-centre" if words_of.by_hand else "step.instant-centre-pivot"
-    elif step.action.key in ("arcs-meet", "arc-cuts-line"):
+    elif step.action.key == "arcs-meet":
         fields["side"] = drawing.words(f"{key}.side{step.extra[0]:+d}", **fields)
         key += ".say"
+    elif step.action.key == "arc-cuts-line":
+        way = drawing.trace.values[step.args[0]].along * step.extra[0]
+        fields["side"] = drawing.words(f"page.{heading(way)}")
     return drawing.words(key, name=symbol(name), **fields)
 
 
-def is_endless(drawing: Drawing, step: Step) -> bool:
-    """True when a centre or a pole lies at infinity."""
-    number = drawing.trace.program.steps.index(step)
-    return drawing.place(drawing.trace.values[number]) is None
+def oddity(drawing: Drawing, step: Step) -> str:
+    """What is odd about a centre or pole: everywhere, far (at infinity), or still at one point."""
+    value = drawing.trace.values[number_of(drawing, step)]
+    if drawing.is_everywhere(value):
+        return "everywhere"
+    if drawing.place(value) is None:
+        return "far"
+    lost = step.by_hand is not None and step.by_hand not in drawing.trace.values
+    return "still" if lost else ""
 
 
 def in_line(drawing: Drawing, step: Step) -> bool:
@@ -131,6 +144,7 @@ def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str
     """The symbols that a sentence needs: its names, its bar, its vector, its similar figures."""
     assert step.action is not None
     fields = {key: symbol(value) for key, value in says.items()}
+    fields |= {key: escape(says[key]) for key in ("k", "g") if key in says}
     if "p" in says and "q" in says:
         fields["bar"] = bar(says["p"], says["q"])
     names = [drawing.trace.program.steps[arg].name for arg in step.args]
@@ -138,12 +152,17 @@ def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str
         case "ray" if "k" in says:
             driver = next(d for d in drawing.scene.drivers if d.link == says["k"])
             fields["angle"] = angle_symbol(drawing.scene, driver)
+        case "compass":
+            fields["bar"] += derived(drawing, step.args[1])
+        case "square-to" if "i" in says:
+            fields["vector"] = symbol(f"a_{says['i']}^τ")
         case "turned-velocity":
             fields["vector"] = symbol(f"v_{says['q']}")
         case "centripetal":
             fields["vector"] = symbol(f"a_{says['q']}" + ("" if step.name else "^ν"))
         case "driven-tangential":
             fields["vector"] = symbol(f"a_{says['q']}^τ")
+            fields["drawn"] = drawn_length(drawing, number_of(drawing, step), step.args[0])
         case "lay-off":
             fields["vector"] = symbol(f"a_{says['i']}^ν")
         case "velocity-normal":
@@ -155,6 +174,25 @@ def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str
             fields["image"] = fields["images"] + symbol(step.name)
             fields["figure"] = fields["bar"] + fields["r"]
     return fields
+
+
+def derived(drawing: Drawing, number: int) -> str:
+    """The length of a bar that the scene does not state but that follows from its plate."""
+    if drawing.trace.program.steps[number].given is not None:
+        return ""
+    length = drawing.words.significant(drawing.length(drawing.trace.values[number]), 5)
+    return f" = {length} {drawing.scene.units['length']}"
+
+
+def number_of(drawing: Drawing, step: Step) -> int:
+    """The number of a step in its program."""
+    return drawing.trace.program.steps.index(step)
+
+
+def drawn_length(drawing: Drawing, tip: int, tail: int) -> str:
+    """How long a vector of the acceleration plan is drawn, in mm."""
+    size = abs(drawing.trace.values[tip] - drawing.trace.values[tail])
+    return drawing.words.fixed(1000 * size / drawing.scales.ka, 2)
 
 
 def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
@@ -172,13 +210,12 @@ def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
 
 
 def merged(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """Later right triangles said in one sentence, each point else in its own."""
-    normals = [sentence for sentence in found if sentence.name == "ν"]
-    rest = normals[1:]
+    """The other right triangles said in one sentence, after the one that is said in full."""
+    rest = [sentence for sentence in found if sentence.name == "ν"]
     if not rest:
         return found
+    kept = [sentence for sentence in found if sentence.name != "ν"]
     tail = drawing.words("step.normals-again", list=", ".join(s.markup for s in rest))
-    one = Sentence(rest[-1].step, "ν", tail)
-    kept = [s for s in found if s.name != "ν" or s is normals[0]]
-    place = kept.index(normals[0]) + 1
-    return [*kept[:place], one, *kept[place:]]
+    firsts = [i for i, sentence in enumerate(kept) if sentence.name == "ν1"]
+    place = firsts[0] + 1 if firsts else found.index(rest[0])
+    return [*kept[:place], Sentence(rest[-1].step, "ν", tail), *kept[place:]]

@@ -96,7 +96,7 @@ def heading(drawing: Drawing) -> list[Mark]:
 
 def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]:
     """The data in two lines, or in three of smaller lettering."""
-    first, *pieces = given(drawing.scene, drawing.words)
+    first, *pieces = given(drawing)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
     for height, leading, room in ((2.5, 4.2, 2), (1.8, 2.9, 3)):
         lines = flowed(pieces, "; ", width, height)

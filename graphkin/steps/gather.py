@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from graphkin.arithmetic import Real, pick
+from graphkin.arithmetic import Real, least
 from graphkin.steps.program import Part
 from graphkin.steps.run import Trace
 from graphkin.steps.solution import LinkMotion, PointMotion, SlideMotion, Solution
@@ -36,7 +36,8 @@ def of_kind(trace: Trace, quantities: tuple[str, ...]) -> Iterable[tuple[str, li
 
 
 def smallest_margin(trace: Trace) -> Real:
-    """The smallest sine of crossing in the construction; 1 when nothing crossed.
+    """The smallest sine of crossing in the construction; 1 when nothing crossed, NaN where one
+    of a batch cannot be drawn.
 
     The flat triangles of plates do not count: their points follow by similarity.
     """
@@ -44,5 +45,5 @@ def smallest_margin(trace: Trace) -> Real:
     for number, margin in trace.margins.items():
         step = trace.program.steps[number]
         if not step.hand and step.part is not Part.SHAPE:
-            smallest = pick(margin < smallest, margin, smallest)
+            smallest = least(smallest, margin)
     return smallest

@@ -40,6 +40,10 @@ class Given:
     form: str
     quantities: tuple[Any, ...]
 
+    def uses(self) -> frozenset[str]:
+        """Names of the parameters on which the value hangs."""
+        return frozenset().union(*(quantity.uses() for quantity in self.quantities))
+
     def value(self, values: Mapping[str, Any], kind: Kind) -> Any:
         """The given value in SI, as a number of a kind."""
         if not self.quantities:

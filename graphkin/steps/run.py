@@ -1,4 +1,4 @@
-"""Running a program: every value and margin, on one scene (errors raised) or a batch (masked)."""
+"""Running a program on one scene: every value and margin; what cannot be drawn raises."""
 
 from __future__ import annotations
 
@@ -97,55 +97,6 @@ def evaluate(
     if not whole or (isinstance(value, Line) and value.along == 0):
         raise StepFailed(number, step, args)
     return value
-
-
-def run_batch(
-    program: Program,
-    needed: Sequence[int],
-    values: Values,
-    kind: Kind,
-    keep: Sequence[int],
-    *,
-    margins: bool = False,
-    overrides: Mapping[int, Any] | None = None,
-) -> Trace:
-    """Run the needed steps on arrays; only the values in ``keep`` outlive their last use.
-
-    What cannot be drawn becomes NaN; the caller wraps the call in numpy's errstate.
-    """
-    found: dict[int, Any] = {}
-    sines: dict[int, Any] = {}
-    overrides = overrides or {}
-    for number, dying in schedule(program, needed, keep):
-        step = program.steps[number]
-        if number in overrides:
-            found[number] = overrides[number]
-        elif step.given is not None:
-            found[number] = step.given.value(values, kind)
-        else:
-            assert step.action is not None
-            args = (*(found[arg] for arg in step.args), *step.extra)
-            found[number] = step.action.value(*args)
-            if margins and step.action.margin is not None:
-                sines[number] = step.action.margin(*args)
-        for dead in dying:
-            del found[dead]
-    return Trace(program, found, sines)
-
-
-def schedule(
-    program: Program, needed: Sequence[int], keep: Sequence[int]
-) -> list[tuple[int, tuple[int, ...]]]:
-    """Each needed step with the steps whose values die after it."""
-    last = {number: number for number in needed}
-    for number in needed:
-        for arg in program.steps[number].args:
-            last[arg] = number
-    dying: dict[int, list[int]] = {}
-    for number, end in last.items():
-        if number not in keep:
-            dying.setdefault(end, []).append(number)
-    return [(number, tuple(dying.get(number, ()))) for number in needed]
 
 
 def miss(step: Step, args: tuple[Any, ...]) -> float | None:

@@ -9,13 +9,23 @@ import subprocess
 import sys
 import timeit
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from graphkin.mechanism import load
+from graphkin.arithmetic import batch_kind
+from graphkin.handout import drawings_of, proved
+from graphkin.mechanism import Mechanism, load
+from graphkin.paper.pdf import write_pdf
+from graphkin.paper.sheet import sheet
+from graphkin.paper.svg import write_svg
+from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
+from graphkin.steps.run import Trace
+from graphkin.text import words
 from tests.bench import pump_by_formulas as formulas
+from tests.bench.page_by_matplotlib import both_files
 
 ROOT = Path(__file__).resolve().parents[2]
 VARIANTS = 100_000
@@ -53,6 +63,22 @@ def scalar() -> list[tuple[str, float, float]]:
     ]
 
 
+SAME = (
+    *((what, point) for what in ("position", "velocity", "acceleration") for point in "ABCD"),
+    *((what, link) for what in ("omega", "epsilon") for link in "1234"),
+    *((what, link) for what in ("centre", "pole") for link in "34"),
+)
+"""The quantities that the plain formulas give."""
+
+
+def same_quantities(mechanism: Mechanism, n: np.ndarray) -> Trace:
+    """The program, run for just what the plain formulas give."""
+    program = mechanism.program
+    keep = [program.targets[target] for target in SAME]
+    with np.errstate(all="ignore"):
+        return run_blocks(program, program.needed(SAME), {"n": n}, batch_kind(), keep)
+
+
 def batch() -> list[tuple[str, float, float]]:
     """Many variants, per variant, against plain numpy of the same, blocked."""
     mechanism = load("pump", n=7)
@@ -62,14 +88,23 @@ def batch() -> list[tuple[str, float, float]]:
     return [
         ("a variant: plain numpy in blocks of 2048", plain, plain),
         ("a variant: plain numpy at once", whole, plain),
-        ("a variant: the program", best(lambda: mechanism.batch(n=n)) / VARIANTS, plain),
         (
-            "a variant: the program with margins",
+            "a variant: the program, the same quantities",
+            best(lambda: same_quantities(mechanism, n)) / VARIANTS,
+            plain,
+        ),
+        (
+            "a variant: the program, all quantities",
+            best(lambda: mechanism.batch(n=n)) / VARIANTS,
+            plain,
+        ),
+        (
+            "a variant: all quantities and margins",
             best(lambda: mechanism.batch(n=n, margins=True)) / VARIANTS,
             plain,
         ),
         (
-            "a variant: the program, only what is asked",
+            "a variant: only what the scene asks",
             best(lambda: mechanism.batch(n=n, asked=True)) / VARIANTS,
             plain,
         ),
@@ -87,8 +122,24 @@ def start() -> list[tuple[str, float, float]]:
 
 
 def page() -> list[tuple[str, float, float]]:
-    """A page, against matplotlib drawing as many lines: to be added here."""
-    return []
+    """A whole page, layout, SVG and PDF, against plain matplotlib artists of the same marks."""
+    mechanism = load("pump", n=7)
+    drawings = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("ro"))
+    rows = []
+    for drawing in drawings:
+        made = sheet(drawing, "key", "1/2")
+        plain = best(partial(both_files, made), repeat=3)
+        rows += [
+            (f"{drawing.kind} page: matplotlib artists", plain, plain),
+            (
+                f"{drawing.kind} page: layout",
+                best(partial(sheet, drawing, "key", "1")),
+                plain,
+            ),
+            (f"{drawing.kind} page: SVG", best(partial(write_svg, made)), plain),
+            (f"{drawing.kind} page: PDF", best(partial(write_pdf, (made,))), plain),
+        ]
+    return rows
 
 
 def in_words(seconds: float) -> str:

@@ -37,6 +37,75 @@ CODE = Path(graphkin.__file__).parent
 MARKS = {"en": ".", "ro": ","}
 
 RARE = {
+    "slider-crank at its dead point": """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 0
+speed = 30
+acceleration = 0
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+centres = [2]
+poles = [2]
+""",
+    "slider-crank at its dead point, set in motion": """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 0
+speed = 0
+acceleration = 40
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+centres = [2]
+poles = [2]
+""",
+    "slider-crank at rest, guide below": """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0, offset = -20 }
+[[drivers]]
+turn = 1
+angle = 50
+speed = 0
+acceleration = 0
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+centres = [2]
+poles = [2]
+""",
     "frame point given by distance and angle": """
 [frame]
 O1 = [0, 0]

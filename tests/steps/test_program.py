@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
+import tracemalloc
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphkin.arithmetic import FLOAT, batch_kind
-from graphkin.errors import ClosureError
+from graphkin.arithmetic import FLOAT, batch_kind, least
+from graphkin.errors import ClosureError, SceneError
 from graphkin.plane import Circle, Line, Ratio, Vector
+from graphkin.steps.batch import made_ready, run_batch
 from graphkin.steps.program import Part
-from graphkin.steps.run import StepFailed, run, run_batch, schedule
+from graphkin.steps.run import StepFailed, run
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
 
 EARLY = {Part.SHAPE, Part.POSITION}
@@ -273,18 +275,30 @@ speed = 1
 """
 
 
+LATER = """[links.6]
+C-D = 9
+[links.7]
+D = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.4]"""
+LATER_BRANCH = '[branches]\n7 = "forward"'
+"""A long rod on the other crank, which crosses well and is drawn last."""
+
+
 def test_a_variant_that_does_not_close_is_nan_and_its_neighbours_are_right():
     """Rods of 1 do not reach the guide from a crank of 2: only they are masked."""
     rods = np.array([3.0, 1.0, 2.5, 1.999, 4.0])
-    mechanism = mechanism_of(RODS)
-    batch = mechanism.batch(rod=rods)
+    mechanism = mechanism_of(RODS.replace("[links.4]", LATER).replace("[branches]", LATER_BRANCH))
+    batch = mechanism.batch(rod=rods, margins=True)
     closes = rods > 2
+    assert (np.isfinite(batch.margin) == closes).all()
     for quantity in ("position", "velocity", "acceleration"):
         values = getattr(batch.points["B"], quantity)
         assert (np.isfinite(values) == closes).all()
     assert (np.isfinite(batch.links["2"].omega) == closes).all()
     for rod, here in zip(rods[closes], np.flatnonzero(closes), strict=True):
         one = mechanism_of(RODS, rod=float(rod)).solve()
+        assert batch.margin[here] == pytest.approx(one.margin, rel=1e-13)
         for point in ("A", "B", "C"):
             for quantity in ("position", "velocity", "acceleration"):
                 values = np.broadcast_to(getattr(batch.points[point], quantity), rods.shape)
@@ -299,19 +313,76 @@ def test_what_does_not_hang_on_the_failed_step_stays():
 
 
 @settings(LAW, max_examples=25)
-@given(mechanisms())
+@given(mechanisms(most=2))
 def test_no_value_outlives_its_last_use(made):
-    program = made.mechanism().program
-    keep = sorted(set(program.targets.values()))
-    needed = program.needed(program.targets)
+    """Nor does it die before: what is alive after a step is what is still to be used or kept."""
+    program = mechanism_of(made.text(moving=True)).program
+    needed, keep = program.needed(program.targets), set(program.targets.values())
+    values = {"h": np.zeros(3)}
+    ready = made_ready(program, needed, values, sorted(keep))
+    moving = [number for number, _ in ready.moving]
+    assert set(moving).isdisjoint(ready.values)
+    assert set(moving) | set(ready.values) == set(needed)
     alive: set[int] = set()
-    for position, (number, dying) in enumerate(schedule(program, needed, keep)):
+    for position, (number, dying) in enumerate(ready.moving):
         alive.add(number)
         alive.difference_update(dying)
-        to_come = needed[position + 1 :]
+        to_come = moving[position + 1 :]
         used = {arg for later in to_come for arg in program.steps[later].args}
-        done = set(needed[: position + 1])
-        assert alive == done & (used | set(keep))
+        assert alive == set(moving[: position + 1]) & (used | keep)
+
+
+def test_a_batch_takes_no_more_room_than_what_is_alive():
+    """Of the fourscore arrays of the pump no more than thirty stand at once."""
+    mechanism = shipped("pump", 7)
+    program, variants = mechanism.program, np.linspace(1, 30, 20_000)
+    needed = program.needed([("acceleration", "D")])
+    keep = [program.targets["acceleration", "D"]]
+    tracemalloc.start()
+    try:
+        run_batch(program, needed, {"n": variants}, batch_kind(), keep)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert len(needed) > 50
+    assert peak < 30 * 16 * variants.size
+
+
+def test_what_hangs_on_no_array_is_worked_out_once():
+    """Another speed of the crank moves no point: the positions are shared, the plans are not."""
+    text = RODS.replace("rod = 3", "rod = 3\nomega = 1").replace("speed = 1", 'speed = "omega"')
+    mechanism = mechanism_of(text)
+    omega = np.array([1.0, 2.0, -3.0])
+    batch, one = mechanism.batch(omega=omega), mechanism.solve()
+    assert batch.points["B"].position == one.points["B"].position
+    np.testing.assert_allclose(batch.points["B"].velocity, omega * one.points["B"].velocity)
+    np.testing.assert_allclose(
+        batch.points["B"].acceleration, omega**2 * one.points["B"].acceleration
+    )
+
+
+def test_a_position_that_no_variant_closes_is_nan_for_all():
+    text = RODS.replace("rod = 3", "rod = 1\nomega = 1").replace("speed = 1", 'speed = "omega"')
+    batch = mechanism_of(text).batch(omega=np.array([1.0, 2.0]), margins=True)
+    assert np.isnan(batch.points["B"].position)
+    assert np.isnan(batch.points["B"].velocity).all()
+    assert np.isfinite(batch.points["A"].velocity).all()
+    assert np.isnan(batch.margin).all()
+
+
+def test_a_single_number_is_a_batch_of_one_and_no_number_a_batch_without_variants():
+    mechanism = shipped("pump", 1)
+    one = mechanism.batch(n=7).points["D"].velocity
+    assert one.shape == (1,)
+    assert one[0] == pytest.approx(shipped("pump", 7).solve().points["D"].velocity, rel=1e-13)
+    assert mechanism.batch(n=[]).points["D"].velocity.shape == (0,)
+    assert mechanism.batch().points == mechanism.solve().points
+
+
+def test_a_name_that_is_no_parameter_is_refused():
+    with pytest.raises(SceneError) as caught:
+        shipped("pump", 7).batch(m=[1, 2], n=[1, 2])
+    assert str(caught.value) == "m: is no parameter; expected n"
 
 
 def test_a_batch_run_ends_with_what_was_to_be_kept_and_nothing_else():
@@ -323,6 +394,24 @@ def test_a_batch_run_ends_with_what_was_to_be_kept_and_nothing_else():
     trace = run_batch(program, needed, values, batch_kind(), keep)
     assert set(trace.values) == set(keep)
     assert trace.margins == {}
+
+
+def test_the_margin_is_the_sine_of_the_flattest_crossing():
+    """The transmission angle of each dyad, in position and in both plans."""
+    for name in SHIPPED:
+        for n in range(1, 31):
+            solution = shipped(name, n).solve()
+            p = {point: motion.position for point, motion in solution.points.items()}
+            at_b = ((p["B"] - p["A"]) / (p["B"] - p["O2"])).conjugate()
+            sines = abs(at_b.imag) / abs(at_b), abs((p["D"] - p["C"]).real) / 0.2
+            assert solution.margin == pytest.approx(min(sines), rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", [float, lambda x: np.array([x, x])])
+def test_the_smaller_of_two_numbers_is_unknown_where_one_is(kind):
+    nan = float("nan")
+    for a, b, smaller in ((1, 2, 1), (2, 1, 1), (nan, 1, nan), (1, nan, nan), (nan, nan, nan)):
+        np.testing.assert_array_equal(least(kind(a), kind(b)), kind(smaller))
 
 
 # --- failures ------------------------------------------------------------------------------------
