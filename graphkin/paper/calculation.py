@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import A4_AREA, A4_SIZE
+from graphkin.paper.data import parameters
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import page_frame
 from graphkin.paper.marks import Mark, Page, Text
@@ -99,10 +100,12 @@ def paged(rows: Sequence[Row]) -> Iterator[list[tuple[float, Row]]]:
 def page_of(drawing: Drawing, rows: Sequence[tuple[float, Row]], view: str, number: str) -> Page:
     """One A4 page."""
     words = drawing.words
-    title = escape(title_of(drawing))
+    title = "; ".join([escape(title_of(drawing)), *parameters(drawing)])
     name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
     sheet = drawing.scene.sheet
-    marks: list[Mark] = [*page_frame((title, name), (escape(sheet.author or sheet.owner), number))]
+    marks: list[Mark] = [
+        *page_frame((title, name), (escape(sheet.author) or words("page.student"), number))
+    ]
     for y, row in rows:
         if row.heading:
             marks.append(Text(LEFT, y, row.markup, "caption", 3.5))

@@ -34,7 +34,7 @@ def given(drawing: Drawing) -> list[str]:
     """The data of a scene as short pieces of markup, in the order of the scene."""
     scene, words = drawing.scene, drawing.words
     return [
-        *(parameter(words, name, value) for name, value in scene.values.items()),
+        *parameters(drawing),
         *(piece for driver in scene.drivers for piece in of_driver(scene, words, driver)),
         *lengths(scene, words),
         *fixed_points(scene, words),
@@ -43,6 +43,12 @@ def given(drawing: Drawing) -> list[str]:
         *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
         *(escape(note) for note in [scene.notes.get(words.language)] if note),
     ]
+
+
+def parameters(drawing: Drawing) -> list[str]:
+    """The parameters as set."""
+    values = drawing.scene.values
+    return [parameter(drawing.words, name, value) for name, value in values.items()]
 
 
 def parameter(words: Words, name: str, value: object) -> str:

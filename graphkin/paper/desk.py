@@ -36,7 +36,11 @@ class Desk:
 
 def line_ends(desk: Desk, number: int, value: Any) -> tuple[XY, XY] | None:
     """Both ends of the drawn part of a line, within its field."""
-    low, high = desk.layout.spans[number]
+    return line_part(desk, value, *desk.layout.spans[number])
+
+
+def line_part(desk: Desk, value: Any, low: float, high: float) -> tuple[XY, XY] | None:
+    """The part of a line between two distances in mm from its anchor, within its field."""
     unit = value.along / abs(value.along) / desk.field.mm
     start, end = desk.field(value.point + low * unit), desk.field(value.point + high * unit)
     return clipped(start, end, above_foot(desk.field.rect))

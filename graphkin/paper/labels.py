@@ -9,7 +9,7 @@ from math import ceil, cos, radians, sin
 from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import Rect
 from graphkin.paper.field import XY, clipped
-from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, reach
+from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, box, reach
 from graphkin.paper.place import Spot, Wish, place
 from graphkin.paper.richtext import extent, flowed, plain
 
@@ -49,7 +49,9 @@ class Label:
     def size(self) -> tuple[float, float]:
         """Width and height of the label's box."""
         width, top, bottom = extent(self.markup, self.height)
-        return (2 * NUMBER, 2 * NUMBER) if self.ring else (width, bottom - top)
+        if self.ring:
+            return max(2 * NUMBER, width + NUMBER), 2 * NUMBER
+        return width, bottom - top
 
     @property
     def shrinks(self) -> bool:
@@ -68,8 +70,16 @@ class Label:
             style = f"leader {self.cls}".strip()
             yield Line(*leader[0], *leader[1], style, self.name, self.step)
         if self.ring:
-            yield Circle(spot.x, spot.y, NUMBER, f"number {self.cls}".strip(), self.name)
+            yield self.balloon(spot)
         yield self.text(spot)
+
+    def balloon(self, spot: Spot) -> Mark:
+        """The circle around a link's number, or the frame around its name."""
+        width, height = self.size()
+        style = f"number {self.cls}".strip()
+        if width <= height:
+            return Circle(spot.x, spot.y, NUMBER, style, self.name)
+        return box(spot.x - width / 2, spot.y - height / 2, width, height, style)
 
     def text(self, spot: Spot) -> Text:
         """The label's text with the middle of its ink at a place."""

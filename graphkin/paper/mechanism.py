@@ -12,6 +12,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Arc, Line, Mark, polygon
+from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import (
     PIN,
@@ -114,7 +115,14 @@ def draw_body(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
         board.marks.append(polygon(on_page, "plate", link.name))
         ends = on_page[0], on_page[1]
     if not link.slides:
-        board.labels.append(Label(link.name, "", ends, 2.5, link.name, priority=3, ring=True))
+        board.labels.append(
+            Label(escape(link.name), "", ends, 2.5, link.name, priority=3, ring=True)
+        )
+
+
+def number_of(link: Link, beside: tuple[XY, XY]) -> Label:
+    """A link's number or name in its balloon, beside a segment."""
+    return Label(escape(link.name), "", beside, 2.5, link.name, priority=3, ring=True)
 
 
 def places_of(drawing: Drawing, link: Link) -> list[complex]:
@@ -157,7 +165,9 @@ def draw_blocks(board: Board, drawing: Drawing, field: Field, link: Link) -> Non
             (at[0] - 3 * u + 3.2 * v, at[1] - 3 * v - 3.2 * u),
             (at[0] + 3 * u + 3.2 * v, at[1] + 3 * v - 3.2 * u),
         )
-        board.labels.append(Label(link.name, "", side, 2.5, link.name, priority=3, ring=True))
+        board.labels.append(
+            Label(escape(link.name), "", side, 2.5, link.name, priority=3, ring=True)
+        )
 
 
 def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
@@ -235,4 +245,4 @@ def draw_sense(board: Board, drawing: Drawing, centre: XY, end: float, link: str
     arc = (end + sign * 12, end + sign * 70)
     board.marks += turned_arrow(centre, ANGLE - 3, *arc, "sense")
     at = Arc(*centre, ANGLE - 3, 0, 1, "sense").at((arc[0] + arc[1]) / 2)
-    board.labels.append(Label(f"*ω*_{{{link}}}", "", at, 2.5, f"omega {link}"))
+    board.labels.append(Label(f"*ω*_{{{escape(link)}}}", "", at, 2.5, f"omega {link}"))

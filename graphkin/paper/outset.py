@@ -122,9 +122,9 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     words, scales = drawing.words, drawing.scales
     number = words.decimal(f"{scales.kL:g}")
     yield Relation("*k*_L", "", "", number, "", words("calculation.scale", scale=scales.words))
-    for p, q, length in drawn_bars(drawing):
+    for name, length in drawn_bars(drawing):
         yield Relation(
-            f"{bar(p, q)}/*k*_L",
+            name,
             "",
             f"{figure(drawing, 1000 * length)}/{number}",
             figure(drawing, 1000 * length / scales.kL),
@@ -148,13 +148,14 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
     yield Relation("*k*_a", f"*ω*{index}^2·*k*_L", f"{w}^2·{number}/1000", ka, "(m/s^2)/mm")
 
 
-def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
-    """The bars whose lengths are given, one for each length, in metres."""
-    seen = set()
-    for link in drawing.scene.links.values():
-        for placing in link.placings:
-            for p, q, quantity in placing.lengths():
-                length = float(quantity.si(drawing.scene.values))
-                if length not in seen:
-                    seen.add(length)
-                    yield p, q, length
+def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
+    """The bars that are laid off on the mechanism, those of one length together, in metres."""
+    found: dict[float, list[str]] = {}
+    for _, step, _ in drawing.steps(Plane.MECHANISM):
+        if step.action is not None and step.action.key in ("compass", "mark-off", "step-along"):
+            p, q = step.says["p"], step.says.get("r", step.says["q"])
+            length = round(length_of(drawing, p, q), 12)
+            if bar(p, q) not in found.setdefault(length, []):
+                found[length].append(bar(p, q))
+    for length, bars in found.items():
+        yield " = ".join(f"{name}/*k*_L" for name in bars), length

@@ -6,9 +6,10 @@ from dataclasses import replace
 from math import hypot
 from typing import Any
 
-from graphkin.paper.desk import TINY, Desk, line_ends, middle, note_tiny
+from graphkin.paper.desk import TINY, Desk, line_part, middle, note_tiny
 from graphkin.paper.field import XY
 from graphkin.paper.labels import Label
+from graphkin.paper.layout import BEYOND
 from graphkin.paper.marks import Arc, Circle, Line
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.symbols import PIN, SHORT, arrow
@@ -19,17 +20,28 @@ DOT = 0.7
 
 
 def put_line(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """A construction line, as far as the layout says, with what it is to its bar."""
-    ends = line_ends(desk, number, value)
-    if ends is None:
-        return
-    name = line_name(step)
-    desk.board.marks.append(Line(*ends[0], *ends[1], "construction", name, number))
+    """A construction line as far as the layout says, with what it is square or parallel to.
+
+    Between its first point and the one that was found on it an arrow lies; it is drawn beyond.
+    """
+    name, ends = line_name(step), [part for part in beyond(desk, number, value) if part]
+    for part in ends:
+        desk.board.marks.append(Line(*part[0], *part[1], "construction", name, number))
     markup = line_label(desk, step)
-    if markup:
+    if markup and ends:
         desk.board.labels.append(
-            Label(markup, "construction", ends, 1.8, name, number, priority=-1)
+            Label(markup, "construction", ends[-1], 2.5, name, number, priority=-1)
         )
+
+
+def beyond(desk: Desk, number: int, value: Any) -> list[tuple[XY, XY] | None]:
+    """The parts of a line before its first point and after its last, in this order."""
+    low, high = desk.layout.spans[number]
+    if high - low <= 2 * BEYOND + TINY:
+        return [line_part(desk, value, low, high)]
+    first = line_part(desk, value, low, low + BEYOND)
+    last = line_part(desk, value, high - BEYOND, high)
+    return [first, last] if abs(low) < abs(high) else [last, first]
 
 
 def line_name(step: Step) -> str:
@@ -62,7 +74,12 @@ def put_arc(desk: Desk, number: int, step: Step, value: Any) -> None:
 def put_driver_ray(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The line at the driver's angle; guides are drawn with their symbols."""
     if "g" not in step.says:
-        put_line(desk, number, step, value)
+        high = desk.layout.spans[number][1]
+        part = line_part(desk, value, high - 2 * BEYOND, high)
+        if part:
+            desk.board.marks.append(
+                Line(*part[0], *part[1], "construction", line_name(step), number)
+            )
 
 
 def put_point(desk: Desk, number: int, step: Step, value: Any) -> None:

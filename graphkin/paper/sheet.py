@@ -24,6 +24,8 @@ BLANK = ". . . . . . . . ."
 """Room to write in what a task does not give away."""
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
+NARROW = 125.0
+"""A plan's field narrower than this, in mm, has no room for captions in large lettering."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 
@@ -128,7 +130,7 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     words = drawing.words
     kL = words.decimal(f"{drawing.scales.kL:g}")
     caption = words("page.mechanism_heading", scale=drawing.scales.words, kL=kL)
-    board.marks.append(headline(field.rect, caption))
+    board.marks.append(headline(field.rect, caption, layout))
     if view == "task":
         for link in drawing.scene.links.values():
             mechanism.draw_guide_line(board, drawing, field, link)
@@ -155,7 +157,8 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     k = words.significant(factor / 1000, 5)
     if view == "task" and scales.from_driver:
         k = BLANK
-    board.marks.append(headline(field.rect, words(f"page.{drawing.kind}_heading", k=k)))
+    caption = words(f"page.{drawing.kind}_heading", k=k)
+    board.marks.append(headline(field.rect, caption, layout))
     desk = Desk(board, field, drawing, layout)
     if view == "task":
         for number, step, value in drawing.steps(drawing.plane):
@@ -166,10 +169,10 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     return board
 
 
-def headline(rect: Rect, caption: str) -> Mark:
-    """The caption of a field, at its upper left."""
-    room = rect[2] - rect[0] - 5
-    height = next((h for h in (3.5, 2.5) if extent(caption, h)[0] <= room), 1.8)
+def headline(rect: Rect, caption: str, layout: Layout) -> Mark:
+    """The caption of a field; small on both fields where the plan's is narrow."""
+    narrow = layout.plan.rect[2] - layout.plan.rect[0] < NARROW
+    height = 2.5 if narrow or extent(caption, 3.5)[0] > rect[2] - rect[0] - 5 else 3.5
     return Text(rect[0] + 3, rect[1] - 2.5, caption, "caption", height)
 
 
@@ -220,7 +223,7 @@ def asked(drawing: Drawing) -> list[str]:
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The numbered sentences of the construction, in lettering that fits."""
     said = sentences(drawing)
-    for height, leading in ((2.5, 5.6), (2.5, LEADING), (2.5, 4.1), (1.8, 3.4)):
+    for height, leading in ((2.5, 5.6), (2.5, LEADING), (2.5, 4.0), (1.8, 3.4)):
         lines = [
             (number if i == 0 else "", line)
             for number, sentence in enumerate(said, 1)

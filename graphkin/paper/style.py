@@ -87,7 +87,7 @@ STYLES: dict[str, Style] = {
     "centre": Style(0.35, NEXT),
     # lettering
     "label": Style(0, NEXT, fill="ink"),
-    "leader": Style(0.18, NEXT),
+    "leader": Style(0.13, NEXT, DOTTED),
     "detail": Style(0.18, GREY),
     "number": Style(0.25, NEXT, fill=WHITE),
 }

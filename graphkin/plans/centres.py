@@ -23,7 +23,7 @@ def centre(pen: Pen, base: Base) -> None:
     points = (base.start, base.end)
     places = [pen.the("position", point) for point in points]
     images = [pen.the("velocity", point) for point in points]
-    name = f"I{base.link}"
+    name = centre_name("I", base.link)
     with pen.on(Part.CENTRE, Plane.MECHANISM):
         by_hand = None
         if o not in images:
@@ -63,9 +63,20 @@ def pole(pen: Pen, base: Base) -> None:
         says: Says = {"p": points[0], "q": points[1], "k": base.link}
         says |= {"a": named(pen, images[0]), "b": named(pen, images[1])}
         found = pen.draw(
-            acceleration_pole, o, *places, *images, name=f"J{base.link}", by_hand=by_hand, **says
+            acceleration_pole,
+            o,
+            *places,
+            *images,
+            name=centre_name("J", base.link),
+            by_hand=by_hand,
+            **says,
         )
     pen.want("pole", base.link, found)
+
+
+def centre_name(letter: str, link: str) -> str:
+    """J3 for a numbered link, J_rod for one with a name."""
+    return letter + (link if link.isdigit() else f"_{link}")
 
 
 def meet_of_rays(
