@@ -18,3 +18,8 @@ def __getattr__(name: str) -> Any:
 
         return getattr(mechanism, name)
     raise AttributeError(f"module 'graphkin' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """The public names, also before they are imported."""
+    return [*globals(), *__all__]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphkin import __version__
-from graphkin.console import FAILED, Desk, complain
+from graphkin.console import FAILED, READING, Desk, complain
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
@@ -19,6 +19,16 @@ if TYPE_CHECKING:
 
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
 FORMATS = ("svg", "pdf")
+
+
+class Folder(click.Path):
+    """A folder to write into; nothing at all is no folder."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path of a folder."""
+        if not str(value).strip():
+            self.fail("the name of the folder is empty; . is the current one", param, ctx)
+        return super().convert(value, param, ctx)
 
 
 @click.group(cls=Desk, invoke_without_command=True, context_settings=HELP)
@@ -154,7 +164,7 @@ def solve(name: str, settings: tuple[str, ...], asked: bool, as_json: bool) -> N
     "--output",
     "folder",
     metavar="DIR",
-    type=click.Path(path_type=Path),
+    type=Folder(path_type=Path),
     default=Path(),
     help="Folder to write into, made if it is missing; the current one by default.",
 )
@@ -224,7 +234,9 @@ def mechanism_of(name: str, settings: tuple[str, ...]) -> Mechanism:
     from graphkin.mechanism import Mechanism
     from graphkin.scene.read import read_scene
 
-    return Mechanism(read_scene(labs.find(name), pairs_of(settings)))
+    path, pairs = labs.find(name), pairs_of(settings)
+    current().meta[READING] = str(path) if Path(name).is_dir() else name
+    return Mechanism(read_scene(path, pairs))
 
 
 def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
@@ -255,14 +267,15 @@ def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
 def doubts(trace: Trace, solution: Solution, verdict: Verdict | None) -> bool:
     """Warn of a flat crossing and of a witness that disagrees; True when there is any doubt."""
     from graphkin.report.motion import FAIR, verdict_words
-    from graphkin.report.table import step_words
+    from graphkin.report.table import crossing
 
     flat = solution.margin < FAIR
     if flat:
-        number = min(trace.margins, key=lambda step: float(trace.margins[step]))
+        step = min(trace.margins, key=lambda number: float(trace.margins[number]))
+        point, part = crossing(trace.program, step)
         bound = f"; it is good to {verdict.limit:.1e} of the largest of its kind" if verdict else ""
         complain(
-            f"{step_words(trace.program, number)} crosses at a sine of {solution.margin:.2e}, "
+            f"the lines at {point} ({part}) cross at a sine of {solution.margin:.2e}, "
             f"less than {FAIR:g}: the answer is not fair to ask{bound}"
         )
     if verdict is not None and not verdict.agrees:

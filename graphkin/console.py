@@ -6,11 +6,19 @@ import os
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from typing import Any, NoReturn
 
 import click
+from click.exceptions import Exit
 
-from graphkin.errors import GraphkinError, WitnessError
+from graphkin.errors import (
+    ClosureError,
+    GraphkinError,
+    Problem,
+    SceneError,
+    StructureError,
+    WitnessError,
+)
 
 FAILED = 1
 """Status when the witness disagrees or something asked is unfair."""
@@ -22,6 +30,10 @@ PLAIN_TRACEBACK = "GRAPHKIN_TRACEBACK"
 """Set in the environment, a fault in graphkin itself shows where it happened."""
 
 
+READING = "graphkin.scene"
+"""Where the context of a command keeps how its scene was called."""
+
+
 class Desk(click.Group):
     """A group of commands that never shows a traceback and knows mistyped commands."""
 
@@ -30,6 +42,25 @@ class Desk(click.Group):
         speak_utf8()
         kwargs["standalone_mode"] = False
         sys.exit(guarded(lambda: super(Desk, self).main(*args, **kwargs)))
+
+    def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
+        """The context of a command; help and version, which are printed here, may be cut short."""
+        try:
+            return super().make_context(*args, **kwargs)
+        except BrokenPipeError:
+            cut_short()
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; what is wrong with its scene is told with the name of the scene."""
+        try:
+            return super().invoke(ctx)
+        except BrokenPipeError:
+            cut_short()
+        except (SceneError, StructureError, ClosureError) as error:
+            scene = ctx.meta.get(READING)
+            if scene is None:
+                raise
+            raise type(error)([of_scene(scene, problem) for problem in error.problems]) from error
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -43,6 +74,14 @@ class Desk(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The commands in the order in which they are written."""
         return list(self.commands)
+
+
+def of_scene(scene: str, problem: Problem) -> Problem:
+    """A problem with the scene before its place, unless the place is the scene's file itself."""
+    if problem.place == scene:
+        return problem
+    place = f"{scene}: {problem.place}" if problem.place else scene
+    return Problem(place, problem.found, problem.expected, problem.hint)
 
 
 def nearest(name: str, names: list[str]) -> str:
@@ -117,6 +156,12 @@ def say_aside(text: str) -> None:
     """A line on standard error, wherever that leads."""
     with suppress(OSError):
         click.echo(text, err=True)
+
+
+def cut_short() -> NoReturn:
+    """Leave as one whose reader has left; click would leave with 1, which is our FAILED."""
+    silence()
+    raise Exit(BROKEN_PIPE)
 
 
 def silence() -> None:

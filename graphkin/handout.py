@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.errors import Problem, SceneError, WitnessError
@@ -99,6 +99,7 @@ def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[D
         for kind in WANTED
         if (found := targets_of(mechanism, kind))
     ]
+    drawings[1:] = [replace(later, again=True) for later in drawings[1:]]
     if not drawings:
         raise SceneError(
             Problem("ask", "asks for nothing that is drawn", "velocities, accelerations, centres …")

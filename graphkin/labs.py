@@ -38,6 +38,9 @@ def find(name: str) -> Path:
         return path
     if name in names():
         return shelf() / name / "scene.toml"
+    if path.is_dir():
+        expected = "a folder with scene.toml, a .toml file or the name of a lab"
+        raise SceneError(Problem(name, "is a folder without scene.toml", expected))
     near = get_close_matches(name, names(), n=1)
     hint = f"did you mean {near[0]}? " if near else ""
     raise SceneError(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -100,8 +100,9 @@ class Mechanism:
     def batch(self, *, asked: bool = False, margins: bool = False, **parameters: Any) -> Solution:
         """The motion of many variants at once, each parameter an array of equal length.
 
-        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each. Raises
-        SceneError for a name that is no parameter of the scene.
+        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each. Values
+        between a parameter's steps are allowed, to sweep it. Raises SceneError for a name that is
+        no parameter of the scene, and for values outside a parameter's range.
         """
         import numpy as np
 
@@ -110,8 +111,10 @@ class Mechanism:
             known = ", ".join(self.scene.values) or "none: the scene has no parameters"
             raise SceneError([Problem(name, "is no parameter", known) for name in strangers])
         arrays = np.broadcast_arrays(*(np.atleast_1d(p) for p in parameters.values()))
-        floats = (np.asarray(array, dtype=float) for array in arrays)
-        values = {**self.scene.values, **dict(zip(parameters, floats, strict=True))}
+        floats = [np.asarray(array, dtype=float) for array in arrays]
+        given = dict(zip(parameters, floats, strict=True))
+        refuse_out_of_range(self.scene, given)
+        values = {**self.scene.values, **given}
         targets = self.asked() if asked else tuple(self.program.targets)
         needed = self.program.needed(targets)
         keep = [self.program.targets[target] for target in targets]
@@ -123,6 +126,26 @@ class Mechanism:
 def point_of(name: str) -> str:
     """The point of a name such as A@3 where link 3 owns A."""
     return name.partition("@")[0]
+
+
+def refuse_out_of_range(scene: Scene, given: Mapping[str, Any]) -> None:
+    """Raise SceneError for every parameter with values outside the range that the scene states."""
+    problems = []
+    for name, array in given.items():
+        parameter = scene.parameters.get(name)
+        if parameter is None:
+            continue
+        for bound, is_low in ((parameter.minimum, True), (parameter.maximum, False)):
+            if bound is None:
+                continue
+            limit = float(bound.number({}))
+            outside = array[(array < limit) if is_low else (array > limit)]
+            if outside.size:
+                found = f"{outside.size} values outside the range, such as {outside.flat[0]:g}"
+                words = f"at {'least' if is_low else 'most'} {limit:g}"
+                problems.append(Problem(f"parameter {name}", found, words))
+    if problems:
+        raise SceneError(problems)
 
 
 def refuse_unconstructed(scene: Scene) -> None:

@@ -13,6 +13,8 @@ from graphkin.steps.batch import run_batch
 from graphkin.steps.program import Part, Program
 from graphkin.steps.run import StepFailed, miss
 
+HALVINGS = 20
+"""How often the last step at the end of a range is halved."""
 SAMPLES = 7200
 """Driver angles tried in one turn: every twentieth of a degree."""
 DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
@@ -76,10 +78,25 @@ def closing_ranges(
     ends = np.flatnonzero(closed & ~np.roll(closed, -1))
     if ends[0] < starts[0]:
         ends = np.roll(ends, -1)
+    lows = refined(program, needed, scene, degrees[starts], -360 / SAMPLES)
+    highs = refined(program, needed, scene, degrees[ends], 360 / SAMPLES)
     return sorted(
-        (float(degrees[low] - (360 if high < low else 0)), float(degrees[high]))
-        for low, high in zip(starts, ends, strict=True)
+        (float(low - (360 if high < low else 0)), float(high))
+        for low, high in zip(lows, highs, strict=True)
     )
+
+
+def refined(
+    program: Program, needed: Sequence[int], scene: Scene, degrees: Any, step: float
+) -> Any:
+    """The ends of closing ranges, each between an angle that closes and one a step further."""
+    closing, size = degrees, step
+    for _ in range(HALVINGS):
+        size /= 2
+        further = closing + size
+        closed = closes_at(program, needed, scene, further % 360)
+        closing = closing + size * closed
+    return closing
 
 
 def closes_at(program: Program, needed: Sequence[int], scene: Scene, degrees: Any) -> Any:

@@ -21,6 +21,8 @@ LINE, GAP = 6.0, 3.0
 """Distance of lines, and what a heading adds above it, in mm."""
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
+BLANK = ". " * 14
+"""Room to write in, on the form that is to be filled in."""
 NUMBER = 12.0
 """Width kept at the right for the relation's number, in mm."""
 
@@ -66,7 +68,9 @@ def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> I
         for piece in (part.split(" ") if extent(part, LETTER)[0] > room else [part])
     ]
     if relation.result and not solved:
-        parts = [*parts[:-1], f"{parts[-1]} {'. ' * 14}{relation.unit}".rstrip()]
+        parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
+        if relation.unit.startswith("rad"):
+            parts.append(f"({drawing.words('table.sense')}: {BLANK.rstrip()})")
     lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):
         if extent(line, LETTER)[0] > room:

@@ -25,7 +25,10 @@ NOISE = 1e-9
 
 @dataclass(frozen=True)
 class Drawing:
-    """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps."""
+    """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
+
+    ``again``: the mechanism stands on a sheet before this one, with how it is drawn.
+    """
 
     kind: str
     scene: Scene
@@ -33,6 +36,7 @@ class Drawing:
     scales: Scales
     verdict: Verdict
     words: Words
+    again: bool = False
 
     @property
     def plane(self) -> Plane:

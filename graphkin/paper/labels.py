@@ -8,6 +8,7 @@ from math import ceil, cos, radians, sin
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import Rect
+from graphkin.paper.doubt import with_leaders
 from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, box, reach
 from graphkin.paper.place import Spot, Wish, place
@@ -89,9 +90,13 @@ class Label:
         return Text(x, y, self.markup, style, self.height, "start", self.name, self.step)
 
     def short_leader(self, spot: Spot) -> tuple[XY, XY]:
-        """From the nearest side of the label's box, a little off it, to the point it names."""
+        """From the nearest side of the label's box to the point it names."""
         x, y = self.subject
         assert isinstance(x, float) and isinstance(y, float)
+        return self.side(spot, x, y)
+
+    def side(self, spot: Spot, x: float, y: float) -> tuple[XY, XY]:
+        """From the nearest side of the label's box, a little off it, to a place."""
         half_width, half_height = (side / 2 + 0.3 for side in self.size())
         near_x = min(max(x, spot.x - half_width), spot.x + half_width)
         near_y = min(max(y, spot.y - half_height), spot.y + half_height)
@@ -126,7 +131,8 @@ class Board:
                 break
             self.shorten([spot.free for spot in spots], meanings)
         refuse_crowds(self.labels, spots)
-        return [*self.marks, *foot, *marks_of(self.labels, spots)]
+        clear = with_leaders(self.labels, spots, self.marks)
+        return [*self.marks, *foot, *marks_of(self.labels, clear)]
 
     def unled(self, spots: Sequence[Spot]) -> bool:
         """Bring labels nearer whose leaders would cross others; true when there were any."""

@@ -45,6 +45,8 @@ class Sentence:
 def sentences(drawing: Drawing) -> list[Sentence]:
     """What to draw on a sheet, in the order of drawing, and what to read off at the end."""
     found: list[Sentence] = []
+    if drawing.again:
+        found.append(Sentence(-1, "again", drawing.words("step.again")))
     shown = False
     for number, step, value in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
         if step.action and step.action.key == "normal":
@@ -52,10 +54,15 @@ def sentences(drawing: Drawing) -> list[Sentence]:
             shown = shown or first
             name = "ν1" if first else "ν"
             found.append(Sentence(number, name, normal_sentence(drawing, step, first=first)))
-        elif is_found_point(drawing, number, step):
+        elif is_found_point(drawing, number, step) and not is_again(drawing, step):
             found.append(Sentence(number, step.name, point_sentence(drawing, number, step)))
     last = Sentence(-1, "", drawing.words(f"step.read-{drawing.kind}"))
     return [*merged(drawing, found), last]
+
+
+def is_again(drawing: Drawing, step: Step) -> bool:
+    """True for a step that the sheet before has shown: the mechanism itself."""
+    return drawing.again and step.part is Part.POSITION
 
 
 def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:

@@ -11,7 +11,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.reach import closing_ranges
 from graphkin.report.motion import verdict_words
 from graphkin.report.record import plain, settings_words
-from graphkin.report.table import labelled, listed, number, step_words, table
+from graphkin.report.table import crossing, labelled, listed, table
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
@@ -194,12 +194,14 @@ def true_words(scene: Scene, trace: Trace) -> str:
 
 
 def crossing_lines(trace: Trace) -> list[str]:
-    """The flattest crossings, with angle and sine."""
+    """The flattest crossings: the angle, the part of the work, and the point."""
     program = trace.program
     drawn = [(s, n) for n, s in trace.margins.items() if not program.steps[n].hand]
     flattest = sorted(drawn)[:WORST]
-    rows = [
-        (f"{degrees(asin(min(1.0, sine))):.2f}°", f"sine {number(sine)}", step_words(program, step))
-        for sine, step in flattest
-    ]
-    return table(("angle", "", "flattest crossings"), rows) if rows else ["nothing crosses"]
+    rows = []
+    for sine, step in flattest:
+        point, part = crossing(program, step)
+        rows.append((f"{degrees(asin(min(1.0, sine))):.2f}°", part, point))
+    if not rows:
+        return ["nothing crosses"]
+    return table(("angle", "part", "point (flattest crossings)"), rows)

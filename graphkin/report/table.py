@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from graphkin.steps.program import Part
+
 if TYPE_CHECKING:
     from graphkin.steps.program import Program
 
@@ -72,10 +74,18 @@ def listed(names: Iterable[str], most: int = 12) -> str:
     return " and ".join([", ".join(known[:-1]), known[-1]]) if len(known) > 1 else "".join(known)
 
 
-def step_words(program: Program, number: int) -> str:
-    """How a step is called where its drawing is judged: its action, its letter, its part."""
+def crossing(program: Program, number: int) -> tuple[str, str]:
+    """The point in which a step crosses, as the drawing calls it, and the part of the work.
+
+    The corner of a plate has its letter only where the plate is laid, in a later step.
+    """
     step = program.steps[number]
-    key = step.action.key if step.action is not None else "given"
-    letters = "-".join(step.says[k] for k in ("p", "q") if step.says.get(k))
-    name = step.name or letters
-    return f"step {number}, {key}{' ' + name if name else ''} ({step.part.value})"
+    name, reached = step.name, {number}
+    for later in range(number + 1, len(program.steps)):
+        after = program.steps[later]
+        if name or after.part not in (step.part, Part.POSITION):
+            break
+        if reached.intersection(after.args):
+            name = after.name
+            reached.add(later)
+    return name or "a point", step.part.value

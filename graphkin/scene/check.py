@@ -6,12 +6,13 @@ from collections import Counter
 from collections.abc import Collection
 
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Side, Slide
+from graphkin.scene.model import FRAME, Branch, Driver, Link, Rolling, Scene, Side, Slide, Way
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
     """Note every name that is unknown or used for two things, and every link left alone."""
     check_namespace(scene, findings)
+    check_capitals(scene, findings)
     for link in (scene.frame, *scene.links.values()):
         check_link(scene, link, findings)
     check_alone(scene, findings)
@@ -55,9 +56,40 @@ def check_namespace(scene: Scene, findings: Findings) -> None:
             findings.add(f"links.{name}", f"{name} is a point too", "one name for one thing")
 
 
+def check_capitals(scene: Scene, findings: Findings) -> None:
+    """A point that one link alone has is not another link's point in other capitals.
+
+    The plans write the image of B as b, so that two such names could not be told apart there.
+    """
+    links = (scene.frame, *scene.links.values())
+    owners: dict[str, list[str]] = {}
+    for link in links:
+        for point in link.points:
+            owners.setdefault(point, []).append(link.name)
+    folded: dict[str, list[str]] = {}
+    for point in owners:
+        folded.setdefault(point.lower(), []).append(point)
+    for alike in folded.values():
+        alone = [point for point in alike if len(owners[point]) == 1]
+        if len(alike) == 1 or not alone:
+            continue
+        point = alone[-1]
+        other = next(each for each in alike if each != point)
+        if owners[other] != owners[point]:
+            name = owners[point][0]
+            place = f"{place_of(name)}.{point}"
+            found = f"no other link has {point}"
+            findings.add(place, found, other, f"{other} is written with another capital")
+
+
+def place_of(name: str) -> str:
+    """Where a link is written."""
+    return "frame" if name == FRAME else f"links.{name}"
+
+
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
     """Guides, tracks and wheels of a link name points and links that are there."""
-    place = "frame" if link.name == FRAME else f"links.{link.name}"
+    place = place_of(link.name)
     for index, wheel in enumerate(link.wheels):
         where = numbered(f"{place}.wheel", index, len(link.wheels))
         if wheel.centre:
@@ -164,14 +196,37 @@ def check_branches(scene: Scene, findings: Findings) -> None:
             findings.add(place, f"{name} is no point or link", listed(known), nearest(name, known))
         elif isinstance(branch, Side):
             if name not in points:
-                findings.add(place, f"a side for link {name}", '"forward", "backward", "closure 1"')
+                expected = '"forward", "backward", "closure 1"'
+                hint = f"sides are written under the pin's name: {side_of_pin(scene, name, branch)}"
+                findings.add(place, f"a side for link {name}", expected, hint)
             for point in (branch.first, branch.second):
                 known_point(point, points, "the mechanism", place, findings)
             if name in (branch.first, branch.second):
                 findings.add(place, f"{name} on a side of itself", "a line of two other points")
         elif name not in scene.links:
             expected = '"left of P-Q" or "right of P-Q"'
-            findings.add(place, f"forward, backward or a closure for point {name}", expected)
+            blocks = [link for link in scene.links.values() if link.slides and name in link.points]
+            hint = "a block's branch is written under the link's name: "
+            hint += " or ".join(f"{block.name} = {written(branch)}" for block in blocks)
+            found = f"forward, backward or a closure for point {name}"
+            findings.add(place, found, expected, hint if blocks else "")
+
+
+def side_of_pin(scene: Scene, name: str, side: Side) -> str:
+    """A side as it is written under a pin that a link shares with another."""
+    shared = Counter(point for link in scene.links.values() for point in link.points)
+    points = [p for p in scene.links[name].points if shared[p] > 1]
+    pins = [p for p in points if p not in (side.first, side.second)]
+    return f"{pins[0] if pins else 'P'} = {written(side)}"
+
+
+def written(branch: Branch) -> str:
+    """A branch as a scene writes it."""
+    if isinstance(branch, Side):
+        return f'"{"left" if branch.side > 0 else "right"} of {branch.first}-{branch.second}"'
+    if isinstance(branch, Way):
+        return '"forward"' if branch.way > 0 else '"backward"'
+    return f'"closure {branch.number}"'
 
 
 def check_ask(scene: Scene, findings: Findings) -> None:

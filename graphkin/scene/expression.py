@@ -31,6 +31,12 @@ DIGITS = 60
 HEAVIEST = 2000
 """Largest number of parts of a law of time and of its first derivative."""
 
+UNITS = ("degrees", "degree", "deg", "°", "rad", "grad", "rpm", "mm", "cm", "dm", "in", "m", "s")
+RATES = ("mm/s", "cm/s", "m/s", "in/s", "rev/min", "rot/min", "rad/s", "deg/s", "°/s")
+MEASURED = re.compile(
+    rf"(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)", re.ASCII | re.DOTALL
+)
+"""A number or an expression with a unit behind it."""
 MARKS = "_.+-*/() \t\r\n"
 JUXTAPOSED = re.compile(
     r"(?<![A-Za-z0-9_.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z_(]", re.ASCII
@@ -97,8 +103,21 @@ def parse(text: str) -> Tree:
     return convert(body, flat, 0)
 
 
+def unit_hint(text: str) -> str:
+    """How to write a number that has a unit behind it; empty where it has none."""
+    measured = MEASURED.fullmatch(text.strip())
+    rest = measured[1].strip() if measured else ""
+    if not measured or not rest or rest[-1] in "+-*/(":
+        return ""
+    hint = f"the unit is stated once in units: write {rest}"
+    return hint if len(measured[2]) > 1 or measured[2] == "°" else f"{hint}; a product has its *"
+
+
 def refuse_foreign(text: str) -> None:
     """Refuse characters and shapes that no expression has, each with the way to write it."""
+    hint = unit_hint(text)
+    if hint:
+        raise UnreadableError(f"{shown(text.strip())} has a unit", hint)
     foreign = next((c for c in text if not (c.isascii() and c.isalnum()) and c not in MARKS), "")
     if foreign:
         hints = {"^": "write a power as **", ",": "write a decimal point", "°": "leave out °"}

@@ -13,6 +13,8 @@ from graphkin.scene.quantity import Quantity
 from graphkin.scene.words import SIDES, line_words, link_name, point_name
 
 MOST = 20
+GUIDE = "the link that carries the guide, 0 for the frame"
+TRACK = "the link that carries the track or the other wheel, 0 for the frame"
 
 
 def tables(table: Table, key: str) -> list[Table]:
@@ -37,7 +39,7 @@ def read_slides(table: Table, measures: Measures) -> tuple[Slide, ...]:
 
 def read_slide(table: Table, measures: Measures) -> Slide:
     """One guide: ``{ on, through, angle, offset }`` or ``{ on, along = "P-Q", offset }``."""
-    on = link_name(table.at("on"), table.take("on"), measures.findings) or FRAME
+    on = link_name(table.at("on"), table.take("on"), measures.findings, GUIDE) or FRAME
     raw = table.take("along")
     through, angle, along = None, None, None
     if raw is None:
@@ -131,7 +133,7 @@ def read_rolls(table: Table, measures: Measures) -> tuple[Rolling, ...]:
 
 def read_rolling(table: Table, measures: Measures) -> Rolling:
     """One track: ``{ on, through, angle, start, side }``, or ``{ on, start }`` on a wheel."""
-    on = link_name(table.at("on"), table.take("on"), measures.findings) or FRAME
+    on = link_name(table.at("on"), table.take("on"), measures.findings, TRACK) or FRAME
     through, angle = None, None
     if "through" in table or "angle" in table:
         through, angle = read_line(table, measures)

@@ -7,12 +7,16 @@ import tomllib
 from pathlib import Path
 
 from graphkin.errors import Problem, SceneError
+from graphkin.scene.expression import unit_hint
+from graphkin.scene.findings import visible
 from graphkin.scene.measures import FloatText
 
 LARGEST = 256 * 1024
 """Bytes of a scene file."""
 LONGEST_LINE = 4000
 DOTTED = r"(?<![\w\"'.-])(?>[\w\"'-]+[ \t]*\.[ \t]*){16}"
+CURLED = "“”„‟‘’‚«»″"
+"""Quotes that a word processor writes."""
 WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
 
 
@@ -73,10 +77,36 @@ def syntax_problem(message: str, text: str) -> Problem:
     found = message[: where.start()] if where else message
     found = f"{found[:1].lower()}{found[1:160]}"
     line = where[1] if where and where[1] else str(len(text.splitlines()) or 1)
+    twice = re.fullmatch(r"cannot declare \((.+?),?\) twice", found)
+    if twice:
+        name = visible(".".join(re.findall(r"'([^']*)'", twice[1])) or "a table")
+        return Problem(
+            f"line {line}", f"{name} is written twice", hint="write it under one heading"
+        )
     hint = ""
     if found.startswith("cannot overwrite") or "twice" in found:
         hint = "the same key or table is written above"
-    lines = text.splitlines()
-    if int(line) <= len(lines) and re.search(r"=\s*-?\d+,\d", lines[int(line) - 1]):
-        hint = "numbers are written with a point: 37.5"
+    lines = text.split("\n")
+    if int(line) <= len(lines):
+        column = int(where[2]) if where and where[2] else 0
+        hint = value_hint(lines[int(line) - 1], column - 1) or hint
     return Problem(f"line {line}", f"not TOML: {found}", hint=hint)
+
+
+def value_hint(line: str, at: int) -> str:
+    """How to mend a value that TOML cannot read, from its line and the index of the fault."""
+    if re.search(r"=\s*-?\d+,\d", line):
+        return "numbers are written with a point: 37.5"
+    bare = re.sub(r'"[^"]*"|#.*', "", line)
+    if any(quote in bare for quote in CURLED):
+        return 'use straight quotes: "'
+    if at < 0:
+        return ""
+    begins = max(line.rfind(mark, 0, at) for mark in "=[,") + 1
+    value = re.split(r"[],}#]", line[begins:], maxsplit=1)[0].strip()
+    if not begins or not re.fullmatch(r"[\w.°(+-][\w.°()*/^+ -]*", value):
+        return ""
+    if re.fullmatch(r"[\d._ ]+", value):
+        return ""
+    kind = "expression" if re.search(r"[\d*/+(^]|^-", value) else "text"
+    return unit_hint(value) or f'put the {kind} in quotes: "{visible(value)}"'

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
+from numbers import Integral, Rational, Real
 
 from graphkin.errors import SceneError
 from graphkin.scene.expression import FARTHEST, TIME, Number, UnreadableError, decimal, integer
@@ -25,16 +26,17 @@ def quantity(raw: object, unit: str, place: str) -> Quantity:
     """A raw value as a quantity; UnreadableError when it is no number and no expression."""
     if isinstance(raw, bool):
         raise UnreadableError(shown(raw))
-    if isinstance(raw, int):
-        return Quantity(str(integer(raw)), Number(integer(raw)), unit, place)
+    if isinstance(raw, Integral):
+        whole = integer(int(raw))
+        return Quantity(str(whole), Number(whole), unit, place)
     if isinstance(raw, FloatText):
         written = raw.replace("_", "")
         return Quantity(written, Number(decimal(written)), unit, place)
     if isinstance(raw, str):
         return expression(raw, unit, place)
-    if isinstance(raw, Fraction):
-        return exact(raw, unit, place)
-    if isinstance(raw, float | Decimal):
+    if isinstance(raw, Rational):
+        return exact(Fraction(int(raw.numerator), int(raw.denominator)), unit, place)
+    if isinstance(raw, Real | Decimal):
         return Quantity(str(raw), Number(decimal(str(raw))), unit, place)
     raise UnreadableError(shown(raw))
 

@@ -31,6 +31,9 @@ def missing(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str
         return unknown(sketch, "from", [polar.start])
     if words is not None:
         return missing_lengths(sketch, point, placed)
+    bare = bare_turn(sketch, point, placed) or bare_base(sketch, point, placed)
+    if bare:
+        return (f"the length {bare} is missing", f"{bare} = …", "")
     ends = [end for end in sketch.points if end in placed and sketch.between(end, point)]
     if len(ends) >= 2:
         a, b = ends[:2]
@@ -40,12 +43,37 @@ def missing(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str
             "",
         )
     if len(ends) == 1:
+        bar = f"{ends[0]}-{point}"
+        base = any({ends[0], point} == {on.first, on.second} for on in sketch.words.values())
         return (
-            f"one length, {ends[0]}-{point}, does not place {point}",
+            f"one length, {bar}, does not place {point}",
             "a second length and a side, an angle, or coordinates [x, y]",
-            "",
+            f"write {bar} above the other lengths, for they begin with it" if base else "",
         )
     return ("", "", "")
+
+
+def bare_turn(sketch: Sketch, point: str, placed: set[str]) -> str:
+    """The length that an angle of this point wants, where it is not written."""
+    for first, vertex, last in sketch.angles:
+        ready = point in (first, last) and {first, vertex, last} - {point} <= placed
+        if ready and sketch.between(vertex, point) is None:
+            return f"{vertex}-{point}"
+    return ""
+
+
+def bare_base(sketch: Sketch, point: str, placed: set[str]) -> str:
+    """The length of the first two points, on which other points are built, where it is missing."""
+    for first, vertex, last in sketch.angles:
+        for arm in (first, last):
+            ends = {arm, vertex}
+            if point in ends and ends & placed and sketch.between(arm, vertex) is None:
+                return f"{vertex}-{arm}"
+    for words in sketch.words.values():
+        ends = {words.first, words.second}
+        if point in ends and ends & placed and sketch.between(words.first, words.second) is None:
+            return f"{words.first}-{words.second}"
+    return ""
 
 
 def missing_lengths(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str]:

@@ -115,7 +115,7 @@ def set_values(
     """The exact value of each parameter: as written, or as set from outside within its range."""
     values = {name: plain(parameter.value) for name, parameter in parameters.items()}
     for name, raw in settings.items():
-        place = f"settings.{name}"
+        place = f"setting {name}"
         if name not in parameters:
             expected = listed(parameters) or "no setting, for the scene has no parameters"
             found = f"{shown(name)} is no parameter"

@@ -10,7 +10,7 @@ from graphkin.errors import Problem, SceneError
 from graphkin.scene.check import check_scene
 from graphkin.scene.drivers import read_drivers
 from graphkin.scene.expression import TIME
-from graphkin.scene.findings import Findings, Table, listed, nearest, shown
+from graphkin.scene.findings import Findings, Table, listed, shown
 from graphkin.scene.joints import read_rolls, read_slides, read_wheels
 from graphkin.scene.limits import decoded, read_bytes, tables_of
 from graphkin.scene.measures import Measures
@@ -24,8 +24,17 @@ from graphkin.scene.words import FRAME_WORD, LONGEST_NAME, is_link_name
 FORMAT = 1
 """Version of the scene format that is read."""
 MOST_LINKS = 500
-SPELLINGS = {"rpm": "rev/min", "r.p.m.": "rev/min", "rot/min": "rev/min", "degrees": "deg"}
-"""Other spellings of units, for hints."""
+SPELLINGS = {
+    **dict.fromkeys(("rpm", "r.p.m.", "rot/min", "1/min", "min^-1", "rev/mn"), "rev/min"),
+    **dict.fromkeys(("rad/sec", "radians/s", "1/s", "s^-1"), "rad/s"),
+    **dict.fromkeys(("°", "degree", "degrees", "degs", "grade"), "deg"),
+    **dict.fromkeys(("radian", "radians", "rads"), "rad"),
+    **dict.fromkeys(("millimetre", "millimetres", "millimeter", "millimeters"), "mm"),
+    **dict.fromkeys(("centimetre", "centimetres", "centimeter", "centimeters"), "cm"),
+    **dict.fromkeys(("metre", "metres", "meter", "meters"), "m"),
+    **dict.fromkeys(("inch", "inches", '"'), "in"),
+}
+"""Other spellings of units, for hints; a unit that is only spelt alike is not meant."""
 UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "rad/s")}
 NO_SETTINGS: Mapping[str, object] = {}
 
@@ -46,6 +55,9 @@ def read_text(
     """The scene in a TOML text, its parameters set; SceneError with every problem found."""
     findings = Findings()
     top = Table("", tables_of(text), findings)
+    if not top.raw:
+        found = "nothing but comments" if text.strip("\ufeff \t\r\n") else "the file is empty"
+        raise SceneError(Problem("", found, f"a scene, its first line graphkin = {FORMAT}"))
     check_version(top, findings)
     scene = assembled(top, name, source, settings, findings)
     top.finish()
@@ -58,12 +70,13 @@ def check_version(top: Table, findings: Findings) -> None:
     """The format is ours; a newer one stops the reading at once."""
     version = top.take("graphkin")
     if version is None:
-        findings.add("graphkin", "no version of the format", f"graphkin = {FORMAT}, the first line")
+        found = "the version of the format is missing"
+        findings.add("", found, f"the first line graphkin = {FORMAT}")
     elif isinstance(version, bool) or not isinstance(version, int) or version < 1:
-        findings.add("graphkin", shown(version), f"graphkin = {FORMAT}")
+        findings.add("", f"graphkin = {shown(version)}", f"graphkin = {FORMAT}")
     elif version > FORMAT:
-        found = f"{shown(version)}: this scene is written for a newer graphkin"
-        raise SceneError(Problem("graphkin", found, f"graphkin = {FORMAT}", "update graphkin"))
+        found = f"graphkin = {shown(version)}: this scene is written for a newer graphkin"
+        raise SceneError(Problem("", found, f"graphkin = {FORMAT}", "update graphkin"))
 
 
 def assembled(
@@ -109,7 +122,9 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
         if raw is None and not lost:
             findings.add(table.at(key), f"no unit of {key}", listed(choices))
         elif raw is not None and raw != units[key]:
-            hint = nearest(SPELLINGS.get(str(raw).lower(), str(raw)), choices)
+            spelt = str(raw).strip().lower()
+            meant = SPELLINGS.get(spelt, spelt)
+            hint = f"did you mean {meant}?" if meant in choices else ""
             findings.add(table.at(key), shown(raw), listed(choices), hint)
     table.finish()
     return units

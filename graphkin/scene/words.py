@@ -49,6 +49,9 @@ def point_name(place: str, name: object, findings: Findings) -> str | None:
             findings.add(place, f"a point named {name}", "a name that is not the frame's")
             return None
         return name
+    if name is None:
+        findings.add(place, "is missing", "the name of a point")
+        return None
     findings.add(
         place,
         f"{shown(name)} is no name of a point",
@@ -57,7 +60,9 @@ def point_name(place: str, name: object, findings: Findings) -> str | None:
     return None
 
 
-def link_name(place: str, raw: object, findings: Findings) -> str | None:
+def link_name(
+    place: str, raw: object, findings: Findings, meant: str = "the name of a link"
+) -> str | None:
     """The name of a link written as a text or a whole number; ``frame`` and 0 are the frame."""
     if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 10**6:
         return str(raw)
@@ -66,8 +71,12 @@ def link_name(place: str, raw: object, findings: Findings) -> str | None:
             return FRAME
         if is_link_name(raw):
             return raw
-    found = "nothing" if raw is None else shown(raw)
-    findings.add(place, f"{found} is no name of a link", "a number or a name, as in [links]")
+    if raw is None:
+        findings.add(place, "is missing", meant)
+    else:
+        findings.add(
+            place, f"{shown(raw)} is no name of a link", "a number or a name, as in [links]"
+        )
     return None
 
 

@@ -32,6 +32,17 @@ def test_the_pump_is_told_in_full(run: Run) -> None:
         assert expected in result.stdout
 
 
+def test_a_crossing_is_told_by_its_angle_its_part_and_its_point(run: Run) -> None:
+    lines = run("check", "pump").stdout.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("crossings"))
+    assert [line.split() for line in lines[at + 1 : at + 4]] == [
+        ["54.90°", "shape", "C"],
+        ["76.74°", "velocity", "b"],
+        ["76.74°", "acceleration", "b′"],
+    ]
+    assert not any("sine" in line or "step" in line for line in lines)
+
+
 def test_both_closures_of_each_dyad_are_shown(run: Run) -> None:
     lines = run("check", "pump").stdout.splitlines()
     shown = [line.split() for line in lines if "the rest closes" in line]
@@ -107,7 +118,7 @@ def test_groups_are_named_even_where_they_cannot_be_constructed(
     result = run("check", path)
     assert result.exit_code == 2
     assert "dyad RRR (class II) of links 2 and 3" in result.stdout
-    assert "graphkin: branches.B: is missing" in result.stderr
+    assert "four.toml: branches.B: is missing" in result.stderr
 
 
 def test_a_position_that_does_not_close_still_shows_its_range(

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from graphkin import __version__
+from graphkin.console import BROKEN_PIPE
 from tests.cli.conftest import ROOT, Run, command, python
 
 HEAVY = ("shapely", "reportlab", "svgwrite", "matplotlib")
@@ -63,6 +64,8 @@ def test_list_names_labs_parameters_and_what_is_asked(run: Run) -> None:
         (["solve", "missing.toml"], "neither a file nor a shipped lab"),
         (["solve", "a\0b"], "neither a file nor a shipped lab"),
         (["solve", "x" * 5000], ""),
+        (["sheet", "pump", "-o", ""], "the name of the folder is empty"),
+        (["check", "pump", "--set", "n=31"], "graphkin: pump: setting n: n = 31 is out of range"),
     ],
 )
 def test_mistakes_are_answered_with_status_2(run: Run, args: list[str], answer: str) -> None:
@@ -85,6 +88,40 @@ def test_unreadable_scenes_are_told_in_lines(run: Run, tmp_path: Path, data: byt
         assert result.exit_code == 2
         assert result.stderr
         assert all(line.startswith("graphkin: ") for line in result.stderr.splitlines())
+
+
+def test_a_folder_without_a_scene_is_told(run: Run, tmp_path: Path) -> None:
+    result = run("check", tmp_path)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"graphkin: {tmp_path}: is a folder without scene.toml; ")
+
+
+def test_every_problem_of_a_scene_names_its_file_once(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "lab").mkdir()
+    for name in ("my.toml", "lab/scene.toml"):
+        Path(name).write_text("", encoding="utf-8")
+    empty = "the file is empty; expected a scene, its first line graphkin = 1\n"
+    assert run("check", "my.toml").stderr == f"graphkin: my.toml: {empty}"
+    assert run("check", "lab").stderr == f"graphkin: {Path('lab/scene.toml')}: {empty}"
+    Path("my.toml").write_text("title = 3\n", encoding="utf-8")
+    told = run("solve", "my.toml").stderr.splitlines()
+    assert told[0].startswith("graphkin: my.toml: the version of the format is missing; ")
+    assert all(line.count("my.toml: ") == 1 for line in told)
+    assert any(line.startswith("graphkin: my.toml: title: 3; ") for line in told)
+
+
+def test_a_file_that_cannot_be_opened_is_named_once(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from graphkin import labs
+
+    monkeypatch.setattr(labs, "find", Path)
+    missing = tmp_path / "missing.toml"
+    said = f"graphkin: {missing}: the scene cannot be read: No such file or directory\n"
+    assert run("check", missing).stderr == said
 
 
 def test_a_fault_of_our_own_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -165,18 +202,19 @@ def test_a_full_disk_behind_a_redirection_is_one_line() -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="pipes close otherwise there")
-def test_a_reader_that_stops_early_is_no_traceback() -> None:
+@pytest.mark.parametrize("args", [("solve", "pump"), ("check", "pump"), ("list",), ("--help",)])
+def test_a_reader_that_stops_early_is_no_traceback(args: tuple[str, ...]) -> None:
     reading, writing = os.pipe()
     os.close(reading)
     with os.fdopen(writing, "wb") as pipe:
         result = subprocess.run(
-            [sys.executable, "-m", "graphkin", "solve", "pump"],
+            [sys.executable, "-m", "graphkin", *args],
             env={**os.environ, "PYTHONPATH": str(ROOT)},
             stdout=pipe,
             stderr=subprocess.PIPE,
             check=False,
         )
-    assert result.returncode != 0
+    assert result.returncode == BROKEN_PIPE
     assert result.stderr == b""
 
 

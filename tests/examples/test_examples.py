@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 import graphkin
 from graphkin.cli import app
 from graphkin.mechanism import Mechanism
+from graphkin.report.motion import FAIR
 from graphkin.scene.read import read_text
 from tests.examples.document import (
     EXAMPLES,
@@ -171,10 +172,14 @@ def test_a_part_replaces_what_has_its_heading() -> None:
 
 
 @pytest.mark.parametrize("mistake", mistakes(SCENES_PAGE), ids=lambda each: str(each.number))
-def test_a_mistake_gives_the_message_on_the_page(mistake: Mistake, tmp_path: Path) -> None:
-    result = run("check", my_scene(tmp_path, mistake.part))
+def test_a_mistake_gives_the_message_on_the_page(
+    mistake: Mistake, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    my_scene(tmp_path, mistake.part)
+    monkeypatch.chdir(tmp_path)
+    result = run("check", "my.toml")
     assert result.exit_code == 2
-    assert without_steps(result.stderr) == without_steps(f"graphkin: {mistake.message}\n")
+    assert without_steps(result.stderr) == without_steps(f"graphkin: my.toml: {mistake.message}\n")
 
 
 def test_there_are_ten_mistakes() -> None:
@@ -203,6 +208,24 @@ def test_what_check_shows_on_the_page_is_what_it_shows(tmp_path: Path) -> None:
     assert shown
     for block in shown:
         assert block.text in said
+
+
+def test_without_ask_everything_is_asked() -> None:
+    text = with_part(WHOLE.text, "[ask]\n").replace("[ask]", "")
+    asked = Mechanism(read_text(text, "my")).asked()
+    wanted = {("velocity", "B"), ("acceleration", "C"), ("omega", "4"), ("pole", "3")}
+    assert wanted <= set(asked)
+
+
+def test_names_of_links_may_be_words() -> None:
+    text = WHOLE.text.replace("[links.1]", "[links.crank]").replace("turn = 1", 'turn = "crank"')
+    mechanism = Mechanism(read_text(text, "my"))
+    assert mechanism.witness(mechanism.solve()).agrees
+
+
+def test_the_bound_of_an_unfair_crossing_is_the_one_on_the_page() -> None:
+    assert FAIR == 1e-4
+    assert "sine of their angle is below 1e-4" in SCENES_PAGE.read_text(encoding="utf-8")
 
 
 def test_a_scale_is_real_over_drawn_and_one_that_does_not_fit_is_refused(tmp_path: Path) -> None:

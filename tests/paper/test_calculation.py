@@ -96,6 +96,9 @@ def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages
             continue
         symbols, dots, unit = re.fullmatch(r"(.*) =((?: \.){10,}) ?(.*)", blank).groups()
         assert solved.startswith(f"{symbols} = "), (solved, blank)
+        unit, has_sense, sense = unit.partition(" (")
+        assert bool(has_sense) is unit.startswith("rad"), blank
+        assert not has_sense or sense.endswith(" .)"), blank
         assert dots and not re.search(r"\d", unit.replace("^2", "")), blank
         rest = solved.removeprefix(f"{symbols} = ")
         assert unit in rest, (solved, blank)

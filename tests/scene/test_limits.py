@@ -38,7 +38,7 @@ BOMBS = {
         HEAD + "".join(f"[links.{i}]\n" for i in range(1, 502)) + DRIVER,
         "501 links",
     ),
-    "a million keys": ("".join(f"k{i} = {i}\n" for i in range(15000)), "no version"),
+    "a million keys": ("".join(f"k{i} = {i}\n" for i in range(15000)), "the version of the format"),
 }
 
 
@@ -54,6 +54,38 @@ def test_syntax_errors_name_their_line() -> None:
     assert wrong.place == "line 3"
     assert wrong.hint == "the same key or table is written above"
     assert first_problem("graphkin = 1\n\nlinks = [").place == "line 3"
+
+
+@pytest.mark.parametrize(
+    ("line", "hint"),
+    [
+        ("angle = 30*k", 'put the expression in quotes: "30*k"'),
+        ("angle = sqrt(2) # a root", 'put the expression in quotes: "sqrt(2)"'),
+        ("angle = -n", 'put the expression in quotes: "-n"'),
+        ("O1 = [0, 3*n]", 'put the expression in quotes: "3*n"'),
+        ("O1 = { from = 0, length = 3*n }", 'put the expression in quotes: "3*n"'),
+        ("title = Pump", 'put the text in quotes: "Pump"'),
+        ("length = 70 mm", "the unit is stated once in units: write 70"),
+        ("angle = 30°", "the unit is stated once in units: write 30"),
+        ("angle = “30*k”", 'use straight quotes: "'),
+        ("angle = „30*k“", 'use straight quotes: "'),
+        ("length = 37,5", "numbers are written with a point: 37.5"),
+        ("length = 012", ""),
+        ("length = 1 2", ""),
+        ("length = ", ""),
+        ("length = 3*n # a student’s", 'put the expression in quotes: "3*n"'),
+    ],
+)
+def test_syntax_errors_say_how_to_write_it(line: str, hint: str) -> None:
+    wrong = first_problem(f"graphkin = 1\n{line}\n")
+    assert wrong.place == "line 2"
+    assert wrong.found.startswith("not TOML: ")
+    assert wrong.hint == hint
+
+
+def test_a_link_written_twice_is_named() -> None:
+    wrong = first_problem("graphkin = 1\n[links.2]\n[links.3]\n[links.2]\n")
+    assert str(wrong) == "line 4: links.2 is written twice; write it under one heading"
 
 
 def test_very_many_problems_are_cut_short() -> None:

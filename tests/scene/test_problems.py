@@ -36,11 +36,11 @@ CASES = [
     ("A-B = 40", 'A-B = "n^2"', "links.3.A-B", "'^'", "write a power as **"),
     ("A-B = 40", 'A-B = "40 + t"', "links.3.A-B", "uses the time t", "only in a driver's angle"),
     # the top of the file
-    ("graphkin = 1", "", "graphkin", "no version of the format", "graphkin = 1"),
-    ("graphkin = 1", "graphkin = 2", "graphkin", "written for a newer graphkin", "update"),
-    ("graphkin = 1", "graphkin = true", "graphkin", "true", "graphkin = 1"),
-    ("graphkin = 1", 'graphkin = "1"', "graphkin", '"1"', "graphkin = 1"),
-    ("graphkin = 1", "graphkin = 0", "graphkin", "0", "graphkin = 1"),
+    ("graphkin = 1", "", "", "the version of the format is missing", "graphkin = 1"),
+    ("graphkin = 1", "graphkin = 2", "", "written for a newer graphkin", "update"),
+    ("graphkin = 1", "graphkin = true", "", "graphkin = true", "graphkin = 1"),
+    ("graphkin = 1", 'graphkin = "1"', "", 'graphkin = "1"', "graphkin = 1"),
+    ("graphkin = 1", "graphkin = 0", "", "graphkin = 0", "graphkin = 1"),
     ("title", "titel", "titel", "unknown key", "did you mean title?"),
     ("title", "time = 'x'\ntitle", "time", "uses x, which is no parameter", ""),
     ('"Pump mechanism"', "5", "title", "5", "a text in quotes"),
@@ -79,7 +79,7 @@ CASES = [
     ("on = 0", "on = 7", "links.5.slides.on", "link 7 is not in [links]", "0, 1, 2, 3, 4, 5"),
     ("on = 0", "on = 5", "links.5.slides.on", "link 5 itself", "another link"),
     ("on = 0", "on = true", "links.5.slides.on", "true is no name of a link", ""),
-    ("on = 0, ", "", "links.5.slides.on", "nothing is no name of a link", ""),
+    ("on = 0, ", "", "links.5.slides.on", "is missing", "carries the guide, 0 for the frame"),
     ('"O1", angle', '"O3", angle', "links.5.slides.through", "O3 is no point of the frame", "O1"),
     (", angle = 0 }\n[[", " }\n[[", "links.5.slides", "through without an angle", "angle = …"),
     ('through = "O1", ', "", "links.5.slides", "no through", 'along = "P-Q"'),
@@ -156,6 +156,83 @@ def test_one_thing_wrong_is_one_problem(
     assert more in f"{wrong.expected} {wrong.hint}"
 
 
+SAID = [
+    # a unit behind a number
+    ("A-B = 40", 'A-B = "70 mm"', 'links.3.A-B: "70 mm" has a unit', "once in units: write 70"),
+    ("A-B = 40", 'A-B = "5cm"', 'links.3.A-B: "5cm" has a unit', "once in units: write 5"),
+    ("A-B = 40", 'A-B = "5 m"', 'links.3.A-B: "5 m" has a unit', "write 5; a product has its *"),
+    ("A-B = 40", 'A-B = "5*m"', "links.3.A-B: ", "uses m, which is no parameter"),
+    ('"30 + 2*n"', '"30°"', 'drivers[0].angle: "30°" has a unit', "once in units: write 30"),
+    ('"30 + 2*n"', '"-30 deg"', 'drivers[0].angle: "-30 deg" has a unit', "write -30"),
+    ('"30 + 2*n"', '"2*n°"', 'drivers[0].angle: "2*n°" has a unit', "write 2*n"),
+    # units of another spelling, and units that there are not
+    ('"deg"', '"Degrees"', 'units.angle: "Degrees"', "did you mean deg?"),
+    ('"deg"', '"°"', 'units.angle: "°"', "did you mean deg?"),
+    ('"rev/min"', '"RPM"', 'units.speed: "RPM"', "did you mean rev/min?"),
+    ('"cm"', '"CM"', 'units.length: "CM"', "did you mean cm?"),
+    # branches under the wrong name
+    (
+        '5 = "forward"',
+        'D = "forward"',
+        "branches.D: forward, backward or a closure for point D",
+        "a block's branch is written under the link's name: 5 = \"forward\"",
+    ),
+    (
+        'B = "right of A-O2"',
+        '3 = "left of A-O2"',
+        "branches.3: a side for link 3",
+        'sides are written under the pin\'s name: B = "left of A-O2"',
+    ),
+    # capitals
+    (
+        "O1-A = ",
+        "o1-A = ",
+        "links.1.o1: no other link has o1",
+        "O1 is written with another capital",
+    ),
+    # what is not written
+    ("on = 0, ", "", "links.5.slides.on: is missing", "carries the guide, 0 for the frame"),
+    ("[frame]", "[frame]\nwheel = { radius = 3 }", "frame.wheel.centre: is missing", "of a point"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "begins", "holds"), SAID)
+def test_a_mistake_is_answered_with_the_way_to_write_it(
+    problem: Finder, old: str, new: str, begins: str, holds: str
+) -> None:
+    said = str(problem(old, new))
+    assert said.startswith(begins)
+    assert holds in said
+
+
+def test_a_unit_that_is_only_spelt_alike_is_not_meant(problem: Finder) -> None:
+    assert str(problem('"deg"', '"grad"')) == 'units.angle: "grad"; expected one of deg, rad'
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ("A-B = 9\nB-A-P = 25", "links.crank.P: the length A-P is missing; expected A-P = …"),
+        ("A-B = 9\nP-A-B = 25", "links.crank.P: the length A-P is missing; expected A-P = …"),
+        ("A-P = 9\nB-A-P = 25", "links.crank.B: the length A-B is missing; expected A-B = …"),
+        ("B-A-P = 25\nA-P = 9", "links.crank.A: the length A-B is missing; expected A-B = …"),
+        (
+            'A-P = 6\nB-P = 7\nP = "left of A-B"',
+            "links.crank.B: the length A-B is missing; expected A-B = …",
+        ),
+    ],
+)
+def test_a_length_that_is_missing_is_named(
+    broken_crank: Callable[[str], list[Problem]], keys: str, said: str
+) -> None:
+    assert said in map(str, broken_crank(keys))
+
+
+def test_a_base_that_is_written_last(broken_crank: Callable[[str], list[Problem]]) -> None:
+    found = broken_crank('A-P = 6\nB-P = 7\nP = "left of A-B"\nA-B = 9')
+    assert "write A-B above the other lengths" in str(found[0])
+
+
 PLANETS = [
     ('on = "sun"', 'on = "sum"', "links.planet.rolls.on", "link sum is not in", "did you mean"),
     ("arm = 0,", "arn = 0,", "links.planet.rolls.start.arn", "link arn is not in", "mean arm?"),
@@ -211,19 +288,19 @@ def test_every_problem_is_told_at_once(problems: Finders) -> None:
 
 
 SETTINGS = [
-    ({"n": 31}, "settings.n", "n = 31 is out of range", "n from 1 to 30 in steps of 1"),
-    ({"n": "7.5"}, "settings.n", "n = 7.5 is off the step", "in steps of 1"),
-    ({"n": "1/3"}, "settings.n", "out of range", ""),
-    ({"m": 3}, "settings.m", '"m" is no parameter', "n"),
-    ({"N": 3}, "settings.N", '"N" is no parameter', "did you mean n?"),
-    ({"n": "seven"}, "settings.n", '"seven" uses seven', "a number"),
-    ({"n": "7,0"}, "settings.n", "','", "write a decimal point"),
-    ({"n": ""}, "settings.n", "an empty expression", "a number"),
-    ({"n": True}, "settings.n", "true", "a number"),
-    ({"n": None}, "settings.n", "nothing", "a number"),
-    ({"n": float("nan")}, "settings.n", "nan", "a number"),
-    ({"n": 1e300}, "settings.n", "out of range", ""),
-    ({"n": object}, "settings.n", "<class 'object'>", "a number"),
+    ({"n": 31}, "setting n", "n = 31 is out of range", "n from 1 to 30 in steps of 1"),
+    ({"n": "7.5"}, "setting n", "n = 7.5 is off the step", "in steps of 1"),
+    ({"n": "1/3"}, "setting n", "out of range", ""),
+    ({"m": 3}, "setting m", '"m" is no parameter', "n"),
+    ({"N": 3}, "setting N", '"N" is no parameter', "did you mean n?"),
+    ({"n": "seven"}, "setting n", '"seven" uses seven', "a number"),
+    ({"n": "7,0"}, "setting n", "','", "write a decimal point"),
+    ({"n": ""}, "setting n", "an empty expression", "a number"),
+    ({"n": True}, "setting n", "true", "a number"),
+    ({"n": None}, "setting n", "nothing", "a number"),
+    ({"n": float("nan")}, "setting n", "nan", "a number"),
+    ({"n": 1e300}, "setting n", "out of range", ""),
+    ({"n": object}, "setting n", "<class 'object'>", "a number"),
 ]
 
 
@@ -239,9 +316,23 @@ def test_settings_out_of_order(
 
 def test_a_scene_of_nothing() -> None:
     with pytest.raises(SceneError) as caught:
-        read_text("", "empty")
+        read_text('title = "Nothing"', "empty")
     places = [problem.place for problem in caught.value.problems]
-    assert places == ["graphkin", "units.length", "units.angle", "units.speed", "links", "drivers"]
+    assert places == ["", "units.length", "units.angle", "units.speed", "links", "drivers"]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "the file is empty"),
+        ("\ufeff \r\n\t\n", "the file is empty"),
+        ("# to be written\n", "nothing but comments"),
+    ],
+)
+def test_an_empty_file_is_one_problem(text: str, said: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        read_text(text, "empty")
+    assert str(caught.value) == f"{said}; expected a scene, its first line graphkin = 1"
 
 
 def test_every_table_written_as_a_number() -> None:

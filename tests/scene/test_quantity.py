@@ -12,6 +12,7 @@ import pytest
 from graphkin.arithmetic import Kind, batch_kind
 from graphkin.errors import SceneError
 from graphkin.scene.expression import UnreadableError
+from graphkin.scene.measures import quantity
 from graphkin.scene.quantity import Quantity, exact, expression, shortest
 
 SEVEN = {"n": Fraction(7)}
@@ -280,3 +281,24 @@ def test_an_exponent_may_not_hold_the_time() -> None:
 def test_the_tree_is_reckoned_again_for_each_setting() -> None:
     quantity: Quantity = expression("n/2")
     assert [quantity.number({"n": Fraction(n)}) for n in (1, 2)] == [Fraction(1, 2), 1]
+
+
+@pytest.mark.parametrize(
+    ("raw", "value"),
+    [
+        (np.int64(7), 7),
+        (np.uint8(7), 7),
+        (np.float64(0.1), Fraction(1, 10)),
+        (np.float32(0.1), Fraction(1, 10)),
+        (0.1, Fraction(1, 10)),
+        (Fraction(1, 3), Fraction(1, 3)),
+    ],
+)
+def test_numbers_of_every_kind_are_taken_exactly(raw: object, value: Fraction) -> None:
+    assert quantity(raw, "", "here").number({}) == value
+
+
+@pytest.mark.parametrize("raw", [True, np.bool_(True), 1j, np.array(3), np.float64("nan"), None])
+def test_what_is_no_number_is_refused(raw: object) -> None:
+    with pytest.raises(UnreadableError):
+        quantity(raw, "", "here")
