@@ -71,7 +71,7 @@ def with_detail(board: Board) -> list[Mark]:
 def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY | None:
     """The middle of a free disc as near as possible to a place; None when there is none.
 
-    The line from there to the drawing crosses no text.
+    One is preferred from which a line to the drawing crosses no text.
     """
     import numpy as np
     import shapely
@@ -92,7 +92,9 @@ def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY |
     )
     crossed = shapely.STRtree(texts).query(ways, predicate="dwithin", distance=0.5)[0]
     clear = np.delete(nearest, crossed, axis=0)
-    return (float(clear[0][0]), float(clear[0][1])) if len(clear) else None
+    for x, y in (*clear, *nearest):
+        return float(x), float(y)
+    return None
 
 
 def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterator[Mark]:
@@ -101,13 +103,15 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
     yield Circle(*place, RADIUS, "detail")
     away = hypot(place[0] - source[0], place[1] - source[1])
     u, v = (place[0] - source[0]) / away, (place[1] - source[1]) / away
-    yield Line(
+    line = Line(
         source[0] + small * u,
         source[1] + small * v,
         place[0] - RADIUS * u,
         place[1] - RADIUS * v,
         "detail",
     )
+    if not crosses_text(line, marks):
+        yield line
     beneath = place[1] + RADIUS + 3.6 if v > 0 else place[1] - RADIUS - 1.1
     yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")
     board = Board((place[0] - RADIUS, place[1] - RADIUS, place[0] + RADIUS, place[1] + RADIUS))
@@ -119,6 +123,15 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
     board.labels = named(board, marks, source, place, times)
     yield from board.marks[:-1]
     yield from board.placed()
+
+
+def crosses_text(line: Line, marks: Sequence[Mark]) -> bool:
+    """True when a line would run through lettering."""
+    import shapely
+
+    way = shapely.LineString([(line.x1, line.y1), (line.x2, line.y2)])
+    texts = [shapely.box(*reach(mark)) for mark in marks if isinstance(mark, Text)]
+    return bool(shapely.dwithin(way, texts, 0.5).any()) if texts else False
 
 
 def passes(line: Line, centre: XY, radius: float) -> bool:
