@@ -30,7 +30,7 @@ def does_not_close(
     early = step.part in (Part.SHAPE, Part.POSITION)
     return ClosureError(
         Problem(
-            f"step {failed.number} ({what})",
+            what,
             f"{step.name or 'a value'} cannot be found: {why(failed)}",
             "loci that cross",
             where_it_closes(scene, program, needed) if early else DEAD,

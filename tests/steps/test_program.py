@@ -456,13 +456,12 @@ def refusal(text: str) -> str:
     assert "None" not in words
     assert not re.search(r"[{}\[\]]|nan|\(\)|  ", words), words
     assert isinstance(caught.value.__cause__, StepFailed)
-    assert re.match(r"step \d+ ", words)
-    return re.sub(r"^step \d+ ", "step … ", words)
+    return words
 
 
 def test_a_rod_too_short_for_the_guide_misses_it_by_so_much():
     assert refusal(slider(0.05, 0.03, 90)) == (
-        "step … (position of B): B cannot be found: the arc misses the guide by 20 mm; "
+        "position of B: B cannot be found: the arc misses the guide by 20 mm; "
         "expected loci that cross; it closes for driver angles "
         "-36.87° to 36.87°, 143.13° to 216.87°"
     )
@@ -499,7 +498,7 @@ def test_large_misses_are_written_out():
 def test_at_a_dead_point_the_two_lines_are_parallel():
     """The rod stands square to the guide: the crank's speed determines no velocity there."""
     assert refusal(slider(5, 5, 90)) == (
-        "step … (velocity of b): b cannot be found: its two lines are parallel; "
+        "velocity of b: b cannot be found: its two lines are parallel; "
         "expected loci that cross; "
         "at this dead point the driver's speed determines no other: change the driver's position"
     )
