@@ -6,7 +6,6 @@ What was laid off, what was crossed, and what follows by length.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
@@ -165,17 +164,16 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:
-    """Where instantaneous centres and acceleration poles lie, in the scene's unit of length."""
+    """Where instantaneous centres and acceleration poles lie, in the axes of the frame."""
     part = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
+    unit, axes = drawing.scene.units["length"], drawing.words("calculation.axes")
     for _, step, value in drawing.mechanism_steps():
-        if step.part is part and isinstance(value, Ratio):
-            yield Relation(symbol(step.name), "", "", coordinates(drawing, value), "")
-
-
-def coordinates(drawing: Drawing, value: Ratio) -> str:
-    """The coordinates of a centre, or words for infinity."""
-    point: Any = drawing.place(value)
-    if point is None:
-        return drawing.words("calculation.at_infinity")
-    x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
-    return f"({x}; {y}) {drawing.scene.units['length']}"
+        if step.part is not part or not isinstance(value, Ratio):
+            continue
+        point = drawing.place(value)
+        if point is None:
+            key = "everywhere" if drawing.is_everywhere(value) else "at_infinity"
+            yield Relation(symbol(step.name), result=drawing.words(f"calculation.{key}"))
+        else:
+            x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
+            yield Relation(symbol(step.name), result=f"({x}; {y})", unit=unit, remark=axes)
