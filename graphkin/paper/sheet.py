@@ -191,10 +191,9 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
         for i, line in enumerate(flowed(asked(drawing), "; ", width - 5, 2.5)):
             marks.append(Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5))
     marks += tables(drawing, TABLES, empty=view == "task")
-    if view == "key":
-        worst = words.significant(drawing.verdict.largest_difference, 2)
-        text = words("page.verified", difference=worst)
-        marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
+    worst = words.significant(drawing.verdict.largest_difference, 2)
+    text = words("page.verified", difference=worst)
+    marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
     return marks
 
 
