@@ -116,7 +116,12 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
     yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")
     board = Board((place[0] - RADIUS, place[1] - RADIUS, place[0] + RADIUS, place[1] + RADIUS))
     for mark in marks:
-        shown = isinstance(mark, Line) and mark.cls.split()[0] in (*VECTORS, "construction")
+        shown = isinstance(mark, Line) and mark.cls.split()[0] in (
+            *VECTORS,
+            "construction",
+            "link",
+            "compass",
+        )
         if isinstance(mark, Line) and shown and passes(mark, source, small):
             draw_part(board, mark, source, place, times)
     board.marks.append(Circle(*place, RADIUS, "detail"))

@@ -119,7 +119,7 @@ def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]
 
 def mechanism_marks(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
     """The mechanism's field with its labels, and insets for centres that lie off it."""
-    marks = left_board(drawing, layout, view).finish()
+    marks = with_detail(left_board(drawing, layout, view))
     return marks if view == "task" else [*marks, *insets(drawing, layout.mechanism, marks)]
 
 
