@@ -13,6 +13,8 @@ from graphkin.paper.marks import Circle, Line, Mark, Text, reach
 from graphkin.paper.symbols import SHORT, head
 
 VECTORS = ("velocity", "relative-velocity", "acceleration", "normal", "tangential", "coriolis")
+SHOWN = (*VECTORS, "construction", "link")
+"""The classes of lines that a detail shows."""
 ENLARGED = (5, 10)
 """How many times a detail is enlarged."""
 RADIUS = 11.0
@@ -116,12 +118,7 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
     yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")
     board = Board((place[0] - RADIUS, place[1] - RADIUS, place[0] + RADIUS, place[1] + RADIUS))
     for mark in marks:
-        shown = isinstance(mark, Line) and mark.cls.split()[0] in (
-            *VECTORS,
-            "construction",
-            "link",
-            "compass",
-        )
+        shown = mark.cls.split()[0] in SHOWN
         if isinstance(mark, Line) and shown and passes(mark, source, small):
             draw_part(board, mark, source, place, times)
     board.marks.append(Circle(*place, RADIUS, "detail"))
