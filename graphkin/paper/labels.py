@@ -124,13 +124,14 @@ class Board:
         Raises PageError when a label finds no place even so.
         """
         meanings: list[str] = []
-        for _ in range(ROUNDS):
+        for rounds_left in reversed(range(ROUNDS)):
             foot = self.footed([*self.notes, *meanings])
             spots = self.spots(foot)
             if all(spot.free for spot in spots) and not self.unled(spots):
                 break
+            if not rounds_left:
+                refuse_crowds(self.labels, spots)
             self.shorten([spot.free for spot in spots], meanings)
-        refuse_crowds(self.labels, spots)
         clear = with_leaders(self.labels, spots, self.marks)
         return [*self.marks, *foot, *marks_of(self.labels, clear)]
 
@@ -204,7 +205,9 @@ def near(box: Rect, x: float, y: float) -> bool:
 def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:
     """Raise PageError naming every label for which there was no free place."""
     crowded = [
-        plain(label.markup) for label, spot in zip(labels, spots, strict=True) if not spot.free
+        label.name or plain(label.markup)
+        for label, spot in zip(labels, spots, strict=True)
+        if not spot.free
     ]
     if crowded:
         raise PageError(
@@ -212,7 +215,7 @@ def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:
                 "labels",
                 "does not fit: no free place for " + ", ".join(crowded),
                 "room for every name",
-                "choose a larger scale, or ask for less on one sheet",
+                "ask for less on one sheet, or choose a position in which less falls together",
             )
         )
 
