@@ -266,8 +266,9 @@ def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
 
 def doubts(trace: Trace, solution: Solution, verdict: Verdict | None) -> bool:
     """Warn of a flat crossing and of a witness that disagrees; True when there is any doubt."""
-    from graphkin.report.motion import FAIR, verdict_words
+    from graphkin.report.motion import verdict_words
     from graphkin.report.table import crossing
+    from graphkin.steps.solution import FAIR
 
     flat = solution.margin < FAIR
     if flat:

@@ -11,14 +11,12 @@ from graphkin.paper.areas import HEIGHT, WIDTH
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.scale import Scales, extent_of, fitting_scale, kept_scale, preferred
 from graphkin.steps.program import Target
-from graphkin.steps.solution import Solution, Verdict
+from graphkin.steps.solution import FAIR, Solution, Verdict
 from graphkin.text import LANGUAGES, Words, words
 
 if TYPE_CHECKING:
     from graphkin.paper.marks import Page
 
-LEAST_MARGIN = 1e-4
-"""Sine of the flattest crossing with which a sheet is still handed out."""
 WANTED = {
     "velocity": ("velocity", "omega", "centre"),
     "acceleration": ("acceleration", "epsilon", "pole"),
@@ -69,12 +67,12 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
 
 def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
     """The witness's verdict. Raises WitnessError when it does not agree, or cannot be trusted."""
-    if solution.margin < LEAST_MARGIN:
+    if solution.margin < FAIR:
         raise WitnessError(
             Problem(
                 "position",
                 f"the flattest crossing has a sine of {solution.margin:.1e}",
-                f"at least {LEAST_MARGIN:g}",
+                f"at least {FAIR:g}",
                 "the position is nearly singular: choose another driver angle",
             )
         )

@@ -10,9 +10,8 @@ from graphkin.paper.areas import Rect
 from graphkin.paper.field import XY
 from graphkin.paper.labels import Board, Label, segments
 from graphkin.paper.marks import Circle, Line, Mark, Text, reach
-from graphkin.paper.symbols import SHORT, head
+from graphkin.paper.symbols import SHORT, VECTORS, head
 
-VECTORS = ("velocity", "relative-velocity", "acceleration", "normal", "tangential", "coriolis")
 SHOWN = (*VECTORS, "construction", "link")
 """The classes of lines that a detail shows."""
 ENLARGED = (5, 10)

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 from graphkin.paper.field import XY
 from graphkin.paper.marks import Line, Mark, Polyline, reach
 from graphkin.paper.place import Spot
+from graphkin.paper.symbols import VECTORS
 
 if TYPE_CHECKING:
     from graphkin.paper.labels import Label
 
-VECTORS = ("velocity", "relative-velocity", "acceleration", "normal", "tangential", "coriolis")
 MARGIN = 0.3
 """How much nearer a neighbour may be, in mm, before a label gets a leader."""
 

@@ -24,6 +24,8 @@ BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
 LEAST = 110.0
 """Width that a plan's field gets where the mechanism leaves it, in mm."""
+FAR = 100.0
+"""A place so many mechanisms away lies beyond the edge of every field."""
 SWEEP = 7.0
 """Half the length of a compass arc drawn where it is needed, in mm."""
 
@@ -97,6 +99,7 @@ def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:
         mm = (fields.mechanism if step.plane is Plane.MECHANISM else fields.plan).mm
         points = points_on(drawing, number)
         if isinstance(value, Line):
+            points += far_points(drawing, number, value)
             found[number] = line_span(value, points, mm)
         elif isinstance(value, Circle) and points:
             found[number] = arc_span(value, points, mm)
@@ -113,6 +116,20 @@ def points_on(drawing: Drawing, number: int) -> list[complex]:
         if isinstance(value, complex):
             points.append(value)
     return points
+
+
+def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:
+    """A place far along each ray to a centre at infinity, so that it reaches its field's edge."""
+    found = []
+    for _, step, value in drawing.mechanism_steps():
+        if step.part is not Part.CENTRE or step.by_hand is None or not isinstance(value, Ratio):
+            continue
+        if number not in drawing.trace.program.steps[step.by_hand].args:
+            continue
+        if drawing.place(value) is None and not drawing.is_everywhere(value):
+            way = value.shift / value.size if value.size else value.shift
+            found.append(line.point + way / abs(way) * FAR * drawing.reach)
+    return found
 
 
 def line_span(line: Line, points: Sequence[complex], mm: float) -> tuple[float, float]:

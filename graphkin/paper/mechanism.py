@@ -115,9 +115,7 @@ def draw_body(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
         board.marks.append(polygon(on_page, "plate", link.name))
         ends = on_page[0], on_page[1]
     if not link.slides:
-        board.labels.append(
-            Label(escape(link.name), "", ends, 2.5, link.name, priority=3, ring=True)
-        )
+        board.labels.append(number_of(link, ends))
 
 
 def number_of(link: Link, beside: tuple[XY, XY]) -> Label:
@@ -165,9 +163,7 @@ def draw_blocks(board: Board, drawing: Drawing, field: Field, link: Link) -> Non
             (at[0] - 3 * u + 3.2 * v, at[1] - 3 * v - 3.2 * u),
             (at[0] + 3 * u + 3.2 * v, at[1] + 3 * v - 3.2 * u),
         )
-        board.labels.append(
-            Label(escape(link.name), "", side, 2.5, link.name, priority=3, ring=True)
-        )
+        board.labels.append(number_of(link, side))
 
 
 def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:

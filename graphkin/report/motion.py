@@ -11,8 +11,6 @@ from graphkin.report.table import Cell, cleaned, number, table
 from graphkin.scene.model import Scene
 from graphkin.steps.solution import Solution, Verdict
 
-FAIR = 1e-4
-"""Sine of a crossing below which an answer is no longer fair to ask of a drawing."""
 POINT_HEADS = {
     "position": ("x, m", "y, m"),
     "velocity": ("vx, m/s", "vy, m/s", "v, m/s"),

@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 from graphkin.arithmetic import Point, Real
 from graphkin.plane import Ratio
 
+FAIR = 1e-4
+"""Sine of the flattest crossing at which an answer is still fair and a sheet handed out."""
+
 
 @dataclass(frozen=True, slots=True)
 class PointMotion:

@@ -15,8 +15,8 @@ from click.testing import CliRunner, Result
 import graphkin
 from graphkin.cli import app
 from graphkin.mechanism import Mechanism
-from graphkin.report.motion import FAIR
 from graphkin.scene.read import read_text
+from graphkin.steps.solution import FAIR
 from tests.examples.document import (
     EXAMPLES,
     README,

@@ -11,10 +11,13 @@ import pytest
 import shapely
 
 from graphkin.errors import PageError
+from graphkin.handout import hand_out
+from graphkin.mechanism import Mechanism
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text, reach
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import SHORT
+from graphkin.scene.read import read_text
 from tests.mechanisms import SHIPPED
 from tests.paper.sheet_tools import (
     EVERY,
@@ -331,3 +334,34 @@ def solution_numbers(drawings: list[Drawing]) -> set[str]:
     printed = {words.significant(x, k) for x in numbers for k in range(3, 7) if x > 1e-9}
     printed |= {words.fixed(x, k) for x in numbers for k in (1, 2, 3)}
     return {text for text in printed if re.search(r"[1-9]\d*[.,]\d*[1-9]|[.,]\d*[1-9]", text)}
+
+
+def test_a_centre_at_infinity_has_two_parallel_rays_to_the_edge_of_its_field():
+    parallelogram = """graphkin = 1
+title = "Parallelogram"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+Q = [200, 0]
+[links.1]
+O-A = 80
+[links.2]
+A-B = 200
+[links.3]
+Q-B = 80
+[[drivers]]
+turn = 1
+angle = 70
+speed = 10
+[branches]
+B = "left of A-Q"
+[ask]
+velocity = ["B"]
+centres = [2]
+"""
+    (sheet, _) = hand_out(Mechanism(read_text(parallelogram, "parallelogram")), language="en")
+    rays = [m for m in sheet.pages[0].marks if isinstance(m, Line) and m.cls == "ray"]
+    assert len(rays) == 2
+    ways = [complex(ray.x2 - ray.x1, ray.y2 - ray.y1) for ray in rays]
+    assert abs((ways[0].conjugate() * ways[1]).imag) <= 1e-6 * abs(ways[0]) * abs(ways[1])
+    assert all(abs(way) > 60 for way in ways)
