@@ -58,7 +58,9 @@ def quarter_turns(quarter: Any) -> Any:
     if hasattr(quarter, "shape"):
         import numpy as np
 
-        return np.array(QUARTERS, dtype=complex)[np.asarray(quarter, dtype=int) % 4]
+        left = quarter - 4 * np.rint(quarter / 4)
+        size = abs(left)
+        return (1 - size) + 1j * (left * (2 - size))
     return QUARTERS[quarter % 4]
 
 
@@ -83,6 +85,24 @@ def sqrt(x: Real) -> Real:
     import numpy as np
 
     return np.sqrt(x)
+
+
+def phase(z: Point) -> Real:
+    """Angle of a direction in radians, from -pi to pi."""
+    if isinstance(z, complex):
+        return cmath.phase(z)
+    import numpy as np
+
+    return np.angle(z)
+
+
+def turn_by(angle: Real) -> Point:
+    """Unit vector at an angle in radians."""
+    if isinstance(angle, float):
+        return complex(math.cos(angle), math.sin(angle))
+    import numpy as np
+
+    return np.cos(angle) + 1j * np.sin(angle)
 
 
 def pick(condition: Any, yes: Any, no: Any) -> Any:

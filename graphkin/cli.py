@@ -1,4 +1,4 @@
-"""The command line: list, check, explain, solve, sheet."""
+"""The command line: list, check, explain, solve, sheet, cycle."""
 
 from __future__ import annotations
 
@@ -46,6 +46,7 @@ def app(context: click.Context) -> None:
       graphkin list                              which labs there are
       graphkin solve pump --set n=7              all numbers of student 7's pump
       graphkin sheet pump --set n=7 -o sheets    the drawings and calculations
+      graphkin cycle pump --set n=7 -o cycles    its motion from end to end, as curves
       graphkin check mine.toml                   what is wrong with my own scene
 
     \b
@@ -218,13 +219,98 @@ def sheet(
     tell(str(path) for path in write_all(folder, files, force))
 
 
-def formats_of(text: str) -> tuple[str, ...]:
+@app.command()
+@scene_argument
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    metavar="DIR",
+    type=Folder(path_type=Path),
+    default=Path(),
+    help="Folder to write into, made if it is missing; the current one by default.",
+)
+@click.option(
+    "--driver",
+    metavar="N",
+    type=int,
+    help="Of several drivers move only this one, counted from 1, while the others stand still.",
+)
+@click.option(
+    "--steps",
+    metavar="N",
+    type=click.IntRange(4, 1_000_000),
+    default=360,
+    show_default=True,
+    help="Positions in a whole turn, in a range, or in the time shown.",
+)
+@click.option(
+    "--from", "low", metavar="NUMBER", type=float, help="Begin here, not at the start of the range."
+)
+@click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
+@click.option(
+    "--format",
+    "formats",
+    metavar="svg,png",
+    default="svg,png",
+    show_default=True,
+    help="Kinds of picture to write; the table comes as CSV.",
+)
+@click.option("--force", is_flag=True, help="Replace files that exist.")
+def cycle(
+    name: str,
+    settings: tuple[str, ...],
+    folder: Path,
+    driver: int | None,
+    steps: int,
+    low: float | None,
+    high: float | None,
+    formats: str,
+    force: bool,
+) -> None:
+    """Move the driver through a whole turn, or as far as it can go.
+
+    Tells its range, its dead points and change points by name, how far the followers go, and what
+    the lengths say of a single loop. Writes a table (CSV, SI units), curves of all motions, paths
+    of points, centrodes, and the circle of the driven pin against what the rest can reach.
+
+    Several drivers, and laws of time, are moved by the time: one turn of the first, or --from
+    and --to seconds.
+
+    \b
+    Examples:
+      graphkin cycle pump --set n=7 -o cycles
+      graphkin cycle mine.toml -o cycles --steps 720 --format png
+    """
+    kinds = formats_of(formats, ("svg", "png"))
+    from graphkin.curves.files import picture_files
+    from graphkin.motion import cycle as moved
+    from graphkin.motion.sweep import bounds_in_si
+    from graphkin.paper.files import file_stem, write_all
+    from graphkin.report.cycle import agrees, cycle_lines
+    from graphkin.report.cycle_table import cycle_table
+
+    mechanism = mechanism_of(name, settings)
+    first, last = bounds_in_si(mechanism.scene, driver, low, high)
+    found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
+    tell(cycle_lines(found))
+    stem = file_stem(mechanism.scene.name, pairs_of(settings))
+    files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
+    files |= picture_files(found, stem, kinds)
+    tell(["", *(str(path) for path in write_all(folder, files, force))])
+    if not agrees(found):
+        complain("the independent route does not agree with the construction")
+        leave(FAILED)
+
+
+def formats_of(text: str, known: tuple[str, ...] = FORMATS) -> tuple[str, ...]:
     """The kinds of file named with commas between them."""
     kinds = tuple(dict.fromkeys(kind.strip().lower() for kind in text.split(",") if kind.strip()))
-    wrong = [kind for kind in kinds if kind not in FORMATS]
+    wrong = [kind for kind in kinds if kind not in known]
     if wrong or not kinds:
-        found = ", ".join(wrong) or "nothing"
-        raise click.UsageError(f"--format: {found} is not svg, pdf or svg,pdf", current())
+        found, both = ", ".join(wrong) or "nothing", ",".join(known)
+        words = f"--format: {found} is not {', '.join(known)} or {both}"
+        raise click.UsageError(words, current())
     return kinds
 
 

@@ -7,13 +7,14 @@ up to the steps that what is asked needs.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.program import Part, Program, Step, Target
+from graphkin.structure.graph import turns
 
 BY_HAND = "by-hand marks"
 OF_PART = {
@@ -162,9 +163,9 @@ def absence_of(scene: Scene, name: str) -> str:
         case "Coriolis":
             return "" if moving_guides(scene) else no_moving_guide(scene)
         case "instantaneous centres":
-            return "" if scene.ask.centres else "[ask] names no centres"
+            return "" if scene.ask.centres or scene.ask.pairs else "[ask] names no centres"
         case "acceleration poles":
-            return "" if scene.ask.poles else "[ask] names no poles"
+            return "" if scene.ask.poles or scene.ask.inflection else "[ask] names no poles"
     return ""
 
 
@@ -197,20 +198,6 @@ def moving_guides(scene: Scene) -> list[str]:
         for link in scene.links.values()
         if any(slide.on != FRAME and turns(scene, slide.on) for slide in link.slides)
     ]
-
-
-def turns(scene: Scene, name: str) -> bool:
-    """False for a link that only slides, on guides that lie on the frame in the end."""
-    return FRAME not in guides_under(scene, name)
-
-
-def guides_under(scene: Scene, name: str) -> Iterator[str]:
-    """The link under a block, the one under that, and so on to one that does not slide."""
-    seen: set[str] = set()
-    while name != FRAME and name not in seen and scene.links[name].slides:
-        seen.add(name)
-        name = scene.links[name].slides[0].on
-        yield name
 
 
 def no_moving_guide(scene: Scene) -> str:

@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import Problem, SceneError, WitnessError
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import HEIGHT, WIDTH
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.scale import Scales, extent_of, fitting_scale, kept_scale, preferred
-from graphkin.steps.program import Target
-from graphkin.steps.solution import FAIR, Solution, Verdict
+from graphkin.steps.program import PLACES, Target
+from graphkin.steps.solution import FAIR, Curve, Solution, Verdict
 from graphkin.text import LANGUAGES, Words, words
 
 if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
     from graphkin.paper.marks import Page
 
 WANTED = {
     "velocity": ("velocity", "omega", "centre"),
-    "acceleration": ("acceleration", "epsilon", "pole"),
+    "acceleration": ("acceleration", "epsilon", "pole", "inflection"),
 }
 """The sheet on which each quantity is asked."""
+STEPS = 720
+"""Positions of a turn from which a curve is drawn."""
+AWAY = 20.0
+"""Breadths of the mechanism beyond which a centrode is not followed."""
 
 
 @dataclass(frozen=True)
@@ -91,9 +97,10 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
 
 def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[Drawing]:
     """The material of each sheet, all at the same scale."""
-    chosen = scales(mechanism)
+    curves = curves_of(mechanism)
+    chosen = scales(mechanism, curves)
     drawings = [
-        drawing(mechanism, kind, found, chosen, verdict, spoken)
+        drawing(mechanism, kind, found, chosen, verdict, spoken, curves)
         for kind in WANTED
         if (found := targets_of(mechanism, kind))
     ]
@@ -107,14 +114,19 @@ def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[D
 
 def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
     """What is asked on one sheet, with the whole mechanism; nothing when nothing is asked."""
+    ask = mechanism.scene.ask
     asked = [target for target in mechanism.asked() if target[0] in WANTED[kind]]
-    if not asked:
+    if kind == "velocity":
+        asked += [("centre", link) for link in ask.centrodes if mechanism.gives(("centre", link))]
+    if not asked and not (kind == "velocity" and (ask.curves or ask.centrodes)):
         return ()
-    positions = [target for target in mechanism.program.targets if target[0] == "position"]
+    positions = [
+        target for target in mechanism.program.targets if target[0] in ("position", *PLACES)
+    ]
     return (*positions, *asked)
 
 
-def scales(mechanism: Mechanism) -> Scales:
+def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Scales:
     """The one set of scale factors at which every sheet's drawings fit their fields."""
     crank = the_crank(mechanism)
     seconds = 1 / crank if crank else natural_seconds(mechanism)
@@ -122,10 +134,13 @@ def scales(mechanism: Mechanism) -> Scales:
     needs = []
     asked = {kind: targets_of(mechanism, kind) for kind in WANTED}
     if not any(asked.values()):
-        asked = {kind: tuple(mechanism.program.targets) for kind in WANTED}
+        asked = {kind: mechanism.program.answers for kind in WANTED}
+    curves = curves_of(mechanism) if curves is None else curves
     for kind, found in asked.items():
         if found:
-            trial = drawing(mechanism, kind, found, Scales(1.0, seconds), nobody, words("en"))
+            trial = drawing(
+                mechanism, kind, found, Scales(1.0, seconds), nobody, words("en"), curves
+            )
             needs.append((trial.mechanism_extent(), trial.plan_extent()))
     kL = fitting_scale(needs, WIDTH, HEIGHT)
     if mechanism.scene.sheet.scale is not None:
@@ -161,7 +176,70 @@ def drawing(
     scales: Scales,
     verdict: Verdict,
     spoken: Words,
+    curves: tuple[Curve, ...] = (),
 ) -> Drawing:
     """The material of one sheet: everything a hand draws for it."""
     trace = mechanism.trace(targets, by_hand=True, seconds=scales.seconds)
-    return Drawing(kind, mechanism.scene, trace, scales, verdict, spoken)
+    on_this = curves if kind == "velocity" else ()
+    return Drawing(kind, mechanism.scene, trace, scales, verdict, spoken, curves=on_this)
+
+
+def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """The centrodes and paths that are asked, over a turn or the whole range of the driver."""
+    ask = mechanism.scene.ask
+    if not ask.centrodes and not ask.curves:
+        return ()
+    from graphkin.motion.cycle import cycle
+
+    whole = followed(cycle(mechanism, steps=STEPS))
+    curves = [curve for link in ask.centrodes for curve in centrodes_of(mechanism, whole, link)]
+    for point in ask.curves:
+        path = whole.solution.points[point].position
+        curves.append(Curve("trajectory", point, runs_of(whole, path)))
+    return tuple(curves)
+
+
+def followed(whole: Cycle) -> Cycle:
+    """A whole turn, or the range in which the scene stands, its ends in finer steps.
+
+    Near a dead point a mechanism goes a long way while its driver hardly moves.
+    """
+    if whole.path.whole:
+        return whole
+    import numpy as np
+
+    low, high = whole.ranges[0]
+    turns = np.linspace(0, np.pi, STEPS + 1)[1:-1]
+    return whole.along((low + high) / 2 - (high - low) / 2 * np.cos(turns))
+
+
+def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curve]:
+    """The fixed and the moving centrode of a link, the moving one where the link stands now."""
+    from graphkin.motion.centrodes import base, centrodes
+
+    found, ends = centrodes(whole, link), base(mechanism.scene.links[link])
+    if found is None or ends is None:
+        return
+    trace = mechanism.trace([("centre", link), *(("position", point) for point in ends)])
+    origin, end = (trace.value("position", point) for point in ends)
+    centre = trace.value("centre", link)
+    now = complex(centre.start + centre.shift / centre.size) if centre.size else None
+    placed = found.placed(origin, (end - origin) / abs(end - origin))
+    yield Curve("fixed-centrode", link, runs_of(whole, found.fixed), now)
+    yield Curve("moving-centrode", link, runs_of(whole, placed), now)
+
+
+def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
+    """A curve in runs, broken where a centre is far away; after a whole turn it closes."""
+    import numpy as np
+
+    ends = [p.position for p in whole.solution.points.values() if p.position is not None]
+    breadth = max(float(np.ptp(part)) for p in ends for part in (np.real(p), np.imag(p))) or 1.0
+    middle = np.mean([np.mean(p) for p in ends])
+    closes = whole.path.whole and whole.path.returns
+    points = np.append(path, path[:1]) if closes else np.asarray(path)
+    near = np.abs(points - middle) <= AWAY * breadth
+    runs = np.split(np.arange(len(points)), np.flatnonzero(np.diff(near)) + 1)
+    return tuple(
+        tuple(complex(points[i]) for i in run) for run in runs if len(run) > 1 and near[run[0]]
+    )

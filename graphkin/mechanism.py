@@ -10,7 +10,7 @@ from typing import Any
 
 from graphkin import labs
 from graphkin.arithmetic import FLOAT, batch_kind
-from graphkin.errors import Problem, SceneError, StructureError
+from graphkin.errors import Problem, SceneError
 from graphkin.plans.compile import write
 from graphkin.scene.model import Scene
 from graphkin.scene.read import read_scene
@@ -19,6 +19,7 @@ from graphkin.steps.gather import gathered
 from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, Trace, run
 from graphkin.steps.solution import Solution, Verdict
+from graphkin.structure.drivers import refuse_drivers
 from graphkin.structure.groups import Group, decompose
 
 
@@ -39,7 +40,9 @@ class Mechanism:
     @cached_property
     def groups(self) -> tuple[Group, ...]:
         """Driven links and Assur groups in the order of construction."""
-        return decompose(self.scene)
+        groups = decompose(self.scene)
+        refuse_drivers(self.scene, groups)
+        return groups
 
     @cached_property
     def program(self) -> Program:
@@ -49,16 +52,15 @@ class Mechanism:
     def asked(self) -> tuple[Target, ...]:
         """What the scene asks for, as targets of the program; everything when it asks nothing."""
         ask = self.scene.ask
-        refuse_unconstructed(self.scene)
-        wanted = [("velocity", point_of(name)) for name in ask.velocity]
-        wanted += [("acceleration", point_of(name)) for name in ask.acceleration]
+        wanted = [("velocity", point_of(self.scene, name)) for name in ask.velocity]
+        wanted += [("acceleration", point_of(self.scene, name)) for name in ask.acceleration]
         wanted += [("omega", link) for link in ask.omega]
         wanted += [("epsilon", link) for link in ask.epsilon]
         wanted += [("centre", link) for link in ask.centres]
         wanted += [("pole", link) for link in ask.poles]
         for block in ask.slides:
             wanted += [(what, block) for what in ("slide", "slide speed", "slide acceleration")]
-        return tuple(target for target in wanted or self.program.targets if self.gives(target))
+        return tuple(target for target in wanted or self.program.answers if self.gives(target))
 
     def gives(self, target: Target) -> bool:
         """True when the program constructs a quantity."""
@@ -77,7 +79,7 @@ class Mechanism:
         ``seconds`` = kL/kv. Raises ClosureError for a step that cannot be drawn.
         """
         program = self.program
-        needed = program.needed(program.targets if targets is None else targets, by_hand=by_hand)
+        needed = program.needed(program.answers if targets is None else targets, by_hand=by_hand)
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
         try:
             return run(program, needed, self.scene.values, FLOAT, overrides=overrides)
@@ -115,7 +117,7 @@ class Mechanism:
         given = dict(zip(parameters, floats, strict=True))
         refuse_out_of_range(self.scene, given)
         values = {**self.scene.values, **given}
-        targets = self.asked() if asked else tuple(self.program.targets)
+        targets = self.asked() if asked else self.program.answers
         needed = self.program.needed(targets)
         keep = [self.program.targets[target] for target in targets]
         with np.errstate(all="ignore"):
@@ -123,9 +125,10 @@ class Mechanism:
         return gathered(trace, self.scene.links)
 
 
-def point_of(name: str) -> str:
-    """The point of a name such as A@3 where link 3 owns A."""
-    return name.partition("@")[0]
+def point_of(scene: Scene, name: str) -> str:
+    """The name under which a point's motion is found: A for A@3 where link 3 owns A."""
+    point, _, link = name.partition("@")
+    return point if link and point in scene.link(link).points else name
 
 
 def refuse_out_of_range(scene: Scene, given: Mapping[str, Any]) -> None:
@@ -146,18 +149,3 @@ def refuse_out_of_range(scene: Scene, given: Mapping[str, Any]) -> None:
                 problems.append(Problem(f"parameter {name}", found, words))
     if problems:
         raise SceneError(problems)
-
-
-def refuse_unconstructed(scene: Scene) -> None:
-    """Raise StructureError for everything asked that this version reads but does not construct."""
-    ask, problems = scene.ask, []
-    for key, names in (("velocity", ask.velocity), ("acceleration", ask.acceleration)):
-        for name in names:
-            point, _, link = name.partition("@")
-            if link and point not in scene.link(link).points:
-                found = f"{name}, the point of link {link} under {point}, is not constructed yet"
-                problems.append(Problem(f"ask.{key}", found, f"a point that link {link} owns"))
-    if ask.centrodes:
-        problems.append(Problem("ask.centrodes", "centrodes are not constructed yet", "centres"))
-    if problems:
-        raise StructureError(problems)

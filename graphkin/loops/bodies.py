@@ -25,9 +25,11 @@ from graphkin.scene.model import (
     OnLine,
     Placing,
     Polar,
+    Rolling,
     Scene,
     Slide,
     Triangle,
+    Wheel,
 )
 from graphkin.scene.quantity import Quantity
 
@@ -78,10 +80,12 @@ class Numbers:
 
 @dataclass(frozen=True, slots=True)
 class Guide:
-    """A sliding pair: the first point of ``block`` stands at through + (s + i·offset)·along.
+    """A sliding pair, or the straight way of a rolling wheel's centre.
 
-    ``through`` and the unit vector ``along`` are in the axes of the link ``on``; ``first`` tells
-    the slide that a block names first, which also sets the block's x axis along the guide.
+    The ``point`` of ``block`` stands at through + (s + i·offset)·along, with ``through`` and the
+    unit vector ``along`` in the axes of the link ``on``. ``number`` is its place among the slides
+    or tracks of the block; ``first`` tells the one reported under the block's name, which, where
+    it is a slide, also sets the block's x axis along the guide.
     """
 
     block: str
@@ -90,6 +94,9 @@ class Guide:
     along: Point
     offset: Real
     first: bool
+    point: str
+    number: int
+    rolls: bool = False
 
 
 def bodies_of(scene: Scene, numbers: Numbers) -> tuple[dict[str, Body], dict[str, Point]]:
@@ -161,6 +168,12 @@ def half_angle(near: Real, far: Real, base: Real, side: int) -> Point:
     return (np.sqrt(cosine) + 1j * side * np.sqrt(sine)) / root
 
 
+def radius(wheel: Wheel, numbers: Numbers) -> Real:
+    """The radius of a wheel (m)."""
+    assert wheel.radius is not None
+    return numbers.si(wheel.radius)
+
+
 def unit(vector: Point) -> Point:
     """A vector over its length; a vector without length gives NaN."""
     length = np.abs(vector)
@@ -171,12 +184,16 @@ def guides_of(
     scene: Scene, bodies: Mapping[str, Body], starts: Mapping[str, Point], numbers: Numbers
 ) -> tuple[Guide, ...]:
     """Every sliding pair in the axes of the link that carries the guide, as the scene says."""
-    guides = []
+    guides: list[Guide] = []
     for link in scene.links.values():
-        for index, slide in enumerate(link.slides):
+        for number, slide in enumerate(link.slides):
+            if slide.on not in bodies:
+                continue
             through, along = guide_line(slide, bodies[slide.on], starts[slide.on], numbers)
             offset = numbers.si(slide.offset)
-            guides.append(Guide(link.name, slide.on, through, along, offset, index == 0))
+            first = not any(guide.block == link.name for guide in guides)
+            point = next(iter(bodies[link.name]), "")
+            guides.append(Guide(link.name, slide.on, through, along, offset, first, point, number))
     return tuple(guides)
 
 
@@ -185,8 +202,15 @@ def guide_line(slide: Slide, body: Body, start: Point, numbers: Numbers) -> tupl
     if slide.along is not None:
         first, second = slide.along
         return body[first], unit(body[second] - body[first])
-    along = 1.0 + 0j if slide.angle is None else numbers.direction(slide.angle)
-    match slide.through:
+    return written_line(slide, body, start, numbers)
+
+
+def written_line(
+    line: Slide | Rolling, body: Body, start: Point, numbers: Numbers
+) -> tuple[Point, Point]:
+    """A point and the unit vector of a line written by ``through`` and ``angle``."""
+    along = 1.0 + 0j if line.angle is None else numbers.direction(line.angle)
+    match line.through:
         case str(name):
             return body[name], along
         case (x, y):
@@ -194,12 +218,16 @@ def guide_line(slide: Slide, body: Body, start: Point, numbers: Numbers) -> tupl
     return -start, along
 
 
-def spans(bodies: Mapping[str, Body], numbers: Numbers) -> Reals:
-    """Every distance between two points of one link (m), shape (N, pairs); 1 if all are nought."""
+def spans(scene: Scene, bodies: Mapping[str, Body], numbers: Numbers) -> Reals:
+    """Every distance between two points of one link and every radius (m), shape (N, lengths).
+
+    It is 1 if all are nought.
+    """
+    links = (scene.frame, *scene.links.values())
     found = [
         numbers.reals(abs(p - q))
         for body in bodies.values()
         for p, q in combinations(body.values(), 2)
-    ]
+    ] + [numbers.reals(radius(wheel, numbers)) for link in links for wheel in link.wheels]
     lengths = np.stack(found, axis=-1) if found else np.zeros((numbers.count, 1))
     return np.where(lengths.max(axis=1, keepdims=True) == 0, 1.0, lengths)

@@ -1,5 +1,5 @@
-"""Branch conditions verified: the side of a pin, the other closure of a slide, the closures of a
-group of higher class.
+"""Branch conditions verified: the side of a pin, the other closure of a slide, all closures of a
+group.
 
 The three joints of a dyad with a slide are two pins and the slide. As the dyad moves from one
 closure to the other the pins keep their distance while the slide vector s·u changes in length
@@ -9,20 +9,25 @@ abs(w + x·u) = abs(w) has the roots x = 0 and x = -2 w·u.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from graphkin.loops.bodies import Complexes, Reals
 from graphkin.loops.equations import Equations, equations
-from graphkin.loops.groups import Group, Joint
+from graphkin.loops.groups import Group, Joint, Mask, moved_by
 from graphkin.loops.motion import Motion
+from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.solve import CLOSED, in_bars, largest, newton
-from graphkin.loops.start import start_values
-from graphkin.scene.model import FRAME, Scene
+from graphkin.loops.wholes import within_half
+from graphkin.scene.model import Scene
 
-STARTS = 256
-"""Random starts from which all closures of a group are looked for."""
+STARTS = {1: 12, 2: 48}
+"""Random starts from which the closures of a group of so many links are looked for."""
+MOST_STARTS = 256
+"""Random starts of one round for larger groups."""
+ROUNDS, ENOUGH = 10, 2
+"""Most rounds, and how many in a row that bring nothing new end the search."""
+SHORT = 14
+"""Iterations after which most starts have closed, if they ever do."""
 SAME = 1e-6
 """Distance, in bars or radians, below which two closures are one."""
 
@@ -57,72 +62,96 @@ def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
     return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
 
 
-def closure_number(scene: Scene, motion: Motion, group: Group) -> int:
-    """Which closure of a group stands, one scene: 1, 2, …; 0 when it is not among those found.
+def closure_number(scene: Scene, loops: Equations, group: Group, row: Reals, setting: int) -> int:
+    """Which closure of a group the unknowns ``row`` (K + m,) of a setting are: 1, 2, …; 0 if none.
 
-    The closures are ordered by the angle, from 0 to 360°, of the group's first-written link, ties
-    by the next. They are looked for by Newton's method from many starts, with the links known
-    before held in place and those that come after left out.
+    The links known before are held in place, and those that come after left out.
     """
-    part = partial(scene, group)
-    loops = equations(part, motion.loops.numbers.values)
-    places = {name: motion.points.place[:, i] for name, i in motion.names.items()}
-    slides = {
-        guide.block: motion.slides[0, :, j]
-        for j, guide in enumerate(motion.loops.guides)
-        if guide.first
-    }
-    stands = start_values(loops, {n: places[n] for n in loops.points}, slides)
-    moving = moved_by(loops, group)
-    with np.errstate(all="ignore"):
-        found, _, _ = newton(loops, scattered(loops, stands, moving))
-        closed = largest(in_bars(loops, found)[0]) < CLOSED
-        away = wrapped(loops, found - stands)
-    held = np.abs(np.where(moving, 0, away)).max(axis=1) < SAME
-    distinct: list[Reals] = []
-    for row in found[closed & held]:
-        gaps = [np.abs(wrapped(loops, (row - other)[None])).max() for other in distinct]
-        if not gaps or min(gaps) >= SAME:
-            distinct.append(row)
-    links = [link for link in scene.links if link in group.links]
-    distinct.sort(key=lambda row: [angle_of(loops, link, row) for link in links])
-    for number, row in enumerate(distinct, 1):
-        if np.abs(wrapped(loops, row[None] - stands)).max() < SAME:
+    values = setting_of(loops, setting)
+    part = equations(scene, values, group.known | set(group.links))
+    stands = unknowns_of(part, pose_of(loops, row, setting))
+    for number, closure in enumerate(closures(part, stands, group), 1):
+        if np.abs(wrapped(part, closure - stands)).max() < SAME:
             return number
     return 0
 
 
-def partial(scene: Scene, group: Group) -> Scene:
-    """The mechanism up to and with a group."""
-    names = group.known | set(group.links)
-    return replace(
-        scene,
-        links={name: link for name, link in scene.links.items() if name in names},
-        drivers=tuple(driver for driver in scene.drivers if driver.link in names),
-    )
+def closures(part: Equations, stands: Reals, group: Group) -> Reals:
+    """All ways in which a group closes, one scene: (closures, K + m), in order.
+
+    They are looked for by Newton's method from many starts with all but the group held as it
+    ``stands`` (1, K + m), and ordered by the angle, from 0 to 360°, of the group's first-written
+    link, ties by the next. Where wheels roll, an angle that only pins tell is counted within half
+    a turn of its start.
+    """
+    moving = moved_by(part, group)
+    size = len(group.links)
+    distinct: list[Reals] = []
+    idle = 0
+    for number in range(ROUNDS if size > 2 else 1):
+        thrown = scattered(part, stands, moving, STARTS.get(size, MOST_STARTS), number)
+        before = len(distinct)
+        for row in closed_of(part, thrown, moving):
+            gaps = [np.abs(wrapped(part, (row - other)[None])).max() for other in distinct]
+            if not gaps or min(gaps) >= SAME:
+                distinct.append(row)
+        idle = idle + 1 if len(distinct) == before else 0
+        if idle == ENOUGH or (number + 1 >= ENOUGH and not distinct):
+            break
+    links = [link for link in part.links if link in group.links]
+    distinct.sort(key=lambda row: [angle_of(part, link, row) for link in links])
+    return np.array(distinct).reshape(-1, part.unknown_count)
 
 
-def moved_by(loops: Equations, group: Group) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which unknowns belong to a group."""
-    fixed = {loops.turned.of[link] for link in (FRAME, *group.known)}
-    turnings = [k not in fixed for k in range(1, loops.turned.count)]
-    slides = [not group.known >= {guide.block, guide.on} for guide in loops.guides]
-    return np.array([*turnings, *slides], dtype=np.bool_)
+def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
+    """The closed positions to which Newton's method leads; stragglers alone go on to its end."""
+    with np.errstate(all="ignore"):
+        found, _, _ = newton(part, thrown, moving, SHORT)
+        closed = largest(in_bars(part, found)[0]) < CLOSED
+        late, _, _ = newton(part, found[~closed], moving)
+        found = np.concatenate([found[closed], late])
+        found = found[largest(in_bars(part, found)[0]) < CLOSED]
+        return found[within_half(part, found, moving)]
 
 
 def scattered(
-    loops: Equations, stands: Reals, moving: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0
 ) -> Reals:
-    """The position as it stands, and many with the group's unknowns thrown anywhere."""
-    thrown = np.random.default_rng(1).uniform(-1, 1, (STARTS, stands.shape[1]))
+    """The position as it stands, and many with the group's unknowns thrown anywhere.
+
+    The equations that are linear in them hold at once: steps of Newton's method keep them.
+    """
+    thrown = np.random.default_rng(seed).uniform(-1, 1, (count, stands.shape[1]))
     thrown[:, : loops.turning_count] *= np.pi
-    thrown[:, loops.turning_count :] *= 2 * loops.size
-    return np.concatenate([stands, np.where(moving, thrown, stands)])
+    for k, (_, start) in loops.slips.counted.items():
+        thrown[:, k - 1] += start
+    thrown[:, loops.turning_count :] *= 2 * reach(loops)
+    thrown = np.concatenate([stands, np.where(moving, thrown, stands)])
+    angles = moving & (np.arange(len(moving)) < loops.turning_count)
+    return led(loops, led(loops, thrown, angles), moving)
+
+
+def led(loops: Equations, unknowns: Reals, moving: Mask) -> Reals:
+    """Unknowns moved as little as the linear equations ask, by least squares."""
+    scale = np.where(moving, loops.columns[0], 0.0)
+    step = np.linalg.pinv(loops.linear_rows()[0] * scale) @ loops.linear(unknowns).T
+    return np.asarray(unknowns - step.T * scale)
+
+
+def reach(loops: Equations) -> float:
+    """How far (m) a block may stand from the zero of its guide, as a rough size."""
+    far = [abs(complex(guide.through)) + abs(float(guide.offset)) for guide in loops.guides]
+    driven = np.where(loops.drives.turns, 0, np.abs(loops.drives.aim))
+    ends = np.abs(loops.owners[1]).max(initial=0)
+    return float(max([*far, driven.max(initial=0), ends, loops.size[0]]))
 
 
 def wrapped(loops: Equations, change: Reals) -> Reals:
-    """A change of unknowns in radians and bars, angles within half a turn."""
-    angles = np.angle(np.exp(1j * change[:, : loops.turning_count]))
+    """A change of unknowns in radians and bars, angles within half a turn where no wheel rolls."""
+    turns = change[:, : loops.turning_count]
+    angles = np.angle(np.exp(1j * turns))
+    for k in loops.slips.counted:
+        angles[:, k - 1] = turns[:, k - 1]
     return np.concatenate([angles, change[:, loops.turning_count :] / loops.size], axis=1)
 
 

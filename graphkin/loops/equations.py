@@ -1,14 +1,15 @@
 """The loop equations f(φ, q) = 0 of a planar mechanism, with exact first and second derivatives.
 
 Unknowns φ: the angle θ_k of every turning but the frame's (radians), then the coordinate s_j of
-every slide (metres). Equations: the two components of every closed chain (metres), then for each
-driver its coordinate less its given value. All arrays carry the N settings of a batch first.
+every slide and track (metres). Equations: the two components of every closed chain (metres), the
+ways that wheels slip (metres), then for each driver its coordinate less its given value. All arrays
+carry the N settings of a batch first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,33 +24,19 @@ from graphkin.loops.bodies import (
     bodies_of,
     guides_of,
     spans,
-    unit,
 )
 from graphkin.loops.chains import Chains, Linear, packed
-from graphkin.loops.vectors import Tree, Turnings, turnings
-from graphkin.scene.model import FRAME, Driver, Scene
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Drives:
-    """The given motions: row d of ``selects`` (D, K + m) picks the driven coordinate.
-
-    A turning driver compares the unit vector e^{i(selected angle)}·``lean`` with ``aim``, a
-    sliding one its coordinate with ``aim``; all (N, D). ``speed`` and ``acceleration`` in SI.
-    """
-
-    selects: Reals
-    turns: np.ndarray[Any, np.dtype[np.bool_]]
-    lean: Complexes
-    aim: Complexes
-    speed: Reals
-    acceleration: Reals
-
-    def residual(self, unknowns: Reals) -> Reals:
-        """Driven coordinate less given value, angles within half a turn: shape (N, D)."""
-        coordinate = unknowns @ self.selects.T
-        angle = np.angle(np.exp(1j * coordinate) * self.lean * self.aim.conj())
-        return np.where(self.turns, angle, coordinate - self.aim.real)
+from graphkin.loops.drives import Drives, drives_of
+from graphkin.loops.rolling import (
+    Gear,
+    Slips,
+    gears_of,
+    packed_slips,
+    slips_of,
+    tracks_of,
+)
+from graphkin.loops.vectors import Tree, Turnings, refuse_unknown_lean, turnings
+from graphkin.scene.model import FRAME, Scene
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,10 +44,12 @@ class Equations:
     """The vector loops of a scene: chains to every link's origin, and the chains that close.
 
     ``bodies`` place each link's points about its origin; ``owners`` gives the first link of each of
-    the ``points`` and the point's local coordinates (N, points); ``home`` (N,) is the frame's first
-    point; ``size`` and ``least`` (N,) are the longest and shortest bar in metres.
+    the ``points`` and the point's local coordinates (N, points); ``closing`` names what each
+    closed chain closes; ``home`` (N,) is the frame's first point; ``size`` and ``least`` (N,) are
+    the longest and shortest bar in metres.
     """
 
+    scene: Scene
     numbers: Numbers
     links: tuple[str, ...]
     points: tuple[str, ...]
@@ -68,7 +57,10 @@ class Equations:
     bodies: Mapping[str, Body]
     guides: tuple[Guide, ...]
     turned: Turnings
+    gears: tuple[Gear, ...]
     chains: Chains
+    closing: tuple[str, ...]
+    slips: Slips
     drives: Drives
     home: Complexes
     size: Reals
@@ -86,9 +78,8 @@ class Equations:
 
     @property
     def equation_count(self) -> int:
-        """How many equations there are: two a closed chain, one a driver."""
-        chains = self.chains.fixed.shape[1] - len(self.links)
-        return int(2 * chains + len(self.drives.turns))
+        """How many equations there are: two a closed chain, one a rolling pair or a driver."""
+        return 2 * len(self.closing) + len(self.slips.links) + len(self.drives.turns)
 
     @property
     def columns(self) -> Reals:
@@ -110,83 +101,111 @@ class Equations:
         return np.concatenate([closed.real, closed.imag], axis=1)
 
     def residual(self, linear: Linear, unknowns: Reals) -> Reals:
-        """f(φ, q): shape (N, 2·closed chains + D)."""
-        closed = self.closures(linear.place)
-        return np.concatenate([closed, self.drives.residual(unknowns)], axis=1)
+        """f(φ, q): shape (N, 2·closed chains + R + D)."""
+        return np.concatenate([self.closures(linear.place), self.linear(unknowns)], axis=1)
+
+    def linear(self, unknowns: Reals) -> Reals:
+        """The equations that are linear in the unknowns, rolling pairs and drivers: (N, R + D)."""
+        slipped = self.slips.residual(unknowns)
+        return np.concatenate([slipped, self.drives.residual(unknowns)], axis=1)
+
+    def linear_rows(self, driven: bool = True) -> Reals:
+        """Derivative of the linear equations: shape (N, R + D, K + m)."""
+        if not driven:
+            return self.slips.rows
+        shape = (self.numbers.count, *self.drives.selects.shape)
+        return np.concatenate(
+            [self.slips.rows, np.broadcast_to(self.drives.selects, shape)], axis=1
+        )
 
     def jacobian(self, linear: Linear, driven: bool = True) -> Reals:
         """∂f/∂φ: shape (N, equations, K + m); without the drivers' rows on request."""
         rows = np.concatenate([1j * linear.turned, linear.along], axis=-1)
-        closed = self.closures(rows)
-        if not driven:
-            return closed
-        shape = (closed.shape[0], *self.drives.selects.shape)
-        return np.concatenate([closed, np.broadcast_to(self.drives.selects, shape)], axis=1)
+        closed, straight = self.closures(rows), self.linear_rows(driven)
+        straight = np.broadcast_to(straight, (len(closed), *straight.shape[1:]))
+        return np.concatenate([closed, straight], axis=1)
 
     def second(self, linear: Linear, u: Reals, v: Reals) -> Reals:
-        """Second derivative of f in two directions: drivers' rows are linear and give none."""
+        """Second derivative of f in two directions: linear equations give none."""
         closed = self.closures(self.chains.second(linear, u, v))
-        return np.concatenate([closed, np.zeros_like(self.drives.speed)], axis=1)
+        straight = len(self.slips.links) + len(self.drives.turns)
+        return np.concatenate([closed, np.zeros((len(closed), straight))], axis=1)
 
     def guide_index(self, block: str, on: str | None = None) -> int | None:
-        """The slide of a block: on a given link, or the one it names first."""
+        """The slide or track of a link: on a given link, or the one it names first."""
         for index, guide in enumerate(self.guides):
             if guide.block == block and (guide.on == on if on is not None else guide.first):
                 return index
         return None
 
 
-def equations(scene: Scene, values: Mapping[str, Any] | None = None) -> Equations:
+def equations(
+    scene: Scene, values: Mapping[str, Any] | None = None, within: Collection[str] | None = None
+) -> Equations:
     """Write the loop equations of a scene, for its own parameter values or for a batch of them.
 
-    Raises StructureError for pairs that are not covered and links that nothing joins.
+    ``within`` keeps to some of its links, with the joints and drivers among them. Raises
+    StructureError for links that nothing joins, wheels that do not touch, and a block whose angle
+    on a further guide is not told.
     """
-    refuse_rolling(scene)
     numbers = Numbers.of({**scene.values, **(values or {})})
     bodies, starts = bodies_of(scene, numbers)
-    guides = guides_of(scene, bodies, starts, numbers)
-    turned = turnings(scene, guides)
+    gears, arms = gears_of(scene, bodies, numbers)
+    bodies |= arms
+    slides = guides_of(scene, bodies, starts, numbers)
+    turned = turnings(tuple(bodies), slides)
+    refuse_unknown_lean(turned, slides)
+    guides, rolled = tracks_of(scene, bodies, starts, slides, turned, numbers)
+    slips = slips_of(gears, rolled, guides, numbers)
+    whole = bool(slips)
+    if within is not None:
+        names = {FRAME, *within}
+        bodies = {name: body for name, body in bodies.items() if name in names}
+        guides = tuple(guide for guide in guides if {guide.block, guide.on} <= names)
+        gears = tuple(gear for gear in gears if {*gear.links, gear.arm} <= names)
+        slips = tuple(slip for slip in slips if names.issuperset(slip.links))
+        scene = replace(
+            scene, drivers=tuple(d for d in scene.drivers if {d.link, d.against} <= names)
+        )
+        turned = turnings(tuple(bodies), guides)
     tree = Tree(bodies, guides, turned)
-    links = (FRAME, *scene.links)
+    links = tuple(bodies)
     refuse_loose(links, tree)
-    chains = packed([*(tree.origins[name] for name in links), *tree.closures()], tree, numbers)
-    lengths = spans(bodies, numbers)
+    closing = tree.closures()
+    chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
+    lengths = spans(scene, bodies, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
-    arms = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
+    reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
     return Equations(
+        scene=scene,
         numbers=numbers,
         links=links,
         points=tuple(owner),
-        owners=([links.index(link) for link in owner.values()], np.stack(arms, axis=1)),
+        owners=([links.index(link) for link in owner.values()], stacked(reach, numbers)),
         bodies=bodies,
         guides=guides,
         turned=turned,
+        gears=gears,
         chains=chains,
-        drives=drives_of(scene, bodies, guides, turned, numbers),
+        closing=tuple(closing),
+        slips=packed_slips(slips, turned, guides, numbers),
+        drives=drives_of(scene, bodies, guides, turned, numbers, whole=whole),
         home=numbers.complexes(starts[FRAME]),
         size=lengths.max(axis=1),
         least=np.where(lengths > 0, lengths, np.inf).min(axis=1),
     )
 
 
-def refuse_rolling(scene: Scene) -> None:
-    """Say which pairs the vector loops do not cover."""
-    problems = [
-        Problem(
-            f"links.{link.name}.rolls",
-            "rolling and gear pairs are not covered by the vector loops yet",
-            "pins and straight slides",
-        )
-        for link in scene.links.values()
-        if link.rolls
-    ]
-    problems += [
-        Problem(f"drivers.{number}", "a rolling driver is not covered by the vector loops yet")
-        for number, driver in enumerate(scene.drivers, 1)
-        if driver.kind == "roll"
-    ]
-    if problems:
-        raise StructureError(problems)
+def undriven(loops: Equations) -> Equations:
+    """The same equations without those of the drivers."""
+    return replace(loops, drives=loops.drives.none())
+
+
+def stacked(columns: Sequence[Complexes], numbers: Numbers) -> Complexes:
+    """Columns of shape (N,) side by side: (N, columns)."""
+    if not columns:
+        return np.zeros((numbers.count, 0), dtype=np.complex128)
+    return np.stack(columns, axis=1)
 
 
 def refuse_loose(links: Sequence[str], tree: Tree) -> None:
@@ -196,58 +215,8 @@ def refuse_loose(links: Sequence[str], tree: Tree) -> None:
         raise StructureError(
             Problem(
                 f"links.{name}",
-                "no pin or guide joins this link to the frame",
-                "a point shared with another link, or slides",
+                "no pin, guide or track joins this link to the frame",
+                "a point shared with another link, slides or rolls",
             )
             for name in loose
         )
-
-
-def drives_of(
-    scene: Scene,
-    bodies: Mapping[str, Body],
-    guides: Sequence[Guide],
-    turned: Turnings,
-    numbers: Numbers,
-) -> Drives:
-    """The drivers' equations."""
-    count = len(scene.drivers)
-    selects = np.zeros((count, turned.count + len(guides)))
-    lean = np.ones((numbers.count, count), dtype=np.complex128)
-    aim = np.zeros((numbers.count, count), dtype=np.complex128)
-    speed, acceleration = np.zeros((2, numbers.count, count))
-    for d, driver in enumerate(scene.drivers):
-        if driver.kind == "turn":
-            selects[d, turned.of[driver.link]] += 1
-            selects[d, turned.of[driver.against]] -= 1
-            lean[:, d] = driven_line(driver, bodies, turned) / turned.lean[driver.against]
-            aim[:, d] = numbers.direction(driver.position)
-        else:
-            selects[d, turned.count + driven_slide(d, driver, guides)] = 1
-            aim[:, d] = numbers.si(driver.position)
-        speed[:, d] = numbers.si(driver.speed)
-        acceleration[:, d] = numbers.si(driver.acceleration)
-    turns = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
-    return Drives(selects[:, 1:], turns, lean, aim, speed, acceleration)
-
-
-def driven_line(driver: Driver, bodies: Mapping[str, Body], turned: Turnings) -> Any:
-    """Direction of the line whose angle is driven, in the link's turning."""
-    if driver.of is None:
-        return turned.lean[driver.link]
-    start, end = (bodies[driver.link][name] for name in driver.of)
-    return turned.lean[driver.link] * unit(end - start)
-
-
-def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
-    """Which slide coordinate is driven."""
-    for index, guide in enumerate(guides):
-        if (guide.block, guide.on) == (driver.link, driver.against):
-            return index
-    raise StructureError(
-        Problem(
-            f"drivers.{number + 1}",
-            f"link {driver.link} does not slide on link {driver.against}",
-            "a block and the link that carries its guide",
-        )
-    )

@@ -1,41 +1,65 @@
 """Which links close together: the groups, taken from the joints alone, in order of knowing.
 
-The smallest sets of links that their joints among themselves and to known links just determine
-have 3 degrees of freedom a link and 2 constraints a joint: 2 links and 3 joints (a dyad), 4 and 6,
-6 and 9.
+A set of links is ready when its joints among themselves and to known links, with the drivers on
+them, take at least its 3 freedoms a link: a driven crank (1 link), a dyad (2 links and 3 joints),
+groups of higher class (4 and 6, 6 and 9), a wheel on an arm. The smallest such set comes first.
+Where the count may deceive, the rank of its equations in some position decides.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
 from math import comb
 
-from graphkin.loops.equations import Equations
+import numpy as np
+
+from graphkin.errors import StructureError
+from graphkin.loops.equations import Equations, equations
+from graphkin.loops.poses import setting_of
 from graphkin.scene.model import FRAME, Scene
 
-SIZES = (2, 4, 6)
+LARGEST = 6
 MOST = 20_000
 """Sets of links that are looked through for a group of higher class."""
+FULL = 1e-9
+"""Smallest over largest singular value above which equations determine a group."""
+
+Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A pair: a pin by its point, or a slide by its number, between two links."""
+    """A pair: a pin by its point, a slide or track by its number among the guides.
 
-    links: tuple[str, str]
+    Without both it ties coordinates of its links alone: two wheels, or a driver (``drives``).
+    """
+
+    links: tuple[str, ...]
     pin: str = ""
     slide: int = -1
+    rolls: bool = False
+    drives: bool = False
+
+    @property
+    def takes(self) -> int:
+        """Freedoms that it takes."""
+        return 2 if self.pin or self.slide >= 0 else 1
 
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """Links that close together, the joints between them and those to links known before."""
+    """Links that close together, the joints between them and those to links known before.
+
+    ``ties`` are the wheels that touch and the drivers that close it.
+    """
 
     links: tuple[str, ...]
     inner: tuple[Joint, ...]
     outer: tuple[Joint, ...]
     known: frozenset[str]
+    ties: tuple[Joint, ...] = ()
 
     @property
     def slides(self) -> tuple[Joint, ...]:
@@ -44,34 +68,43 @@ class Group:
 
     @property
     def is_dyad(self) -> bool:
-        """Two links, with one joint between them and one from each outwards."""
+        """Two links, one pin or slide between them and one from each outwards, and no more."""
+        pairs = (*self.inner, *self.outer)
         ends = [joint for joint in self.outer if self.links[0] in joint.links]
-        return len(self.links) == 2 and len(self.inner) == 1 and len(ends) == 1
+        plain = not self.ties and not any(joint.rolls for joint in pairs)
+        three = len(self.inner) == len(ends) == 1 and len(self.outer) == 2
+        return plain and len(self.links) == 2 and three
+
+    @property
+    def is_driven(self) -> bool:
+        """One link that turns about a known pin, or slides along a known guide, as driven."""
+        return (
+            len(self.links) == len(self.outer) == len(self.ties) == 1
+            and self.ties[0].drives
+            and not self.outer[0].rolls
+        )
 
 
 def groups(scene: Scene, loops: Equations) -> list[Group]:
-    """The groups, in the order in which frame and drivers make one after the other known."""
+    """The groups of two links and more, in the order in which one after the other is known."""
+    return [group for group in stages(scene, loops) if len(group.links) > 1]
+
+
+def stages(scene: Scene, loops: Equations) -> list[Group]:
+    """All groups, single links too, in the order in which one after the other is known.
+
+    Links that nothing determines are in none of them.
+    """
     known, found = frozenset({FRAME}), list[Group]()
-    every = joints(loops)
-    while True:
-        driven = {
-            driver.link
-            for driver in scene.drivers
-            if driver.link not in known
-            and driver.against in known
-            and between({driver.link}, known, every)
-        }
-        group = None if driven else ready(loops, known, every)
-        if group is not None:
-            found.append(group)
-            driven = set(group.links)
-        if not driven:
-            return found
-        known |= driven
+    every, ties = joints(loops), tied(scene, loops)
+    while group := ready(scene, loops, known, every, ties):
+        found.append(group)
+        known |= set(group.links)
+    return found
 
 
 def joints(loops: Equations) -> tuple[Joint, ...]:
-    """Every two links that share a point or a guide."""
+    """Every two links that share a point, a guide or a straight track."""
     bodies = loops.bodies
     pins = [
         Joint((p, q), pin=point)
@@ -79,23 +112,59 @@ def joints(loops: Equations) -> tuple[Joint, ...]:
         for point in bodies[p]
         if point in bodies[q]
     ]
-    slides = [Joint((guide.block, guide.on), slide=j) for j, guide in enumerate(loops.guides)]
+    slides = [
+        Joint((guide.block, guide.on), slide=j, rolls=guide.rolls)
+        for j, guide in enumerate(loops.guides)
+    ]
     return (*pins, *slides)
 
 
-def ready(loops: Equations, known: frozenset[str], every: tuple[Joint, ...]) -> Group | None:
+def tied(scene: Scene, loops: Equations) -> tuple[Joint, ...]:
+    """Wheels that touch with their arm, and drivers: they tie coordinates of links alone."""
+    wheels = [Joint((*gear.links, gear.arm), rolls=True) for gear in loops.gears]
+    drivers = [Joint((each.link, each.against), drives=True) for each in scene.drivers]
+    return (*wheels, *drivers)
+
+
+def ready(
+    scene: Scene,
+    loops: Equations,
+    known: frozenset[str],
+    every: tuple[Joint, ...],
+    ties: tuple[Joint, ...],
+) -> Group | None:
     """The smallest group that the known links determine, as written first."""
     unknown = [link for link in loops.links if link not in known]
-    pairs = dict.fromkeys(joint.links for joint in every if known.isdisjoint(joint.links))
-    for size in SIZES:
+    open_pairs = [joint.links for joint in every if known.isdisjoint(joint.links)]
+    open_pairs += [joint.links[:2] for joint in ties if known.isdisjoint(joint.links[:2])]
+    pairs = sorted(
+        {tuple(sorted(links, key=loops.links.index)) for links in open_pairs},
+        key=lambda links: [loops.links.index(link) for link in links],
+    )
+    for size in range(1, min(LARGEST, len(unknown)) + 1):
         if comb(len(unknown), size) > MOST and size > 2:
             return None
-        for links in pairs if size == 2 else combinations(unknown, size):
-            outer = between(set(links), known, every)
-            inner = among(set(links), every, {joint.pin for joint in outer})
-            if 2 * (len(inner) + len(outer)) == 3 * size:
-                return Group(links, inner, outer, known)
+        sets: Iterable[tuple[str, ...]] = pairs if size == 2 else combinations(unknown, size)
+        for links in sets:
+            group = group_of(links, known, every, ties)
+            taken = sum(joint.takes for joint in (*group.inner, *group.outer, *group.ties))
+            if taken >= 3 * size and determined(scene, loops, group, taken):
+                return group
     return None
+
+
+def group_of(
+    links: tuple[str, ...],
+    known: frozenset[str],
+    every: tuple[Joint, ...],
+    ties: tuple[Joint, ...],
+) -> Group:
+    """A set of links with its joints."""
+    mine = set(links)
+    outer = between(mine, known, every)
+    inner = among(mine, every, {joint.pin for joint in outer})
+    within = [j for j in ties if mine.intersection(j.links) and mine | known >= set(j.links)]
+    return Group(links, inner, outer, known, tuple(within))
 
 
 def between(links: set[str], others: frozenset[str], every: tuple[Joint, ...]) -> tuple[Joint, ...]:
@@ -116,3 +185,46 @@ def among(links: set[str], every: tuple[Joint, ...], met: set[str]) -> tuple[Joi
     inside = [j for j in every if links >= set(j.links) and (not j.pin or j.pin not in met)]
     first = {joint.pin: joint.links[0] for joint in reversed(inside) if joint.pin}
     return tuple(j for j in inside if not j.pin or first[j.pin] in j.links)
+
+
+def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool:
+    """Whether the equations up to a group determine it, by their rank in some open position."""
+    exact = taken == 3 * len(group.links)
+    if exact and ((group.is_dyad and len(group.slides) < 3) or sure_crank(scene, group)):
+        return True
+    try:
+        part = equations(scene, setting_of(loops, 0), group.known | set(group.links))
+    except StructureError:
+        return False
+    moving = moved_by(part, group)
+    thrown = np.random.default_rng(7).uniform(-1, 1, (1, part.unknown_count)) * part.columns
+    with np.errstate(all="ignore"):
+        jacobian = part.jacobian(part.chains.at(thrown)) * part.columns[:, None, :]
+    jacobian = (jacobian / part.rows[:, :, None])[0][:, moving]
+    if jacobian.shape[0] < jacobian.shape[1] or not np.isfinite(jacobian).all():
+        return False
+    values = np.linalg.svd(jacobian, compute_uv=False)
+    return bool(values.min(initial=np.inf) > FULL * values.max(initial=0))
+
+
+def sure_crank(scene: Scene, group: Group) -> bool:
+    """Whether a group is one link turned about a pin, or slid along its guide."""
+    if not group.is_driven:
+        return False
+    wanted = {tuple(sorted(joint.links)) for joint in group.ties}
+    kinds = {d.kind for d in scene.drivers if tuple(sorted((d.link, d.against))) in wanted}
+    return kinds == ({"turn"} if group.outer[0].pin else {"slide"})
+
+
+def moved_by(loops: Equations, group: Group) -> Mask:
+    """Which unknowns belong to a group."""
+    turned = loops.turned.of
+    fixed = {turned[link] for link in group.known if link in turned}
+    mine = {turned[link] for link in group.links} - fixed
+    turnings = [k in mine for k in range(1, loops.turned.count)]
+    settled = group.known | set(group.links)
+    slides = [
+        {guide.block, guide.on} <= settled and not {guide.block, guide.on} <= group.known
+        for guide in loops.guides
+    ]
+    return np.array([*turnings, *slides], dtype=np.bool_)

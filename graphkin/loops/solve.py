@@ -16,6 +16,7 @@ import numpy as np
 from graphkin.errors import Problem, StructureError, WitnessError
 from graphkin.loops.bodies import Reals
 from graphkin.loops.equations import Equations
+from graphkin.loops.groups import Mask
 from graphkin.loops.motion import Motion
 from graphkin.loops.start import start_values
 
@@ -98,10 +99,17 @@ def solve(
     refuse_undriven(loops)
     with np.errstate(all="ignore"):
         start = start_values(loops, places, slides or {})
+    return closed_from(loops, start.unknowns)
+
+
+def closed_from(loops: Equations, start: Reals) -> LoopSolution:
+    """Close the loops from unknowns (N, K + m) and find the motion; raises as ``solve`` does."""
+    refuse_undriven(loops)
+    with np.errstate(all="ignore"):
         closed, first, iterations = newton(loops, start)
         report = report_on(loops, start, closed, first, iterations)
         if loops.numbers.single:
-            refuse_failure(report)
+            refuse_failure(loops, closed, report)
         unknowns = np.where(report.good[:, None], closed, np.nan)
         ratios = ratios_at(loops, unknowns)
         speed, acceleration = loops.drives.speed, loops.drives.acceleration
@@ -110,19 +118,25 @@ def solve(
     return LoopSolution(loops, unknowns, ratios, motion, report)
 
 
-def newton(loops: Equations, start: Reals) -> tuple[Reals, Reals, int]:
+def newton(
+    loops: Equations, start: Reals, moving: Mask | None = None, most: int = ITERATIONS
+) -> tuple[Reals, Reals, int]:
     """Newton–Raphson from the start values; steps longer than half a bar are shortened to it.
 
-    Gives the unknowns, the residual of the start in bars (N,) and the number of iterations.
+    Only the unknowns ``moving`` change, all of them without it; more equations than unknowns are
+    met by least squares. Gives the unknowns, the residual of the start in bars (N,) and the number
+    of iterations, of which there are at ``most`` so many.
     """
     unknowns, done = start, np.zeros(len(start), dtype=np.bool_)
+    columns = np.ones(start.shape[1], dtype=np.bool_) if moving is None else moving
     before = np.full(len(start), np.inf)
     first = np.zeros(len(start))
     iterations = 0
-    while iterations < ITERATIONS and not done.all():
+    while iterations < most and not done.all():
         residual, jacobian = in_bars(loops, unknowns)
         first = largest(residual) if iterations == 0 else first
-        step = -linear_solve(jacobian, residual[:, :, None])[:, :, 0]
+        step = np.zeros_like(unknowns)
+        step[:, columns] = -linear_solve(jacobian[:, :, columns], residual[:, :, None])[:, :, 0]
         length = largest(step)
         done |= ~np.isfinite(length) | ((length > 0.9 * before) & (before < NEAR))
         done |= (largest(residual) < AT_REST) & (length > NEAR)
@@ -223,17 +237,23 @@ def refuse_undriven(loops: Equations) -> None:
         )
 
 
-def refuse_failure(report: Report) -> None:
+def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
     """Say why one scene has no motion: it does not close, or its position is singular."""
     if report.good[0]:
         return
     if not report.remains[0] < CLOSED * report.bar[0]:
+        spare = loops.equation_count - loops.unknown_count
+        hint = (
+            f"{spare} more equations than unknowns must be met, too: what is over-constrained "
+            "closes only with lengths that fit"
+        )
         raise WitnessError(
             Problem(
                 "loops",
                 f"the loops do not close: after {report.iterations} iterations "
-                f"{report.remains[0]:.3g} m remain open",
+                f"{report.remains[0]:.3g} m remain open, most at {widest(loops, unknowns)}",
                 "lengths and driver positions for which the mechanism can be assembled",
+                hint if spare > 0 else "",
             )
         )
     raise WitnessError(
@@ -245,3 +265,14 @@ def refuse_failure(report: Report) -> None:
             "which positions are singular depends on the driver: drive another link or move on",
         )
     )
+
+
+def widest(loops: Equations, unknowns: Reals) -> str:
+    """What is farthest from closing: a joint, a rolling contact or a driver."""
+    gaps = np.abs(in_bars(loops, unknowns)[0][0])
+    chains = len(loops.closing)
+    joints = np.hypot(gaps[:chains], gaps[chains : 2 * chains])
+    rolls = [f"the contact of link {links[0]} with {links[1]}" for links in loops.slips.links]
+    drivers = [f"driver {number}" for number in range(1, len(loops.drives.turns) + 1)]
+    every = np.concatenate([joints, gaps[2 * chains :]])
+    return [*loops.closing, *rolls, *drivers][int(np.argmax(np.nan_to_num(every, nan=np.inf)))]

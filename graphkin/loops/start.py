@@ -1,26 +1,37 @@
-"""Where Newton's method starts: angles and slide coordinates read off given positions of points."""
+"""Where Newton's method starts: angles and coordinates read off given positions of points."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
 from graphkin.loops.bodies import Complexes, Reals
 from graphkin.loops.equations import Equations
+from graphkin.loops.groups import Mask
+from graphkin.loops.wholes import settled
 from graphkin.scene.model import FRAME
 
 Places = Mapping[str, Complexes]
 
 
+class Start(NamedTuple):
+    """Unknowns (N, K + m) to start from; ``told`` are those that the positions tell (K + m,)."""
+
+    unknowns: Reals
+    told: Mask
+
+
 def start_values(
     loops: Equations, places: Mapping[str, object], slides: Mapping[str, object]
-) -> Reals:
-    """Unknowns (N, K + m) from positions of points (m) and slide coordinates by block (m).
+) -> Start:
+    """Unknowns from positions of points (m) and slide coordinates by block (m).
 
     An angle comes from the longest known bar of its turning, else from a block known on its guide,
-    else from a driver; then further points of its links are known. What no position tells is zero.
+    else from a driver; then further points of its links are known. Where wheels roll, full turns
+    are counted as the scene means them. What no position tells is zero.
     """
     numbers = loops.numbers
     known = {name: numbers.complexes(z) - loops.home for name, z in places.items()}
@@ -28,18 +39,29 @@ def start_values(
     known = {**known, **frame}
     given = {name: numbers.reals(s) for name, s in slides.items()}
     turn: dict[int, Complexes] = {0: numbers.complexes(1)}
+    guessed: set[int] = set()
     while len(turn) < loops.turned.count:
         seen = len(turn), len(known)
         turn |= turns_of_bars(loops, known, turn)
-        turn |= turns_of_blocks(loops, known, given, turn)
         turn |= turns_of_drivers(loops, turn)
+        turn |= turns_of_blocks(loops, known, given, turn, guessed)
         known = {**points_on_links(loops, known, turn), **known}
         if seen == (len(turn), len(known)):
             break
     angles = [np.angle(turn.get(k, numbers.complexes(1))) for k in range(1, loops.turned.count)]
     coordinates = [slide_start(loops, j, known, given, turn) for j in range(len(loops.guides))]
-    columns = [*angles, *coordinates]
-    return np.stack(columns, axis=-1) if columns else np.zeros((numbers.count, 0))
+    columns = [*angles, *(numbers.reals(0) if s is None else s for s in coordinates)]
+    told = [k in turn and k not in guessed for k in range(1, loops.turned.count)]
+    told += [s is not None for s in coordinates]
+    unknowns = np.stack(columns, axis=-1) if columns else np.zeros((numbers.count, 0))
+    return Start(*settled(loops, unknowns, np.array(told, dtype=np.bool_)))
+
+
+def driven_coordinate(loops: Equations, j: int) -> Reals | None:
+    """The coordinate on guide j that a driver gives, None where none does."""
+    column = loops.drives.selects[:, loops.turning_count + j]
+    found = np.flatnonzero(column)
+    return loops.drives.aim[:, found[0]].real if len(found) else None
 
 
 def turns_of_bars(
@@ -64,21 +86,20 @@ def turns_of_blocks(
     known: Places,
     given: Mapping[str, Reals],
     turn: Mapping[int, Complexes],
+    guessed: set[int],
 ) -> dict[int, Complexes]:
     """e^{iθ} of a guide from a point of its link and the block on it, both known.
 
-    Without a given slide coordinate the block is taken on the positive side.
+    Without a given slide coordinate the block is taken on the positive side, and the turning is
+    added to ``guessed``.
     """
     found: dict[int, Complexes] = {}
     for guide in loops.guides:
         turning, body = loops.turned.of[guide.on], loops.bodies[guide.on]
         base = next((name for name in body if name in known), None)
-        head = next(iter(loops.bodies[guide.block]), None)
-        if turning in turn or turning in found or base is None or head is None:
+        if turning in turn or turning in found or base is None or guide.point not in known:
             continue
-        if head not in known:
-            continue
-        bar = known[head] - known[base]
+        bar = known[guide.point] - known[base]
         foot = guide.through - body[base] + 1j * guide.offset * guide.along
         level = foot * np.conj(guide.along)
         if guide.first and guide.block in given:
@@ -88,6 +109,8 @@ def turns_of_blocks(
         arm = (foot + reach * guide.along) * loops.turned.lean[guide.on]
         if np.all(abs(arm) > 0):
             found[turning] = bar / arm
+            if not (guide.first and guide.block in given):
+                guessed.add(turning)
     return found
 
 
@@ -128,20 +151,17 @@ def slide_start(
     known: Places,
     given: Mapping[str, Reals],
     turn: Mapping[int, Complexes],
-) -> Reals:
-    """Slide coordinate of a block: the way from the guide's zero, measured along the guide."""
+) -> Reals | None:
+    """Coordinate on a guide: the way from its zero, measured along it; None where nothing tells."""
     guide = loops.guides[j]
     body = loops.bodies[guide.on]
     base = next((name for name in body if name in known), None)
-    head = next(iter(loops.bodies[guide.block]), None)
     turning = loops.turned.of[guide.on]
     if guide.first and guide.block in given:
         return given[guide.block]
-    if head is None or head not in known or turning not in turn:
-        return loops.numbers.reals(0)
-    if base is None and guide.on != FRAME:
-        return loops.numbers.reals(0)
+    if guide.point not in known or turning not in turn or (base is None and guide.on != FRAME):
+        return driven_coordinate(loops, j)
     heading = turn[turning] / abs(turn[turning]) * loops.turned.lean[guide.on]
     origin = known[base] - heading * body[base] if base is not None else 0
-    way = known[head] - origin - heading * guide.through
+    way = known[guide.point] - origin - heading * guide.through
     return np.asarray((way / (heading * guide.along)).real)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from graphkin.arithmetic import Point
 from graphkin.errors import Problem, StructureError
 from graphkin.loops.bodies import Body, Guide
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import FRAME
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,21 +52,25 @@ class Turnings:
     count: int
 
 
-def turnings(scene: Scene, guides: Sequence[Guide]) -> Turnings:
-    """Gather the links that slide on one another; a block's x axis lies along its first guide.
-
-    A further guide of the same block must join links that turn together already: how far the
-    second link leans against the block the scene does not say.
-    """
-    tied = [guide for guide in guides if guide.first]
+def turnings(links: Sequence[str], guides: Sequence[Guide]) -> Turnings:
+    """Gather the links that slide on one another; a block's x axis lies along its first guide."""
+    tied = [guide for guide in guides if guide.first and not guide.rolls]
     of: dict[str, int] = {}
     lean: dict[str, Point] = {}
-    for seed in (FRAME, *scene.links):
+    for seed in links:
         if seed not in of:
             of[seed], lean[seed] = max(of.values(), default=-1) + 1, 1 + 0j
             spread(seed, tied, of, lean)
+    return Turnings(of, lean, max(of.values()) + 1)
+
+
+def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
+    """A further guide of a block must join links that turn together already.
+
+    How far the second link leans against the block the scene does not say.
+    """
     for guide in guides:
-        if of[guide.block] != of[guide.on]:
+        if not guide.rolls and turned.of[guide.block] != turned.of[guide.on]:
             raise StructureError(
                 Problem(
                     f"links.{guide.block}.slides",
@@ -74,7 +78,6 @@ def turnings(scene: Scene, guides: Sequence[Guide]) -> Turnings:
                     hint=f"write link {guide.on} as the block that slides on {guide.block}",
                 )
             )
-    return Turnings(of, lean, max(of.values()) + 1)
 
 
 def spread(seed: str, tied: Sequence[Guide], of: dict[str, int], lean: dict[str, Point]) -> None:
@@ -116,10 +119,11 @@ class Tree:
                     reached.append(other)
         for index, guide in enumerate(self.guides):
             if guide.on == link and guide.block not in self.origins:
-                self.origins[guide.block] = self.on_guide(index).along(index, 1)
+                stand = self.on_guide(index).along(index, 1)
+                self.origins[guide.block] = self.step(stand, guide.block, -self.head(index))
                 reached.append(guide.block)
             elif guide.block == link and guide.on not in self.origins:
-                way = self.origins[link].along(index, -1)
+                way = self.step(self.origins[link], link, self.head(index)).along(index, -1)
                 foot = guide.through + 1j * guide.offset * guide.along
                 self.origins[guide.on] = self.step(way, guide.on, -foot)
                 reached.append(guide.on)
@@ -142,18 +146,27 @@ class Tree:
         foot = guide.through + 1j * guide.offset * guide.along
         return self.step(self.origins[guide.on], guide.on, foot)
 
-    def closures(self) -> list[Chain]:
+    def head(self, index: int) -> Point:
+        """The point of a block that keeps to guide ``index``, in the block's axes."""
+        guide = self.guides[index]
+        return self.bodies[guide.block].get(guide.point, 0j)
+
+    def closures(self) -> dict[str, Chain]:
         """The chains that must vanish: pins reached twice, blocks met on their guide again."""
-        found = []
+        found: dict[str, Chain] = {}
         holder: dict[str, str] = {}
         for link in self.origins:
             for point in self.bodies[link]:
                 if holder.setdefault(point, link) == link:
                     continue
                 if not {(point, link), (point, holder[point])} <= self.spent:
-                    found.append(self.at(holder[point], point).minus(self.at(link, point)))
+                    words = f"pin {point} of links {holder[point]} and {link}"
+                    found[words] = self.at(holder[point], point).minus(self.at(link, point))
         for index, guide in enumerate(self.guides):
             if index not in self.passed:
                 stand = self.on_guide(index).along(index, 1)
-                found.append(self.origins[guide.block].minus(stand))
+                head = self.step(self.origins[guide.block], guide.block, self.head(index))
+                kind = "track" if guide.rolls else "guide"
+                words = f"{kind} {guide.number + 1} of link {guide.block} on link {guide.on}"
+                found[words] = head.minus(stand)
         return found

@@ -1,4 +1,4 @@
-"""The marks of instantaneous centres and acceleration poles, near and far."""
+"""The marks of instantaneous centres, acceleration poles and inflection circles, near and far."""
 
 from __future__ import annotations
 
@@ -6,23 +6,33 @@ from cmath import phase
 from math import degrees
 from typing import Any
 
-from graphkin.paper.desk import Desk, above_foot, line_ends
+from graphkin.paper.desk import TINY, Desk, above_foot, line_ends
 from graphkin.paper.field import clipped
 from graphkin.paper.labels import Label
 from graphkin.paper.marks import Circle, Line
-from graphkin.paper.plan import line_name
+from graphkin.paper.paths import clipped_path, ring
+from graphkin.paper.plan import line_name, name_point
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import head
 from graphkin.steps.program import Part, Step
 
 LAST = 20.0
 """How much of a ray to a far centre its name belongs to, in mm."""
+NAMED = 1.6
+"""Distance of a centre's name from the middle of its pin, in mm."""
+STRAIGHT = 1e6
+"""Radius in mm of a circle that is a straight line, or none at all, on any page."""
 FAR = 2000.0
 """Longer than any way on a page, in mm."""
 
 
 def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """An instantaneous centre or acceleration pole; one off its field by its way and distance."""
+    """An instantaneous centre or acceleration pole; one off its field by its way and distance.
+
+    The crossing that only leads to one is marked with it, under its name.
+    """
+    if not step.name:
+        return
     point = desk.drawing.place(value)
     if point is not None and desk.field.holds(point, 2.0):
         at = desk.field(point)
@@ -32,13 +42,32 @@ def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
             Line(x - 2.2, y, x + 2.2, y, f"centre {desk.colour}", step.name, number),
             Line(x, y - 2.2, x, y + 2.2, f"centre {desk.colour}", step.name, number),
         )
-        desk.board.labels.append(
-            Label(
-                symbol(step.name), desk.colour, at, 3.5, step.name, number, priority=2, radius=2.2
-            )
-        )
+        name_point(desk, number, step, at, 2.2)
         return
     put_far_centre(desk, number, step, value)
+
+
+def put_named_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The name of a centre beside its pin, which has a mark already."""
+    name_point(desk, number, step, desk.field(value.start), NAMED)
+
+
+def put_circle_point(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A point of the inflection circle on a ray, where the field has it."""
+    if desk.field.holds(value, 2.0):
+        at = desk.field(value)
+        desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
+        name_point(desk, number, step, at, 0.5)
+
+
+def put_inflection_circle(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """The inflection circle, as much of it as lies in the field."""
+    if not TINY < value.radius * desk.field.mm < STRAIGHT:
+        return
+    around = [desk.field(point) for point in ring(value, desk.field.mm)]
+    cls = f"inflection {desk.colour}"
+    for mark in clipped_path(around, above_foot(desk.field.rect), cls, step.name, number):
+        desk.board.marks.append(mark)
 
 
 def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
@@ -57,7 +86,7 @@ def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
     if part is None:
         return
     desk.board.marks.append(head(*part, desk.colour, step.name, number))
-    if step.by_hand not in desk.drawing.trace.values:
+    if step.by_hand not in desk.drawing.trace.values or "aside" in step.says:
         desk.board.marks.append(Line(*part[0], *part[1], "ray", step.name, number))
     text = far_words(desk, step, 0.0 if endless else abs(way), way)
     end = part[1]

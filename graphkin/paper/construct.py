@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from graphkin.paper.centre import put_centre, put_ray
+from graphkin.paper.centre import (
+    put_centre,
+    put_circle_point,
+    put_inflection_circle,
+    put_named_centre,
+    put_ray,
+)
 from graphkin.paper.desk import Desk
 from graphkin.paper.plan import put_arc, put_arrow, put_driver_ray, put_line, put_point, put_pole
 from graphkin.paper.triangle import (
@@ -58,6 +64,15 @@ PUTS: dict[
     (Plane.MECHANISM, "pole-ray"): put_ray,
     (Plane.MECHANISM, "instant-centre"): put_centre,
     (Plane.MECHANISM, "acceleration-pole"): put_centre,
+    (Plane.MECHANISM, "pin-centre"): put_named_centre,
+    (Plane.MECHANISM, "guide-centre"): put_centre,
+    (Plane.MECHANISM, "relative-centre"): put_centre,
+    (Plane.MECHANISM, "kennedy-line"): put_ray,
+    (Plane.MECHANISM, "normals-meet"): put_centre,
+    (Plane.MECHANISM, "inflection-point"): put_circle_point,
+    (Plane.MECHANISM, "inflection-square"): put_ray,
+    (Plane.MECHANISM, "inflection-pole"): put_centre,
+    (Plane.MECHANISM, "inflection-circle"): put_inflection_circle,
     (Plane.NUMBERS, "pole"): put_pole,
     (Plane.NUMBERS, "square-to"): put_line,
     (Plane.NUMBERS, "parallel-to"): put_line,

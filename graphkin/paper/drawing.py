@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from graphkin.paper.paths import shown
 from graphkin.paper.scale import Extent, Scales, extent_of
+from graphkin.paper.standing import Standing
 from graphkin.plane import Circle, Line, Ratio, Vector
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.steps.program import Part, Plane, Step
 from graphkin.steps.run import Trace
-from graphkin.steps.solution import Verdict
+from graphkin.steps.solution import Curve, Verdict
 from graphkin.text import Words
 
 METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
@@ -27,7 +29,8 @@ NOISE = 1e-9
 class Drawing:
     """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
 
-    ``again``: the mechanism stands on a sheet before this one, with how it is drawn.
+    ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``curves``
+    are those over the whole motion.
     """
 
     kind: str
@@ -37,6 +40,7 @@ class Drawing:
     verdict: Verdict
     words: Words
     again: bool = False
+    curves: tuple[Curve, ...] = ()
 
     @property
     def plane(self) -> Plane:
@@ -79,38 +83,41 @@ class Drawing:
         return bool(abs(centre.size) <= least and abs(centre.shift) <= least * self.reach)
 
     @cached_property
-    def reach(self) -> float:
-        """The largest distance in the mechanism, in metres."""
-        box = extent_of(list(self.positions.values()))
-        return max(box.width, box.height)
+    def standing(self) -> Standing:
+        """Where the links, guides and wheels stand."""
+        return Standing(self.scene, self.trace)
 
     @cached_property
+    def reach(self) -> float:
+        """The largest distance in the mechanism, in metres."""
+        box = extent_of([*self.positions.values(), *self.corners()])
+        return max(box.width, box.height)
+
+    @property
     def positions(self) -> Mapping[str, complex]:
         """Where each point of the mechanism stands, in metres."""
-        targets = self.trace.program.targets
-        return {
-            of: self.trace.values[number]
-            for (quantity, of), number in targets.items()
-            if quantity == "position" and number in self.trace.values
-        }
+        return self.standing.positions
+
+    def corners(self) -> Iterator[complex]:
+        """The corners of the boxes that wheels take up, contacts, and where blocks are drawn."""
+        for disc in self.standing.discs:
+            yield disc.centre + disc.outer * (1 + 1j)
+            yield disc.centre - disc.outer * (1 + 1j)
+        yield from (touch.at for touch in self.standing.touches)
+        ways = self.standing.guideways
+        yield from (self.standing.beside_wheels(way) for way in ways if way.slide.on == FRAME)
 
     def guide(self, slide: Slide) -> tuple[complex, complex] | None:
-        """A point and the unit direction of a guide of the frame; None for a guide that moves."""
-        values = self.scene.values
-        if slide.on != FRAME:
+        """A point and the unit direction of the line that a guide of the frame keeps a block on.
+
+        None for a guide that moves.
+        """
+        along = self.standing.direction(slide) if slide.on == FRAME else None
+        if along is None:
             return None
-        if slide.along:
-            start, end = (self.positions[point] for point in slide.along)
-            along = (end - start) / abs(end - start)
-        else:
-            assert slide.angle is not None and slide.through is not None
-            along = complex(slide.angle.direction(values))
-            start = (
-                self.positions[slide.through]
-                if isinstance(slide.through, str)
-                else complex(*(float(q.si(values)) for q in slide.through))
-            )
-        return start + 1j * along * float(slide.offset.si(values)), along
+        start = self.standing.carried(FRAME, slide.along[0] if slide.along else slide.through)
+        assert start is not None
+        return start + 1j * along * float(slide.offset.si(self.scene.values)), along
 
     @cached_property
     def pivots(self) -> Mapping[str, str]:
@@ -191,9 +198,11 @@ class Drawing:
 
     def mechanism_extent(self) -> Extent:
         """The box of the mechanism and what is drawn on it; centres and poles do not count."""
-        points = list(self.positions.values())
+        points = [*self.positions.values(), *self.corners()]
+        points += shown(self.curves, extent_of(points))
         for _, step, value in self.mechanism_steps():
-            if step.part not in (Part.CENTRE, Part.POLE):
+            is_point = step.name or isinstance(value, Vector)  # the others are directions
+            if step.part not in (Part.CENTRE, Part.POLE) and is_point:
                 points += ends(value)
         return extent_of(points)
 

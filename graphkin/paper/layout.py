@@ -107,15 +107,16 @@ def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:
 
 
 def points_on(drawing: Drawing, number: int) -> list[complex]:
-    """The points that were found on a line or an arc."""
-    points = []
+    """The points that were found on a line or an arc, and the centres that it joins."""
+    points: list[Any] = []
     for child in drawing.children.get(number, ()):
         value: Any = drawing.trace.values[drawing.results.get(child, child)]
-        if isinstance(value, Ratio):
-            value = drawing.place(value)
-        if isinstance(value, complex):
-            points.append(value)
-    return points
+        points.append(drawing.place(value) if isinstance(value, Ratio) else value)
+    on_line = isinstance(drawing.trace.values[number], Line)
+    for arg in drawing.trace.program.steps[number].args if on_line else ():
+        value = drawing.trace.values[arg]
+        points.append(drawing.place(value) if isinstance(value, Ratio) else None)
+    return [point for point in points if isinstance(point, complex)]
 
 
 def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:

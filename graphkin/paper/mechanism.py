@@ -1,37 +1,51 @@
-"""The mechanism to scale with the field's symbols: bars, plates, pins, pivots, blocks, angles."""
+"""The mechanism to scale with the field's symbols: bars, plates, pins and pivots."""
 
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Iterable, Iterator
-from math import degrees, hypot
+from math import hypot
 
-from graphkin.paper.areas import Rect
-from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board, Label
-from graphkin.paper.marks import Arc, Line, Mark, polygon
+from graphkin.paper.marks import Circle, Line, polygon
 from graphkin.paper.richtext import escape
+from graphkin.paper.slides import (
+    draw_blocks,
+    draw_frame_guides,
+    draw_guide_bars,
+    number_side,
+    places_of,
+    rails_of,
+    swivelling,
+)
 from graphkin.paper.symbolic import symbol
-from graphkin.paper.symbols import (
-    PIN,
-    block_on_guide,
-    fixed_pivot,
-    pin,
-    turned_arrow,
+from graphkin.paper.symbols import FIXED, FREE, HINGE, PIN, PIVOT, fixed_pivot, pin, pivot_ground
+from graphkin.paper.wheels import (
+    draw_contacts,
+    draw_fixed_wheels,
+    draw_tracks,
+    draw_wheels,
+    is_all_wheel,
+    number_beside,
 )
 from graphkin.plane import cross
-from graphkin.scene.model import Driver, Link
+from graphkin.scene.model import FRAME, Link
 
-REACH = 15.0
-"""Half the length of a drawn guide in mm."""
-ANGLE = 11.0
-"""Radius of the arc of a driver's angle in mm."""
+LONG = 14.0
+"""Length of a sliding link's own bar, in mm, from which its number stands there."""
+FLAT = 1e-6
+"""How far beside a bar, in parts of its length, a point still counts as on it."""
+TALL = 9.5
+"""Height of the pivot of a block, in mm."""
 
 
 def draw_frame(board: Board, drawing: Drawing, field: Field) -> None:
-    """The fixed pivots and the lines of fixed guides: what the task sheet shows, too."""
+    """What the task sheet shows of the mechanism: pivots, fixed wheels, lines of guides."""
+    for link in drawing.scene.links.values():
+        draw_guide_line(board, drawing, field, link)
+        draw_track_line(board, drawing, field, link)
+    draw_fixed_wheels(board, drawing, field)
     pinned = moving_points(drawing)
     for name in drawing.scene.frame.points:
         at = field(drawing.positions[name])
@@ -39,10 +53,41 @@ def draw_frame(board: Board, drawing: Drawing, field: Field) -> None:
             board.marks += fixed_pivot(at, name)
             board.taken.append((at[0] - 5.6, at[1], at[0] + 5.6, at[1] + 8.2))
         else:
-            board.marks += [Line(at[0] - 1, at[1], at[0] + 1, at[1], "link", name)]
-        board.labels.append(
-            Label(symbol(name), "", at, 3.5, name, away=(-0.8, -0.6), priority=2, radius=PIN)
-        )
+            draw_mark(board, at, name)
+        letter(board, drawing, field, name)
+
+
+def draw_ground(board: Board, drawing: Drawing, field: Field) -> None:
+    """The ground under the fixed pivots, without their pins."""
+    pinned = moving_points(drawing)
+    seats = swivelling(drawing)
+    for name in drawing.scene.frame.points:
+        at = field(drawing.positions[name])
+        if name in pinned:
+            here = drawing.positions[name]
+            hidden = any(abs(place - here) * field.mm < PIN for place in seats)
+            height = TALL if hidden else PIVOT
+            board.marks += pivot_ground(at, height)
+            half = 5.2 * height / PIVOT + 0.4
+            board.taken.append((at[0] - half, at[1], at[0] + half, at[1] + height + 2.6))
+        else:
+            draw_mark(board, at, name)
+
+
+def draw_mark(board: Board, at: XY, name: str) -> None:
+    """A point of the frame that carries no pin."""
+    board.marks += [Line(at[0] - 1, at[1], at[0] + 1, at[1], "link", name)]
+
+
+def letter(board: Board, drawing: Drawing, field: Field, name: str) -> None:
+    """The letter of a point: of the frame's beside its pivot, of others away from their bars."""
+    at = field(drawing.positions[name])
+    fixed = name in drawing.scene.frame.points
+    away = (-0.8, -0.6) if fixed else outward(drawing, field, name)
+    radius = PIN + HINGE * max(0, sharers(drawing, name) - 2)
+    board.labels.append(
+        Label(symbol(name), "", at, 3.5, name, away=away, priority=2, radius=radius)
+    )
 
 
 def moving_points(drawing: Drawing) -> set[str]:
@@ -50,16 +95,36 @@ def moving_points(drawing: Drawing) -> set[str]:
     return {point for link in drawing.scene.links.values() for point in link.points}
 
 
+def sharers(drawing: Drawing, point: str) -> int:
+    """How many links own a point, the frame among them."""
+    scene = drawing.scene
+    return sum(point in link.points for link in (scene.frame, *scene.links.values()))
+
+
 def draw_guide_line(board: Board, drawing: Drawing, field: Field, block: Link) -> None:
     """The line of a fixed guide across the field, chain-dotted."""
     for slide in block.slides:
         line = drawing.guide(slide)
-        if line is None:
-            continue
-        start, along = line
-        part = clipped(*stretched(field(start), field(start + along)), field.rect)
-        if part:
-            board.marks.append(Line(*part[0], *part[1], "centre-line", f"guide {block.name}"))
+        if line is not None:
+            draw_line(board, field, line, f"guide {block.name}")
+
+
+def draw_track_line(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
+    """The line of a straight track of the frame across the field, chain-dotted."""
+    standing = drawing.standing
+    for rolling in link.rolls:
+        zero = standing.carried(FRAME, rolling.through) if rolling.on == FRAME else None
+        if zero is not None and rolling.angle is not None:
+            along = complex(rolling.angle.direction(drawing.scene.values))
+            draw_line(board, field, (zero, along), f"track {link.name}")
+
+
+def draw_line(board: Board, field: Field, line: tuple[complex, complex], name: str) -> None:
+    """A line across the field, chain-dotted."""
+    start, along = line
+    part = clipped(*stretched(field(start), field(start + along)), field.rect)
+    if part:
+        board.marks.append(Line(*part[0], *part[1], "centre-line", name))
 
 
 def stretched(start: XY, end: XY) -> tuple[XY, XY]:
@@ -70,62 +135,119 @@ def stretched(start: XY, end: XY) -> tuple[XY, XY]:
 
 
 def draw_plates(board: Board, drawing: Drawing, field: Field) -> None:
-    """The plates, below everything else."""
+    """Wheels and plates, below everything else."""
+    draw_wheels(board, drawing, field)
     for link in drawing.scene.links.values():
         if corners_of(drawing, link) is not None:
             draw_body(board, drawing, field, link)
 
 
 def draw_bars(board: Board, drawing: Drawing, field: Field) -> None:
-    """Bars and blocks, each with its number."""
+    """Guides and the bars that blocks slide on, then the blocks, then the other bars."""
     links = list(drawing.scene.links.values())
-    for link in links:
-        if corners_of(drawing, link) is None:
-            draw_body(board, drawing, field, link)
+    carriers = {rail.owner for rail in rails_of(drawing)}
+    bars = [link for link in links if corners_of(drawing, link) is None]
     for link in links:
         draw_guide_line(board, drawing, field, link)
-        draw_blocks(board, drawing, field, link)
+    draw_tracks(board, drawing, field)
+    draw_frame_guides(board, drawing, field)
+    for link in bars:
+        if link.name in carriers:
+            draw_body(board, drawing, field, link)
+    draw_guide_bars(board, drawing, field)
+    draw_blocks(board, drawing, field)
+    for link in bars:
+        if link.name not in carriers:
+            draw_body(board, drawing, field, link)
+    draw_contacts(board, drawing, field)
+    for link in links:
+        draw_number(board, drawing, field, link)
 
 
 def draw_pins(board: Board, drawing: Drawing, field: Field) -> None:
-    """The moving pins with their letters, on the side away from their bars."""
-    fixed = set(drawing.scene.frame.points)
-    for name in drawing.positions:
-        if name not in fixed:
-            at = field(drawing.positions[name])
-            board.marks.append(pin(at, name))
-            away = outward(drawing, field, name)
-            board.labels.append(
-                Label(symbol(name), "", at, 3.5, name, away=away, priority=2, radius=PIN)
-            )
+    """The pins with their letters; a circle more for each further link that a pin joins."""
+    fixed, pinned = set(drawing.scene.frame.points), moving_points(drawing)
+    for name, place in drawing.positions.items():
+        at, count = field(place), sharers(drawing, name)
+        if name not in fixed or name in pinned:
+            rings = [PIN + HINGE * i for i in range(1, count - 1)]
+            board.marks += [Circle(*at, r, "hinge", name) for r in reversed(rings)]
+            radius = FIXED if name in fixed else PIN if count > 1 else FREE
+            board.marks.append(pin(at, name, radius))
+            draw_unbroken(board, drawing, field, name)
+        letter(board, drawing, field, name)
+
+
+def draw_unbroken(board: Board, drawing: Drawing, field: Field, name: str) -> None:
+    """The bars that go on through a pin at which others end."""
+    if sharers(drawing, name) < 2:
+        return
+    here = drawing.positions[name]
+    for link in drawing.scene.links.values():
+        places = places_of(drawing, link.name)
+        if name not in link.points or len(places) < 3 or corners_of(drawing, link) is not None:
+            continue
+        first, last = farthest(places)
+        reach = min(abs(here - first), abs(here - last)) * field.mm
+        if reach > 2 * PIN:
+            (x, y), (u, v) = field(here), field.way(last - first)
+            ends = (x - PIN * u, y - PIN * v), (x + PIN * u, y + PIN * v)
+            board.marks.append(Line(*ends[0], *ends[1], "link", link.name))
 
 
 def draw_body(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
-    """A bar between two points, a plate through more, and the link's number beside it."""
-    places = places_of(drawing, link)
+    """A bar between two points, or a plate through more; a wheel is its own body."""
+    if is_all_wheel(drawing, link.name):
+        return
+    places = places_of(drawing, link.name)
     if len(places) < 2:
         return
     corners = corners_of(drawing, link)
     if corners is None:
         first, last = farthest(places)
-        ends = field(first), field(last)
-        board.marks.append(Line(*ends[0], *ends[1], "link", link.name))
+        board.marks.append(Line(*field(first), *field(last), "link", link.name))
     else:
         on_page = tuple(field(place) for place in corners)
         board.marks.append(polygon(on_page, "plate", link.name))
-        ends = on_page[0], on_page[1]
-    if not link.slides:
-        board.labels.append(number_of(link, ends))
 
 
-def number_of(link: Link, beside: tuple[XY, XY]) -> Label:
-    """A link's number or name in its balloon, beside a segment."""
-    return Label(escape(link.name), "", beside, 2.5, link.name, priority=3, ring=True)
+def draw_number(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
+    """A link's number or name in its balloon, beside its bar, its block or its wheel."""
+    beside = bar_of(drawing, field, link)
+    aside = number_side(drawing, field, link.name)
+    short = beside is None or hypot(beside[1][0] - beside[0][0], beside[1][1] - beside[0][1]) < LONG
+    if aside and (short or drawing_fixed(link)):
+        beside = aside
+    if beside is None:
+        beside = number_beside(drawing, field, link) or guide_bar_of(board, link)
+    if beside is not None:
+        label = Label(escape(link.name), "", beside, 2.5, link.name, priority=3, ring=True)
+        board.labels.append(label)
 
 
-def places_of(drawing: Drawing, link: Link) -> list[complex]:
-    """Where the points of a link stand."""
-    return [drawing.positions[p] for p in link.points if p in drawing.positions]
+def drawing_fixed(link: Link) -> bool:
+    """True for a block on a guide of the frame, whose number stands at the block."""
+    return any(slide.on == FRAME for slide in link.slides)
+
+
+def bar_of(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
+    """The bar, or the first side of the plate, that a link's number stands at."""
+    places = places_of(drawing, link.name)
+    corners = corners_of(drawing, link)
+    if corners is not None:
+        return field(corners[0]), field(corners[1])
+    if len(places) < 2:
+        return None
+    first, last = farthest(places)
+    return (field(first), field(last)) if first != last else None
+
+
+def guide_bar_of(board: Board, link: Link) -> tuple[XY, XY] | None:
+    """The drawn guide of a link that has neither a bar, a block nor a wheel."""
+    for mark in board.marks:
+        if isinstance(mark, Line) and mark.cls == "guide-bar" and mark.name == link.name:
+            return (mark.x1, mark.y1), (mark.x2, mark.y2)
+    return None
 
 
 def farthest(places: list[complex]) -> tuple[complex, complex]:
@@ -138,41 +260,30 @@ def farthest(places: list[complex]) -> tuple[complex, complex]:
 
 def corners_of(drawing: Drawing, link: Link) -> list[complex] | None:
     """The corners of a plate in order around it; None for a bar, whose points lie in line."""
-    places = places_of(drawing, link)
-    if len(places) < 3:
+    places = places_of(drawing, link.name)
+    if len(places) < 3 or is_all_wheel(drawing, link.name):
         return None
     first, last = farthest(places)
     along = last - first
-    if all(abs(cross(along, p - first)) <= 1e-6 * abs(along) ** 2 for p in places):
+    if all(abs(cross(along, p - first)) <= FLAT * abs(along) ** 2 for p in places):
         return None
-    middle = sum(places) / len(places)
-    return sorted(places, key=lambda p: phase(p - middle))
+    around = hull(places)
+    start = min(range(len(around)), key=lambda i: phase(around[i] - sum(around) / len(around)))
+    return around[start:] + around[:start]
 
 
-def draw_blocks(board: Board, drawing: Drawing, field: Field, link: Link) -> None:
-    """A block between the sides of its fixed guide."""
-    for slide in link.slides:
-        line = drawing.guide(slide)
-        if line is None or link.points[0] not in drawing.positions:
-            continue
-        at = field(drawing.positions[link.points[0]])
-        way = field.way(line[1])
-        board.marks += within(block_on_guide(at, way, REACH, link.name), field.rect)
-        u, v = way
-        side = (
-            (at[0] - 3 * u + 3.2 * v, at[1] - 3 * v - 3.2 * u),
-            (at[0] + 3 * u + 3.2 * v, at[1] + 3 * v - 3.2 * u),
-        )
-        board.labels.append(number_of(link, side))
-
-
-def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
-    """Marks whose lines end at the edge of a field."""
-    for mark in marks:
-        if not isinstance(mark, Line):
-            yield mark
-        elif part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), rect):
-            yield Line(*part[0], *part[1], mark.cls, mark.name)
+def hull(places: list[complex]) -> list[complex]:
+    """The corners of the convex figure around places, in order around it."""
+    ordered = sorted(set(places), key=lambda p: (p.real, p.imag))
+    around: list[complex] = []
+    for half in (ordered, ordered[::-1]):
+        chain: list[complex] = []
+        for p in half:
+            while len(chain) > 1 and cross(chain[-1] - chain[-2], p - chain[-1]) <= 0:
+                chain.pop()
+            chain.append(p)
+        around += chain[:-1]
+    return around
 
 
 def outward(drawing: Drawing, field: Field, name: str) -> XY | None:
@@ -188,57 +299,3 @@ def outward(drawing: Drawing, field: Field, name: str) -> XY | None:
     ways = [(here - other) / abs(here - other) for other in near if other != here]
     total = sum(ways)
     return field.way(total) if ways and abs(total) > 0.1 else None
-
-
-def draw_drivers(board: Board, drawing: Drawing, field: Field) -> None:
-    """The angle of each crank from the x axis, with its value, and the sense of its turning."""
-    for driver in drawing.scene.drivers:
-        link = drawing.scene.links[driver.link]
-        start = (driver.of or link.points)[0]
-        if driver.kind != "turn" or start not in drawing.positions:
-            continue
-        centre = field(drawing.positions[start])
-        end = drawn_angle(drawing, driver)
-        board.marks.append(
-            Line(*centre, centre[0] + ANGLE + 6, centre[1], "centre-line", f"x {driver.link}")
-        )
-        if abs(end) > 0.5:
-            board.marks.append(Arc(*centre, ANGLE, 0, end, "angle", "phi"))
-        middle = Arc(*centre, ANGLE, 0, 1, "angle").at(end / 2)
-        value = drawing.words.decimal(driver.position.written(drawing.scene.values))
-        board.labels.append(
-            Label(
-                f"{angle_symbol(drawing.scene, driver)} = {value}°",
-                "",
-                middle,
-                2.5,
-                "phi",
-                away=unit(centre, middle),
-            )
-        )
-        draw_sense(board, drawing, centre, end, driver.link)
-
-
-def drawn_angle(drawing: Drawing, driver: Driver) -> float:
-    """The driver's angle in degrees, as written where that is less than a turn either way."""
-    turn = degrees(phase(complex(driver.position.direction(drawing.scene.values))))
-    written = degrees(float(driver.position.si(drawing.scene.values)))
-    return written if abs(written) < 360 else turn % 360
-
-
-def unit(start: XY, end: XY) -> XY:
-    """The way from one place to another as a unit vector."""
-    length = hypot(end[0] - start[0], end[1] - start[1])
-    return (end[0] - start[0]) / length, (end[1] - start[1]) / length
-
-
-def draw_sense(board: Board, drawing: Drawing, centre: XY, end: float, link: str) -> None:
-    """A turning arrow beyond the crank, in the sense of its angular velocity."""
-    omega = drawing.trace.value("omega", link)
-    if not omega:
-        return
-    sign = 1 if omega > 0 else -1
-    arc = (end + sign * 12, end + sign * 70)
-    board.marks += turned_arrow(centre, ANGLE - 3, *arc, "sense")
-    at = Arc(*centre, ANGLE - 3, 0, 1, "sense").at((arc[0] + arc[1]) / 2)
-    board.labels.append(Label(f"*ω*_{{{escape(link)}}}", "", at, 2.5, f"omega {link}"))

@@ -53,4 +53,4 @@ def answer(drawing: Drawing, value: float) -> str:
 
 def length_of(drawing: Drawing, p: str, q: str) -> float:
     """Length of a bar in metres."""
-    return abs(drawing.positions[q] - drawing.positions[p])
+    return abs(drawing.standing.spot(q) - drawing.standing.spot(p))

@@ -168,7 +168,7 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
     part = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
     unit, axes = drawing.scene.units["length"], drawing.words("calculation.axes")
     for _, step, value in drawing.mechanism_steps():
-        if step.part is not part or not isinstance(value, Ratio):
+        if step.part is not part or not isinstance(value, Ratio) or not step.name:
             continue
         point = drawing.place(value)
         if point is None:

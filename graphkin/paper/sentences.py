@@ -21,8 +21,10 @@ LINES = (
     "shifted",
     "velocity-normal",
     "centripetal",
+    "kennedy-line",
+    "inflection-square",
 )
-WHOLE = ("acceleration-pole", "beside", "arm")
+WHOLE = ("acceleration-pole", "beside", "arm", "pin-centre", "guide-centre")
 """Actions whose own sentence says all that the hand does."""
 
 
@@ -30,7 +32,17 @@ SCALED = ("turned-velocity", "centripetal")
 """Actions that draw a vector as long as its bar, if the scale follows from the driver."""
 
 
-CENTRES = ("instant-centre", "acceleration-pole")
+CENTRES = ("instant-centre", "acceleration-pole", "relative-centre", "inflection-pole")
+
+
+SAID = ("relative-centre", "inflection-pole")
+"""Actions whose sentence hangs on how the plan finds their point."""
+STILL = ("instant-centre", "acceleration-pole")
+"""Centres and poles that may be a point of the link from which the hand would draw a ray."""
+
+
+OWN_WORDS = ("kennedy-line", "kennedy-endless", "pin-centre", "guide-centre")
+"""Steps of relative centres whose words do not hang on how the centre is found."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +68,11 @@ def sentences(drawing: Drawing) -> list[Sentence]:
             found.append(Sentence(number, name, normal_sentence(drawing, step, first=first)))
         elif is_found_point(drawing, number, step) and not is_again(drawing, step):
             found.append(Sentence(number, step.name, point_sentence(drawing, number, step)))
+    found += [
+        Sentence(-1, curve.kind, drawing.words(f"step.{curve.kind}", of=symbol(curve.of)))
+        for curve in drawing.curves
+        if curve.kind != "fixed-centrode"
+    ]
     last = Sentence(-1, "", drawing.words(f"step.read-{drawing.kind}"))
     return [*merged(drawing, found), last]
 
@@ -109,6 +126,8 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         key = "step.square-to-end"
     elif step.action.key == "ray" and "g" in step.says:
         key = "step.guide"
+    elif step.action.key in OWN_WORDS:
+        key += far_end(drawing, step, fields)
     elif step.action.key == "similar-point" and in_line(drawing, step):
         key = "step.similar-in-line"
     elif step.action.key in SCALED and step.name and not drawing.scales.from_driver:
@@ -117,6 +136,8 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
         key = f"step.{words_of.action.key}-{odd}"
     elif step.action.key == "acceleration-pole" and step.by_hand is None:
         key += "-pivot"
+    elif step.action.key in SAID and "how" in step.says:
+        key += f"-{step.says['how']}"
     elif step.action.key == "centripetal" and not step.name:
         key = "step.lay-off"
     elif words_of.action and words_of.action.key == "instant-centre":
@@ -130,6 +151,16 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
     return drawing.words(key, name=symbol(name), **fields)
 
 
+def far_end(drawing: Drawing, step: Step, fields: dict[str, str]) -> str:
+    """What is added to the key of a line of centres of which one is at infinity, named last."""
+    if step.action is None or step.action.key != "kennedy-line":
+        return ""
+    ends = [drawing.place(drawing.trace.values[arg]) for arg in step.args]
+    if ends[0] is None:
+        fields["m"], fields["n"] = fields["n"], fields["m"]
+    return "-far" if None in ends else ""
+
+
 def oddity(drawing: Drawing, step: Step) -> str:
     """What is odd about a centre or pole: everywhere, far (at infinity), or still at one point."""
     value = drawing.trace.values[number_of(drawing, step)]
@@ -138,7 +169,7 @@ def oddity(drawing: Drawing, step: Step) -> str:
     if drawing.place(value) is None:
         return "far"
     lost = step.by_hand is not None and step.by_hand not in drawing.trace.values
-    return "still" if lost else ""
+    return "still" if lost and step.action and step.action.key in STILL else ""
 
 
 def in_line(drawing: Drawing, step: Step) -> bool:
@@ -151,7 +182,7 @@ def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str
     """The symbols that a sentence needs: its names, its bar, its vector, its similar figures."""
     assert step.action is not None
     fields = {key: symbol(value) for key, value in says.items()}
-    fields |= {key: escape(says[key]) for key in ("k", "g") if key in says}
+    fields |= {key: escape(says[key]) for key in ("j", "k", "g") if key in says}
     if "p" in says and "q" in says:
         fields["bar"] = bar(says["p"], says["q"])
     names = [drawing.trace.program.steps[arg].name for arg in step.args]
@@ -172,6 +203,14 @@ def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str
             fields["drawn"] = drawn_length(drawing, number_of(drawing, step), step.args[0])
         case "lay-off":
             fields["vector"] = symbol(f"a_{says['i']}^ν")
+        case "inflection-point":
+            away = drawing.trace.values[number_of(drawing, step)]
+            away -= drawing.trace.values[step.args[0]]
+            drawn = drawing.words.fixed(1000 * abs(away) / drawing.scales.kL, 1)
+            fields["drawn"], fields["a"] = drawn, symbol(f"a_{says['p']}")
+            fields["omega"] = symbol(f"ω_{says['k']}")
+        case "inflection-pole":
+            fields["omega"] = symbol(f"ω_{says['k']}")
         case "velocity-normal":
             fields["v"] = symbol(f"v_{says['p']}")
         case "acceleration-pole":
@@ -216,8 +255,63 @@ def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
     return drawing.words("step.normal" if first else "step.normal-again", **fields)
 
 
+def with_centres_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
+    """The centres that are there at once said in one sentence; so are those by two lines.
+
+    Of the latter the first is said in full, and so is each whose lines do anything unusual.
+    """
+    steps = drawing.trace.program.steps
+    at_once, crossed = [], []
+    for said in found:
+        step = steps[said.step] if said.step >= 0 else None
+        key = step.action.key if step is not None and step.action is not None else ""
+        if key in ("pin-centre", "guide-centre"):
+            at_once.append(said)
+        elif key == "relative-centre" and step is not None and is_plain_crossing(drawing, step):
+            crossed.append(said)
+    if at_once:
+        guided = any(steps[said.step].says.get("g") for said in at_once)
+        listed = drawing.words("list_mark").join(said.markup for said in at_once)
+        markup = drawing.words(f"step.centres-{'guided' if guided else 'pinned'}", list=listed)
+        found = together(found, at_once, markup)
+    if len(crossed) > 2:
+        listed = drawing.words("list_mark").join(crossing(drawing, said) for said in crossed[1:])
+        found = together(found, crossed[1:], drawing.words("step.centres-crossed", list=listed))
+    return found
+
+
+def together(found: list[Sentence], some: list[Sentence], markup: str) -> list[Sentence]:
+    """Several sentences said in one, at the place of the first of them."""
+    place = found.index(some[0])
+    kept = [said for said in found if said not in some]
+    return [*kept[:place], Sentence(some[-1].step, some[-1].name, markup), *kept[place:]]
+
+
+def is_plain_crossing(drawing: Drawing, step: Step) -> bool:
+    """True for a centre at a place, where two lines of centres meet."""
+    hand = lines_of(drawing, step)
+    return len(hand) == 2 and not oddity(drawing, step)
+
+
+def lines_of(drawing: Drawing, step: Step) -> list[Step]:
+    """The lines of centres that meet in a relative centre."""
+    steps = drawing.trace.program.steps
+    if step.by_hand is None or step.by_hand not in drawing.trace.values:
+        return []
+    lines = [steps[arg] for arg in steps[step.by_hand].args]
+    return [line for line in lines if line.action and line.action.key == "kennedy-line"]
+
+
+def crossing(drawing: Drawing, said: Sentence) -> str:
+    """A centre with the two lines that meet in it, as I₁₃ (I₁₂I₂₃, I₁₄I₃₄)."""
+    step = drawing.trace.program.steps[said.step]
+    lines = (symbol(line.says["m"]) + symbol(line.says["n"]) for line in lines_of(drawing, step))
+    return f"{symbol(step.name)} ({drawing.words('list_mark').join(lines)})"
+
+
 def merged(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
     """The other right triangles said in one sentence, after the one that is said in full."""
+    found = with_centres_together(drawing, found)
     rest = [sentence for sentence in found if sentence.name == "ν"]
     if not rest:
         return found

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from graphkin.errors import PageError, Problem
-from graphkin.paper import construct, mechanism
+from graphkin.paper import construct, inputs, mechanism
 from graphkin.paper.areas import A3_AREA, AREA, BELOW, TABLES, Rect
 from graphkin.paper.data import given
-from graphkin.paper.desk import Desk
+from graphkin.paper.desk import Desk, above_foot
 from graphkin.paper.detail import with_detail
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import TitleBlock, check_bar, sheet_frame
@@ -14,6 +14,7 @@ from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
 from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.sentences import sentences
@@ -132,18 +133,17 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     caption = words("page.mechanism_heading", scale=drawing.scales.words, kL=kL)
     board.marks.append(headline(field.rect, caption, layout))
     if view == "task":
-        for link in drawing.scene.links.values():
-            mechanism.draw_guide_line(board, drawing, field, link)
         mechanism.draw_frame(board, drawing, field)
         return board
     desk = Desk(board, field, drawing, layout)
     mechanism.draw_plates(board, drawing, field)
+    draw_curves(board, drawing, field, above_foot(field.rect))
     construct.draw_mechanism_steps(desk, found=True)
+    mechanism.draw_ground(board, drawing, field)
     mechanism.draw_bars(board, drawing, field)
-    mechanism.draw_frame(board, drawing, field)
     construct.draw_mechanism_steps(desk, found=False)
     if drawing.kind == "velocity":
-        mechanism.draw_drivers(board, drawing, field)
+        inputs.draw_drivers(board, drawing, field)
     mechanism.draw_pins(board, drawing, field)
     return board
 
@@ -205,14 +205,18 @@ def asked(drawing: Drawing) -> list[str]:
         "velocity": ask.velocity if first else (),
         "omega": ask.omega if first else (),
         "centres": ask.centres if first else (),
+        "pairs": ask.pairs if first else (),
+        "centrodes": ask.centrodes if first else (),
+        "curves": ask.curves if first else (),
         "acceleration": () if first else ask.acceleration,
         "epsilon": () if first else ask.epsilon,
         "poles": () if first else ask.poles,
+        "inflection": () if first else ask.inflection,
     }
     return [
         words(
             f"ask.{what}" + ("_many" if len(names) > 1 else ""),
-            list=words("list_mark").join(symbol(name) for name in names),
+            list=words("list_mark").join(symbol(name.replace("@", "")) for name in names),
         )
         for what, names in groups.items()
         if names

@@ -7,7 +7,7 @@ import re
 from graphkin.paper.richtext import escape
 
 NAME = re.compile(
-    r"^(?P<letter>[^\W\d_]+)(?P<index>\d*)(?P<prime>[′″‴⁗]?)(?:_(?P<sub>\w+))?"
+    r"^(?P<letter>[^\W\d_]+)(?P<index>\d*)(?P<prime>[′″‴⁗]?)(?:_(?P<sub>[\w,]+))?"
     r"(?:\^(?P<sup>\w))?$"
 )
 FOURTH = "⁗"

@@ -14,7 +14,23 @@ HEAD = 3.2
 """Length of an arrowhead in mm; short vectors get smaller ones, below SHORT none."""
 SHORT = 2.0
 PIN = 1.1
+"""Radius of a pin in mm."""
+FIXED = 1.3
+"""Radius of a pin of the frame in mm."""
+FREE = 0.8
+"""Radius of the mark of a point that joins no links, in mm."""
+HINGE = 0.9
+"""How much wider each further circle of a multiple hinge is, in mm."""
+PIVOT = 5.6
+"""Height of a fixed pivot's triangle in mm."""
 BLOCK = (11.0, 6.4)
+"""Length and width of a block in mm."""
+SLOT = 1.75
+"""Half the width of a slot in mm."""
+ROUND = 10
+"""Chords of a slot's round end."""
+WELD = 2.4
+"""Side of the filled corner between two bars that are joined rigidly, in mm."""
 
 
 def arrow(tail: XY, tip: XY, cls: str, name: str, step: int | None = None) -> Iterator[Mark]:
@@ -39,9 +55,9 @@ def head(tail: XY, tip: XY, cls: str, name: str = "", step: int | None = None) -
     return polygon(corners, f"arrowhead {cls.split(maxsplit=1)[0]}", name, step)
 
 
-def pin(at: XY, name: str) -> Mark:
+def pin(at: XY, name: str, radius: float = PIN) -> Mark:
     """A turning pair: a small open circle."""
-    return Circle(*at, PIN, "pin", name)
+    return Circle(*at, radius, "pin", name)
 
 
 def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = 2.0) -> Iterator[Mark]:
@@ -54,26 +70,68 @@ def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = 2.0) -> 
         yield Line(x, y, x - depth * (u + v), y - depth * (v - u), "ground")
 
 
-def fixed_pivot(at: XY, name: str) -> Iterator[Mark]:
+def fixed_pivot(at: XY, name: str, height: float = PIVOT) -> Iterator[Mark]:
     """A pin on the ground: a triangle on a hatched line, the pin's circle at its top."""
+    yield from pivot_ground(at, height)
+    yield pin(at, name, FIXED)
+
+
+def pivot_ground(at: XY, height: float = PIVOT) -> Iterator[Mark]:
+    """The triangle on a hatched line that carries a pin of the frame."""
     x, y = at
-    yield polygon((at, (x - 3.2, y + 5.6), (x + 3.2, y + 5.6)), "fixed-pivot")
-    yield from hatched((x - 5.2, y + 5.6), (x + 5.2, y + 5.6))
-    yield Circle(x, y, PIN + 0.2, "pin", name)
+    half = 3.2 * height / PIVOT
+    yield polygon((at, (x - half, y + height), (x + half, y + height)), "fixed-pivot")
+    yield from hatched((x - half - 2, y + height), (x + half + 2, y + height))
 
 
-def block_on_guide(at: XY, way: XY, length: float, name: str) -> Iterator[Mark]:
-    """A block between the two hatched sides of its guide."""
-    u, v = way
+def across(at: XY, way: XY, along: float, aside: float) -> XY:
+    """The place so far along a unit way of the page and so far to its right as one walks."""
+    return at[0] + along * way[0] - aside * way[1], at[1] + along * way[1] + aside * way[0]
+
+
+def rails(at: XY, way: XY, low: float, high: float) -> Iterator[Mark]:
+    """The two sides of a guide of the frame, hatched outside; from ``low`` to ``high`` along it."""
     half = BLOCK[1] / 2
+    yield from hatched(across(at, way, low, half), across(at, way, high, half))
+    yield from hatched(across(at, way, high, -half), across(at, way, low, -half))
 
-    def place(along: float, across: float) -> XY:
-        return at[0] + along * u - across * v, at[1] + along * v + across * u
 
-    yield from hatched(place(-length, half), place(length, half))
-    yield from hatched(place(length, -half), place(-length, -half))
-    a, b = BLOCK[0] / 2, half
-    yield polygon((place(-a, -b), place(a, -b), place(a, b), place(-a, b)), "slider", name)
+def block(at: XY, way: XY, name: str, cls: str = "block") -> Mark:
+    """A sliding block: a rectangle turned along its guide; on the frame its class is slider."""
+    a, b = BLOCK[0] / 2, BLOCK[1] / 2
+    corners = ((-a, -b), (a, -b), (a, b), (-a, b))
+    return polygon(tuple(across(at, way, *corner) for corner in corners), cls, name)
+
+
+def block_side(at: XY, way: XY) -> tuple[XY, XY]:
+    """The side of a block that its number stands at."""
+    return across(at, way, -3, -BLOCK[1] / 2), across(at, way, 3, -BLOCK[1] / 2)
+
+
+def slot(at: XY, way: XY, low: float, high: float, name: str) -> Mark:
+    """A straight slot: two parallel lines with round ends, from ``low`` to ``high`` along it."""
+    corners = []
+    for end, start in ((high, -90), (low, 90)):
+        for i in range(ROUND + 1):
+            turn = radians(start + 180 * i / ROUND)
+            corners.append(across(at, way, end + SLOT * cos(turn), SLOT * sin(turn)))
+    return polygon(tuple(corners), "slot", name)
+
+
+def slot_ground(at: XY, way: XY, low: float, high: float) -> Iterator[Mark]:
+    """Hatching beside both sides of a slot that is cut in the frame."""
+    for first, last, side in ((low, high, SLOT), (high, low, -SLOT)):
+        marks = hatched(across(at, way, first, side), across(at, way, last, side))
+        yield from (mark for mark in marks if mark.cls == "ground")
+
+
+def weld(corner: XY, first: XY, second: XY, name: str) -> Mark:
+    """The filled corner that joins two bars rigidly; the ways are unit vectors on the page."""
+    ends = (
+        (corner[0] + WELD * first[0], corner[1] + WELD * first[1]),
+        (corner[0] + WELD * second[0], corner[1] + WELD * second[1]),
+    )
+    return polygon((corner, *ends), "weld", name)
 
 
 def turned_arrow(centre: XY, radius: float, start: float, end: float, cls: str) -> Iterator[Mark]:

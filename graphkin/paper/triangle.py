@@ -18,7 +18,7 @@ def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> No
     """The relative velocity set at its pin, and b″ at its tip."""
     if is_tiny(desk, step, value):
         return
-    tail, tip = desk.field(desk.drawing.positions[step.says["q"]]), desk.field(value)
+    tail, tip = desk.field(desk.drawing.standing.spot(step.says["q"])), desk.field(value)
     name = "v_" + step.says["i"]
     desk.board.marks += arrow(tail, tip, "relative-velocity", name, number)
     desk.board.labels.append(
@@ -29,14 +29,14 @@ def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> No
 
 def is_tiny(desk: Desk, step: Step, tip: complex) -> bool:
     """True when a right triangle is too small to be seen: its velocity is hardly any."""
-    return abs(tip - desk.drawing.positions[step.says["q"]]) * desk.field.mm < TINY
+    return abs(tip - desk.drawing.standing.spot(step.says["q"])) * desk.field.mm < TINY
 
 
 def put_triangle_edge(desk: Desk, number: int, step: Step, value: Any) -> None:
     """From the pivot to b″, and at b″ square to it as far as the bar's line."""
     if is_tiny(desk, step, value.point):
         return
-    pivot = desk.field(desk.drawing.positions[step.says["p"]])
+    pivot = desk.field(desk.drawing.standing.spot(step.says["p"]))
     corner = desk.field(value.point)
     desk.board.marks.append(Line(*pivot, *corner, "construction", step.name, number))
     ends = line_ends(desk, number, value)
@@ -64,7 +64,7 @@ def put_bar_line(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
     """b‴ turned over into b⁗, and the normal component from the pin to b⁗."""
-    pin = desk.drawing.positions[step.says["q"]]
+    pin = desk.drawing.standing.spot(step.says["q"])
     at, end = desk.field(pin), desk.field(value)
     radius = hypot(end[0] - at[0], end[1] - at[1])
     name = f"a_{step.says['i']}^ν"
@@ -93,7 +93,7 @@ def put_crossing(desk: Desk, number: int, step: Step, value: Any) -> None:
 def put_construction_point(desk: Desk, number: int, step: Step, value: Any) -> None:
     """A small named point of the right triangle, unless it falls on its pin."""
     at = desk.field(value)
-    if abs(value - desk.drawing.positions[step.says["q"]]) * desk.field.mm < TINY:
+    if abs(value - desk.drawing.standing.spot(step.says["q"])) * desk.field.mm < TINY:
         return
     name = short_name(desk, step)
     desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))

@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from graphkin.plans.links import Base, crank_tip
-from graphkin.plans.pen import PRIME, Pen, Says, about, second_image
+from graphkin.plans import wheels
+from graphkin.plans.carried import coriolis_of, image_under, omega_of, second_image_under
+from graphkin.plans.guides import known_guide
+from graphkin.plans.links import Base, crank_tip, under
+from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
+from graphkin.plans.pen import PRIME, Pen, Says, about, letter, named, second_image
 from graphkin.plans.position import crosses_well
 from graphkin.plans.shape import Shapes
-from graphkin.plans.velocity import along_guide, named
+from graphkin.plans.velocity import driven_rate, line_of
+from graphkin.scene.model import FRAME
+from graphkin.steps.guides import driven_slide, lay_back, lay_off_turned
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
-    bar_line,
     centripetal,
     driven_tangential,
-    epsilon,
     join,
-    lay_off,
     meet,
-    normal,
-    normal_by_hand,
+    parallel_to,
+    part_along,
     set_on_twice,
-    set_velocity,
     similar_point,
-    square_at,
-    square_to,
-    turn_over,
 )
-from graphkin.structure.graph import Pin
-from graphkin.structure.groups import Crank, Dyad
+from graphkin.structure.graph import Contact, Pin, Sliding
+from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
+from graphkin.structure.joints import Joint, partner
 
 
 def frame(pen: Pen) -> None:
@@ -36,95 +36,206 @@ def frame(pen: Pen) -> None:
         pen.want("acceleration", point, pen.pole(Plane.ACCELERATIONS))
 
 
-def crank(pen: Pen, group: Crank) -> None:
+def crank(pen: Pen, shapes: Shapes, group: Crank) -> None:
     """Acceleration of a driven tip: from tip to pivot, and square to the bar if it speeds up."""
-    pivot, tip = group.pivot, crank_tip(pen.scene, group)
+    tip, driver = crank_tip(pen.scene, group), group.driver
+    rate = pen.drive(driver).acceleration
+    pen.want("epsilon", group.link, driven_rate(pen, group, "epsilon", rate))
+    if tip is not None:
+        steady = driver.acceleration.is_zero() and not pen.turns(other_of(driver, group.link))
+        turn_tip(pen, group.link, group.pivot, tip, steady=steady)
+
+
+def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False) -> None:
+    """Second image of a point of a link whose rates are known, from that of its pivot."""
     ends = pen.the("position", pivot), pen.the("position", tip)
     start = pen.the("acceleration", pivot)
-    says: Says = {"p": pivot, "q": tip, "s": named(pen, start)}
-    rate = pen.given("number", group.driver.acceleration, name="epsilon")
-    pen.want("epsilon", group.link, rate)
-    steady = group.driver.acceleration.is_zero()
+    says: Says = {"p": pivot, "q": tip, "s": named(pen, start), "i": about(pen, tip, pivot)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         name = second_image(tip) if steady else ""
-        found = pen.draw(centripetal, start, *ends, pen.the("omega", group.link), name=name, **says)
+        found = pen.draw(centripetal, start, *ends, pen.the("omega", link), name=name, **says)
         if not steady:
             component_arrow(pen, start, found, "ν", tip, pivot)
-            corner = found
+            corner, rate = found, pen.the("epsilon", link)
             found = pen.draw(driven_tangential, found, *ends, rate, name=second_image(tip), **says)
             component_arrow(pen, corner, found, "τ", tip, pivot)
     pen.want("acceleration", tip, found)
     arrow_to(pen, tip)
 
 
-def dyad(pen: Pen, group: Dyad) -> None:
-    """Second image of an inner pin: normal components laid off, tangential ones crossed."""
-    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
-    left, pin = group.left.point, group.inner.point
-    rights = [group.right.point] if isinstance(group.right, Pin) else []
-    normals = {pivot: normal_component(pen, pivot, pin) for pivot in (left, *rights)}
+def driven(pen: Pen, shapes: Shapes, group: Driven) -> None:
+    """Second image of a driven slider or wheel: Coriolis where its guide turns, then along it."""
+    if isinstance(group.pair, Contact):
+        rate = wheels.given_speed(pen, group.driver, group.pair, "acceleration")
+    else:
+        rate = pen.drive(group.driver).acceleration
+    slide_on(pen, shapes, group.pair, group.link, rate)
+
+
+def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, rate: int) -> None:
+    """Second image of the point of a link that slides, or rolls, with a rate along its guide."""
+    point, known = pen.bases[link].start, partner(pair, link)
+    way = 1 if pair.links[0] == link else -1
+    line = line_of(pen, shapes, pair, link, point)
+    vector = slide_coriolis(pen, pair, link, point, point)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = lay_off_coriolis(pen, pair, link, point, point, vector)
+        says: Says = {"q": point, "g": pair.links[0], "s": named(pen, corner)}
+        found = pen.draw(
+            driven_slide, corner, line, rate, name=second_image(point), extra=(way,), **says
+        )
+        slide_arrow(pen, corner, found, known, point)
+    pen.want("acceleration", point, found)
+    arrow_to(pen, point)
+    if isinstance(pair, Contact):
+        wheels.second_touch(pen, pair)
+
+
+def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
+    """Second image of the point that closes a dyad: known components laid off, others crossed."""
+    first, second = group.links
+    match group.left, group.inner, group.right:
+        case _, Pin(point=pin), _:
+            cross(pen, shapes, pin, pin, [(group.left, first), (group.right, second)])
+        case Pin(), Sliding() as inner, Pin():
+            block, carrier = inner.links
+            base = pen.bases[carrier]
+            assert base.end is not None
+            pivot = Pin(base.start, (carrier, FRAME))
+            pin = pen.bases[block].start
+            cross(pen, shapes, base.end, pin, [(pivot, carrier), (inner, carrier)])
+        case Pin(), Sliding() as inner, Sliding() as right:
+            led = pen.bases[second].start
+            cross(pen, shapes, led, led, [(inner, second), (right, second)])
+
+
+def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joint, str]]) -> None:
+    """The second image of a point from the lines on which two pairs leave it free."""
+    normals = {
+        pair.point: normal_component(pen, pair.point, name)
+        for pair, _ in sides
+        if isinstance(pair, Pin)
+    }
+    coriolis = {
+        pair: slide_coriolis(pen, pair, link, name, point)
+        for pair, link in sides
+        if not isinstance(pair, Pin)
+    }
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         lines: list[int] = []
-        corners: dict[str, int] = {}
-        for pivot, vector in normals.items():
-            corners[pivot] = lay_off_normal(pen, pivot, pin, vector)
-            lines.append(square(pen, pivot, pin, corners[pivot]))
-        if not isinstance(group.right, Pin):
-            lines.append(along_guide(pen, group.right, Plane.ACCELERATIONS))
-        found = pen.draw(meet, *lines, name=second_image(pin))
-        for pivot, corner in corners.items():
-            component_arrow(pen, corner, found, "τ", pin, pivot)
-    pen.want("acceleration", pin, found)
-    arrow_to(pen, pin)
+        corners: list[int] = []
+        for pair, link in sides:
+            if isinstance(pair, Pin):
+                corner = lay_off_normal(pen, pair.point, name, normals[pair.point])
+                lines.append(square(pen, pair.point, name, corner))
+            else:
+                corner = lay_off_coriolis(pen, pair, link, name, point, coriolis[pair])
+                lines.append(along(pen, shapes, pair, link, point, corner))
+            corners.append(corner)
+        found = pen.draw(meet, *lines, name=second_image(name), q=name)
+        for (pair, link), corner in zip(sides, corners, strict=True):
+            if isinstance(pair, Pin):
+                component_arrow(pen, corner, found, "τ", name, pair.point)
+            elif "@" in name:
+                slide_arrow(pen, found, corner, link, point)
+            else:
+                slide_arrow(pen, corner, found, partner(pair, link), point)
+    pen.want("acceleration", name, found)
+    if "@" not in name:
+        arrow_to(pen, name)
+    for pair, _ in sides:
+        if isinstance(pair, Contact):
+            wheels.second_touch(pen, pair)
 
 
-def normal_component(pen: Pen, pivot: str, pin: str) -> int:
-    """The normal component of a pin about a pivot; by hand the right triangle on the mechanism."""
-    places = pen.the("position", pivot), pen.the("position", pin)
-    images = pen.the("velocity", pivot), pen.the("velocity", pin)
-    index = about(pen, pin, pivot)
-    says: Says = {"p": pivot, "q": pin, "i": index}
-    with pen.on(Part.NORMAL, Plane.MECHANISM):
-        by_hand = right_triangle(pen, places, images, says)
-    with pen.on(Part.NORMAL, Plane.NUMBERS):
-        name = f"a_{index}^ν"
-        return pen.draw(normal, *places, *images, name=name, by_hand=by_hand, **says)
+# --- sliding: Coriolis, and the line along the guide ----------------------------------------------
 
 
-def right_triangle(pen: Pen, places: tuple[int, int], images: tuple[int, int], says: Says) -> int:
-    """Velocity at the pin, perpendicular at its tip, cut with the bar, turned over (figure 4)."""
-    seconds = pen.seconds()
-    pivot, pin = places
-    letter, index = says["q"].lower(), says["i"]
-    with pen.hands_way():
-        tip = pen.draw(set_velocity, pin, *images, seconds, name=f"{letter}″_{index}", **says)
-        edge = pen.draw(square_at, tip, pivot, **says, tip=f"{letter}″_{index}")
-        line = pen.draw(bar_line, pivot, pin, **says)
-        cut = pen.draw(meet, edge, line, name=f"{letter}‴_{index}", **says)
-        end = pen.draw(turn_over, cut, pin, name=f"{letter}⁗_{index}", **says)
-        with pen.on(Part.NORMAL, Plane.NUMBERS):
-            return pen.draw(normal_by_hand, pin, end, seconds, **says)
+def slide_coriolis(pen: Pen, pair: Joint, link: str, name: str, point: str) -> int | None:
+    """The Coriolis component of a slide; None where what guides does not turn.
+
+    Where the point of a guide's link under a pin is sought (name A@3, point A), the pin's relative
+    velocity counts, else that of the point against what it slides on.
+    """
+    known = partner(pair, link)
+    if "@" in name:
+        tail, tip = pen.the("velocity", name), pen.the("velocity", point)
+        return coriolis_of(pen, link, tail, tip, point, pair.links[0])
+    if not pen.turns(known):
+        return None
+    tail, tip = image_under(pen, known, point), pen.the("velocity", point)
+    return coriolis_of(pen, known, tail, tip, point, pair.links[0])
 
 
-def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
-    """The normal component laid off from the pivot's second image, parallel to the bar."""
-    start = pen.the("acceleration", pivot)
-    says: Says = {"p": pivot, "q": pin, "s": named(pen, start), "i": about(pen, pin, pivot)}
-    end = pen.draw(lay_off, start, vector, **says)
-    component_arrow(pen, start, end, "ν", pin, pivot)
-    return end
+def lay_off_coriolis(
+    pen: Pen, pair: Joint, link: str, name: str, point: str, vector: int | None
+) -> int:
+    """The end of the Coriolis component, laid off from the point under the sliding one.
+
+    Where that is the one that is sought, it is laid off backwards from the sliding one.
+    """
+    if "@" in name:
+        assert vector is not None
+        tip = pen.the("acceleration", point)
+        says = coriolis_says(pen, link, point, named(pen, tip))
+        corner = pen.draw(lay_back, tip, vector, **says)
+        coriolis_arrow(pen, corner, tip, says)
+        return corner
+    start = second_image_under(pen, partner(pair, link), point)
+    if vector is None:
+        return start
+    says = coriolis_says(pen, partner(pair, link), point, named(pen, start))
+    corner = pen.draw(lay_off_turned, start, vector, **says)
+    coriolis_arrow(pen, start, corner, says)
+    return corner
 
 
-def square(pen: Pen, pivot: str, pin: str, corner: int) -> int:
-    """Through the end of a normal component the perpendicular to its bar."""
-    ends = pen.the("position", pivot), pen.the("position", pin)
-    return pen.draw(square_to, corner, *ends, p=pivot, q=pin, i=about(pen, pin, pivot))
+def guide_corner(pen: Pen, pair: Joint, link: str, point: str) -> int:
+    """Where the known part of a sliding point's acceleration ends: the point under it, Coriolis."""
+    vector = slide_coriolis(pen, pair, link, point, point)
+    return lay_off_coriolis(pen, pair, link, point, point, vector)
+
+
+def coriolis_says(pen: Pen, link: str, point: str, start: str) -> Says:
+    """The names for a Coriolis component."""
+    return {"i": letter(point) + letter(under(point, link)), "k": link, "q": point, "s": start}
+
+
+def coriolis_arrow(pen: Pen, tail: int, tip: int, says: Says) -> None:
+    """The arrow of a Coriolis component."""
+    symbol = f"a_{says['i']}^c"
+    if symbol not in pen.arrows:
+        pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind="c", q=says["q"], p="")
+
+
+def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:
+    """The arrow of a relative acceleration along a guide that moves."""
+    if link == FRAME:
+        return
+    symbol = f"a_{letter(point)}{letter(under(point, link))}^r"
+    if symbol not in pen.arrows:
+        pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind="r", q=point, p="")
+
+
+def along(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str, corner: int) -> int:
+    """Through the end of what is known of a sliding acceleration the parallel to its guide."""
+    assert not isinstance(pair, Pin)
+    line = line_of(pen, shapes, pair, link, point)
+    says: Says = {"s": named(pen, corner), "g": pair.links[0]}
+    return pen.draw(parallel_to, corner, line, **says)
+
+
+def tie(pen: Pen, shapes: Shapes, group: Tie) -> None:
+    """A link between two known points: both second images are there."""
+
+
+# --- the rest of a link --------------------------------------------------------------------------
 
 
 def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
     """Second images of the other points of a link, similar to the link (Mehmke)."""
     if base.end is None:
-        block_points(pen, base)
+        led_points(pen, base)
         return
     ends = pen.the("acceleration", base.start), pen.the("acceleration", base.end)
     for point in base.others:
@@ -132,10 +243,10 @@ def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
             continue
         by_hand: int | None = None
         corners: dict[str, int] = {}
-        if crosses_well(pen, shapes, base, point):
+        ratio = shapes.ratio_of(base, point)
+        if crosses_well(pen, ratio):
             by_hand, corners = two_perpendiculars(pen, base, point)
-        ratio = shapes.ratio(base.link, base.start, base.end, point)
-        says: Says = {"p": base.start, "q": base.end, "r": point}
+        says: Says = {"p": letter(base.start), "q": letter(base.end), "r": point}
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             found = pen.draw(
                 similar_point, *ends, ratio, name=second_image(point), by_hand=by_hand, **says
@@ -146,15 +257,20 @@ def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
         arrow_to(pen, point)
 
 
-def block_points(pen: Pen, base: Base) -> None:
-    """All points of a block on a fixed guide have one second image."""
+def led_points(pen: Pen, base: Base) -> None:
+    """The other points of a link that turns with its guide; where it only shifts, one image."""
     for point in base.others:
-        if not pen.has("acceleration", point):
-            start = pen.the("acceleration", base.start)
-            with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-                found = pen.draw(alike, start, name=second_image(point), p=base.start, q=point)
-            pen.want("acceleration", point, found)
-            arrow_to(pen, point)
+        if pen.has("acceleration", point):
+            continue
+        if pen.turns(base.link):
+            omega_of(pen, base.link), omega_of(pen, base.link, "epsilon")
+            turn_tip(pen, base.link, base.start, point)
+            continue
+        start = pen.the("acceleration", base.start)
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            found = pen.draw(alike, start, name=second_image(point), p=base.start, q=point)
+        pen.want("acceleration", point, found)
+        arrow_to(pen, point)
 
 
 def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str, int]]:
@@ -174,16 +290,23 @@ def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str,
 
 def turning(pen: Pen, base: Base) -> None:
     """Angular acceleration of a link: tangential component over length, with its sense."""
-    if base.end is None or pen.has("epsilon", base.link):
-        return
-    ends = [
-        pen.the(what, point)
-        for what in ("position", "acceleration")
-        for point in (base.start, base.end)
-    ]
+    omega_of(pen, base.link, "epsilon")
+
+
+def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
+    """Acceleration of a block along its guide, and its Coriolis acceleration where that turns."""
+    pair = pen.first_slide(block)
+    first = pen.scene.link(block).points[0]
+    start = second_image_under(pen, pair.links[1], first)
+    guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
+    if pen.turns(pair.links[1]):
+        tail = image_under(pen, pair.links[1], first)
+        vector = coriolis_of(pen, pair.links[1], tail, pen.the("velocity", first), first, block)
+        pen.want("coriolis", block, vector)
+        with pen.on(Part.RESULT, Plane.NUMBERS):
+            start = pen.draw(lay_off_turned, start, vector, q=first)
     with pen.on(Part.RESULT, Plane.NUMBERS):
-        found = pen.draw(epsilon, *ends, name=base.link, p=base.start, q=base.end)
-    pen.want("epsilon", base.link, found)
+        pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))
 
 
 def arrow_to(pen: Pen, pin: str) -> None:
@@ -200,9 +323,3 @@ def set_on_mechanism(pen: Pen, point: str) -> None:
     with pen.on(Part.ACCELERATION, Plane.MECHANISM):
         name = f"a_{point}"
         pen.arrow(set_on_twice, *ends, pen.seconds(), name=name, symbol=name)
-
-
-def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
-    """The arrow of a normal (ν) or tangential (τ) component."""
-    symbol = f"a_{about(pen, pin, pivot)}^{kind}"
-    pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind=kind, q=pin, p=pivot)

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from graphkin.errors import Problem, StructureError
-from graphkin.plans import acceleration, centres, position, velocity
-from graphkin.plans.links import Base, bases, crank_tip, unused_branches
+from graphkin.plans import (
+    acceleration,
+    carried,
+    centres,
+    higher,
+    position,
+    rolling,
+    velocity,
+    wheels,
+)
+from graphkin.plans.guides import axis, standing_guide
+from graphkin.plans.links import Base, bases, crank_tip, leads_of, refuse_unstated, unused_branches
 from graphkin.plans.pen import Pen
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import Scene
-from graphkin.steps.program import Program
-from graphkin.structure.groups import Crank, Dyad, Group
+from graphkin.steps.program import Part, Plane, Program
+from graphkin.steps.vocabulary import coordinate
+from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Group, Higher, Tie, Train
 
 Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
@@ -20,14 +31,21 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
     standing = stand(scene, groups)
     pen = Pen(scene)
     shapes = Shapes(pen)
-    write_positions(pen, shapes, standing)
+    position.frame(pen)
+    for group, found in standing:
+        place(pen, shapes, group, found)
+        if isinstance(group, Tie):
+            position.refuse_misfit(pen, shapes, group)
+    write_turning(pen, shapes)
     write_velocities(pen, shapes, standing)
     write_accelerations(pen, shapes, standing)
     every = [base for _, found in standing for base in found]
     for base in every:
         centres.centre(pen, base)
+    centres.relative(pen)
     for base in every:
         centres.pole(pen, base)
+        centres.inflection(pen, base)
     return pen.program()
 
 
@@ -38,6 +56,7 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
     for group in groups:
         try:
             standing.append((group, bases(scene, group)))
+            refuse_unstated(scene, group)
         except StructureError as error:
             problems += error.problems
     problems += [] if problems else unused_branches(scene, groups)
@@ -46,50 +65,123 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
     return standing
 
 
-def write_positions(pen: Pen, shapes: Shapes, standing: Standing) -> None:
-    """The mechanism to scale."""
-    position.frame(pen)
-    for group, found in standing:
-        if isinstance(group, Crank):
+def place(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> None:
+    """The mechanism to scale: one group."""
+    pen.bases |= {base.link: base for base in found}
+    pen.leads |= leads_of(group)
+    match group:
+        case Crank():
             position.crank(pen, shapes, group)
-        elif isinstance(group, Dyad):
+        case Driven():
+            position.driven(pen, shapes, group)
+        case Dyad():
             position.dyad(pen, shapes, group)
-        for base in found:
-            position.plate_points(pen, shapes, base)
+        case Geared():
+            rolling.geared(pen, shapes, group)
+        case Train():
+            rolling.train(pen, shapes, group)
+        case Tie():
+            position.tie(pen, shapes, group)
+        case Higher():
+            higher.position(pen, shapes, group, place)
+            return
+    for base in found:
+        position.plate_points(pen, shapes, base)
+
+
+def write_turning(pen: Pen, shapes: Shapes) -> None:
+    """The axis of every link, and where each block stands on its guide."""
+    for link in pen.scene.links.values():
+        axis(pen, shapes, link.name)
+        if link.slides:
+            guide = standing_guide(pen, shapes, pen.first_slide(link.name))
+            pen.want("guide", link.name, guide)
+            with pen.on(Part.RESULT, Plane.NUMBERS):
+                found = pen.draw(coordinate, guide, pen.the("position", link.points[0]))
+            pen.want("slide", link.name, found)
 
 
 def write_velocities(pen: Pen, shapes: Shapes, standing: Standing) -> None:
     """The velocity plan, the angular velocities, and what is asked set on the mechanism."""
     velocity.frame(pen)
     for group, found in standing:
-        if isinstance(group, Crank):
-            velocity.crank(pen, group)
-        elif isinstance(group, Dyad):
-            velocity.dyad(pen, group)
-        for base in found:
-            velocity.plate_points(pen, shapes, base)
-            velocity.turning(pen, base)
+        move(pen, shapes, group, found)
+    for link in pen.scene.links.values():
+        if link.slides:
+            velocity.sliding(pen, shapes, link.name)
+    for name in pen.scene.ask.velocity:
+        ask_under(pen, name, "velocity")
     for point in shown(pen, standing, pen.scene.ask.velocity):
         velocity.set_on_mechanism(pen, point)
+
+
+def move(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> None:
+    """The velocity plan: one group."""
+    match group:
+        case Crank():
+            velocity.crank(pen, shapes, group)
+        case Driven():
+            velocity.driven(pen, shapes, group)
+        case Dyad():
+            velocity.dyad(pen, shapes, group)
+        case Geared():
+            wheels.geared(pen, group)
+        case Train():
+            wheels.train(pen, group)
+        case Higher():
+            higher.velocity(pen, shapes, group, move)
+            return
+    for base in found:
+        velocity.plate_points(pen, shapes, base)
+        velocity.turning(pen, base)
 
 
 def write_accelerations(pen: Pen, shapes: Shapes, standing: Standing) -> None:
     """The acceleration plan, the angular accelerations, and what is asked set on the mechanism."""
     acceleration.frame(pen)
     for group, found in standing:
-        if isinstance(group, Crank):
-            acceleration.crank(pen, group)
-        elif isinstance(group, Dyad):
-            acceleration.dyad(pen, group)
-        for base in found:
-            acceleration.plate_points(pen, shapes, base)
-            acceleration.turning(pen, base)
-            velocity.sliding(pen, base)
+        accelerate(pen, shapes, group, found)
+    for link in pen.scene.links.values():
+        if link.slides:
+            acceleration.sliding(pen, shapes, link.name)
+    for name in pen.scene.ask.acceleration:
+        ask_under(pen, name, "acceleration")
     for point in shown(pen, standing, pen.scene.ask.acceleration):
         acceleration.set_on_mechanism(pen, point)
+
+
+def accelerate(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> None:
+    """The acceleration plan: one group."""
+    match group:
+        case Crank():
+            acceleration.crank(pen, shapes, group)
+        case Driven():
+            acceleration.driven(pen, shapes, group)
+        case Dyad():
+            acceleration.dyad(pen, shapes, group)
+        case Geared():
+            wheels.second_geared(pen, shapes, group)
+        case Train():
+            wheels.second_train(pen, group)
+        case Higher():
+            higher.acceleration(pen, shapes, group, accelerate)
+            return
+    for base in found:
+        acceleration.plate_points(pen, shapes, base)
+        acceleration.turning(pen, base)
+
+
+def ask_under(pen: Pen, name: str, quantity: str) -> None:
+    """The motion of the point of a link under another's, where it is asked for: A@3."""
+    point, _, link = name.partition("@")
+    if link and not pen.has(quantity, name):
+        number = carried.carried(pen, link, point, quantity)
+        pen.want("position", name, pen.the("position", point))
+        pen.want(quantity, name, number)
 
 
 def shown(pen: Pen, standing: Standing, asked: tuple[str, ...]) -> list[str]:
     """The points whose motion is set on the mechanism: driven tips, and what is asked."""
     tips = [crank_tip(pen.scene, group) for group, _ in standing if isinstance(group, Crank)]
-    return list(dict.fromkeys((*tips, *(p for p in asked if pen.has("position", p)))))
+    asked = tuple(name for name in asked if "@" not in name and pen.has("position", name))
+    return list(dict.fromkeys((*(tip for tip in tips if tip is not None), *asked)))

@@ -5,16 +5,30 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from graphkin.errors import Problem, StructureError
-from graphkin.scene.model import FRAME, Scene, Side, Way
-from graphkin.structure.graph import Pin, Sliding
-from graphkin.structure.groups import Crank, Dyad, Group, Unresolved
+from graphkin.scene.model import Closure, Scene, Side, Way
+from graphkin.steps.program import CONTACT
+from graphkin.structure.graph import Contact, Pin, Sliding
+from graphkin.structure.groups import (
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Tie,
+    Train,
+    Trial,
+    Unresolved,
+)
+from graphkin.structure.joints import Joint, partner
 
 
 @dataclass(frozen=True, slots=True)
 class Base:
     """Two points of a link that its group constructs, and the points that follow from them.
 
-    A link in translation (a block on the frame) has ``end`` None: all its points move alike.
+    ``end`` may be a point of the link under another's, such as A@3. Without one (None) the
+    turning of the link is known otherwise: all follows from ``start``, the axis and omega.
     """
 
     link: str
@@ -29,83 +43,230 @@ def base_of(scene: Scene, link: str, start: str, end: str | None) -> Base:
     return Base(link, start, end, tuple(p for p in points if p not in (start, end)))
 
 
-def crank_tip(scene: Scene, crank: Crank) -> str:
-    """The first point of a driven link beside its pivot, along the line whose angle is given."""
+def under(point: str, link: str) -> str:
+    """Name of the point of a link under another link's point."""
+    return f"{point}@{link}"
+
+
+def contact_name(contact: Contact) -> str:
+    """Name of the point where a wheel touches what it rolls on: their common centre.
+
+    The mark before it keeps it apart from the points of the scene.
+    """
+    names = [link if link.isdigit() else f"_{link}" for link in contact.links]
+    return CONTACT + "I" + "".join(names)
+
+
+def crank_tip(scene: Scene, crank: Crank) -> str | None:
+    """The first point of a driven link beside its pivot, along the line whose angle is given.
+
+    None for a wheel that has its pivot only.
+    """
     points = scene.link(crank.link).points
-    line = crank.driver.of or points[:2]
-    for point in (*line, *points):
-        if point != crank.pivot:
-            return point
-    raise StructureError(
-        Problem(
-            f"links.{crank.link}",
-            f"has only the point {crank.pivot}",
-            "a second point",
-            "a crank is a bar: write a length such as O-A = 30",
-        )
-    )
+    line = (crank.driver.of if crank.driver.link == crank.link else None) or points[:2]
+    return next((point for point in (*line, *points) if point != crank.pivot), None)
 
 
 def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
     """The bases of a group's links. Raises StructureError for a group without construction."""
-    if isinstance(group, Crank):
-        if group.driver.against != FRAME:
-            raise no_construction(group)
-        return (base_of(scene, group.link, group.pivot, crank_tip(scene, group)),)
-    if not isinstance(group, Dyad) or not isinstance(group.left, Pin):
-        raise no_construction(group)
-    if not isinstance(group.inner, Pin):
-        raise no_construction(group)
-    first, second = group.links
-    left = base_of(scene, first, group.left.point, group.inner.point)
-    if isinstance(group.right, Pin):
-        side_of(scene, group)
-        return left, base_of(scene, second, group.right.point, group.inner.point)
-    if group.right.links != (second, FRAME):
-        raise no_construction(group)
-    way_of(scene, group)
-    return left, base_of(scene, second, group.inner.point, None)
+    match group:
+        case Crank(link=link, pivot=pivot):
+            return (base_of(scene, link, pivot, crank_tip(scene, group)),)
+        case Driven(link=link, pair=pair):
+            return (led_base(scene, link, led_point(scene, link, pair), pair),)
+        case Dyad():
+            return dyad_bases(scene, group)
+        case Geared():
+            return (geared_base(scene, group),)
+        case Train(arm, wheel, Pin(point=pivot), Pin(point=centre), (contact, _)):
+            rim = under(contact_name(contact), wheel)
+            return base_of(scene, arm, pivot, centre), base_of(scene, wheel, centre, rim)
+        case Tie(link, Pin(point=first), Pin(point=second)):
+            return (base_of(scene, link, first, second),)
+        case Tie(link, Pin(point=first), _):
+            return (base_of(scene, link, first, None),)
+        case Higher():
+            chain = [bases(scene, each) for each in (*group.chain, *ending(group))]
+            return (trial_base(scene, group.trial), *(base for each in chain for base in each))
+    raise no_construction(group)
 
 
-def no_construction(group: Group) -> StructureError:
-    """The error for a group that this version reads and counts but does not construct."""
-    links = group.links if not isinstance(group, Crank) else (group.link,)
-    what = "a crank that turns against a moving link"
-    if isinstance(group, Dyad):
-        what = f"a dyad {group.type}" + moving_guide(group)
-    elif isinstance(group, Unresolved):
-        what = "a group of class III or higher, or moved by a driver that slides or rolls"
+def leads_of(group: Group) -> dict[str, str]:
+    """The links that turn as another does, because they slide on one another, and which that is."""
+    match group:
+        case Driven(link=link, pair=Sliding() as pair):
+            return {link: partner(pair, link)}
+        case Geared(link=link, pair=Sliding() as pair):
+            return {link: partner(pair, link)}
+        case Tie(link=link, second=Sliding() as pair):
+            return {link: partner(pair, link)}
+        case Dyad(links=(first, second), left=Pin(), inner=Sliding(), right=Sliding() as right):
+            return {second: partner(right, second), first: second}
+        case Dyad(inner=Sliding(links=(block, carrier))):
+            return {block: carrier}
+        case Dyad(links=links, left=left, right=right):
+            ends = zip(links, (left, right), strict=True)
+            return {each: partner(p, each) for each, p in ends if isinstance(p, Sliding)}
+        case Higher():
+            found: dict[str, str] = {}
+            for each in (*group.chain, *ending(group)):
+                found |= leads_of(each)
+            trial = group.trial
+            if isinstance(trial.pair, Sliding):
+                found[trial.link] = partner(trial.pair, trial.link)
+            return found
+    return {}
+
+
+def ending(group: Higher) -> tuple[Tie, ...]:
+    """The link that closes a group last, if a link does."""
+    return (group.last,) if isinstance(group.last, Tie) else ()
+
+
+def trial_base(scene: Scene, trial: Trial) -> Base:
+    """The base of a tried link: its pin and another point, or the point that a guide leads."""
+    if isinstance(trial.pair, Pin):
+        pivot = trial.pair.point
+        tip = next((p for p in scene.link(trial.link).points if p != pivot), None)
+        return base_of(scene, trial.link, pivot, tip)
+    point = led_point(scene, trial.link, trial.pair)
+    return led_base(scene, trial.link, point, trial.pair)
+
+
+def led_point(scene: Scene, link: str, pair: Joint) -> str:
+    """The point of a link that a slide or a track leads on a line."""
+    if isinstance(pair, Contact) and pair.links[0] == link:
+        return pair.wheel.centre
+    return scene.link(link).points[0]
+
+
+def dyad_bases(scene: Scene, dyad: Dyad) -> tuple[Base, ...]:
+    """The bases of the two links of a dyad."""
+    first, second = dyad.links
+    match dyad.left, dyad.inner, dyad.right:
+        case Pin(left), Pin(pin), Pin(right):
+            return base_of(scene, first, left, pin), base_of(scene, second, right, pin)
+        case Pin(left), Pin(pin), Sliding():
+            return base_of(scene, first, left, pin), base_of(scene, second, pin, None)
+        case Pin(left), Pin(pin), Contact() as contact:
+            return base_of(scene, first, left, pin), wheel_base(scene, second, pin, contact)
+        case Pin(left), Sliding() as slide, Pin(right):
+            block, carrier = slide.links
+            pins = {first: left, second: right}
+            foot = Base(carrier, pins[carrier], under(pins[block], carrier), ())
+            others = tuple(p for p in scene.link(carrier).points if p != foot.start)
+            found = {
+                carrier: Base(carrier, foot.start, foot.end, others),
+                block: base_of(scene, block, pins[block], None),
+            }
+            return found[carrier], found[block]
+        case Sliding() | Contact(), Pin(pin), Sliding() | Contact():
+            return led_base(scene, first, pin, dyad.left), led_base(scene, second, pin, dyad.right)
+        case Pin(left), Sliding(), Sliding():
+            led = scene.link(second).points[0]
+            return base_of(scene, first, left, None), base_of(scene, second, led, None)
+    raise no_construction(dyad)
+
+
+def led_base(scene: Scene, link: str, pin: str, pair: Joint) -> Base:
+    """The base of a link that a slide or a track leads, by its pin."""
+    if isinstance(pair, Contact):
+        return wheel_base(scene, link, pin, pair)
+    return base_of(scene, link, pin, None)
+
+
+def wheel_base(scene: Scene, link: str, pin: str, contact: Contact) -> Base:
+    """The base of a wheel on a track: its pin and its point of contact."""
+    if contact.links[0] != link:
+        raise no_track(link)
+    return base_of(scene, link, pin, under(contact_name(contact), link))
+
+
+def no_track(link: str) -> StructureError:
+    """The error for a track that a pin and a wheel are to carry: it is not constructed."""
     return StructureError(
         Problem(
-            "links." + ", ".join(links),
-            f"are {what}, which this version reads but does not construct",
-            "cranks on the frame, dyads RRR, and dyads RRP on a guide of the frame",
-            "graphkin check names every group",
+            f"links.{link}",
+            "is a straight track that only a wheel and a pin hold",
+            "a track that slides, is driven, or belongs to the frame",
         )
     )
 
 
+def geared_base(scene: Scene, group: Geared) -> Base:
+    """The base of a geared wheel: its centre and its point of contact; a rack only shifts."""
+    match group.pair:
+        case Pin(point=point):
+            return base_of(scene, group.link, point, under(contact_name(group.contact), group.link))
+        case Contact() as own:
+            return base_of(scene, group.link, own.wheel.centre, None)
+        case _:
+            return base_of(scene, group.link, scene.link(group.link).points[0], None)
+
+
+def no_construction(group: Group) -> StructureError:
+    """The error for links that hold together in a way for which there is no construction."""
+    what = group.title if not isinstance(group, Unresolved) else "hold together in a way"
+    return StructureError(
+        Problem(
+            "links." + ", ".join(group.links),
+            f"{what} that cannot be constructed",
+            "links that close on known ones, two at a time or after one of them has been tried",
+            "is a driver missing, or does it drive a link that cannot be reached by itself?",
+        )
+    )
+
+
+def choosing(groups: tuple[Group, ...]) -> list[str]:
+    """The names under which the scene may state a branch: pins, blocks, links of higher groups."""
+    names: list[str] = []
+    for group in groups:
+        match group:
+            case Dyad(inner=Pin(point=pin), type="RRR"):
+                names.append(pin)
+            case Dyad() if has_two_ways(group):
+                names.append(block_of(group))
+            case Higher():
+                names += group.links
+    return names
+
+
+def refuse_unstated(scene: Scene, group: Group) -> None:
+    """Raise StructureError where the scene does not say in which way a group closes."""
+    match group:
+        case Dyad(type="RRR"):
+            side_of(scene, group)
+        case Dyad() if has_two_ways(group):
+            way_of(scene, group)
+        case Higher():
+            closure_of(scene, group)
+
+
+def has_two_ways(dyad: Dyad) -> bool:
+    """Whether a dyad with a slide or a track closes in two ways."""
+    return dyad.type in ("RRP", "RPR", "RRW")
+
+
 def unused_branches(scene: Scene, groups: tuple[Group, ...]) -> list[Problem]:
     """A problem for each branch that no group has a choice for."""
-    dyads = [group for group in groups if isinstance(group, Dyad)]
-    needed = {g.inner.point for g in dyads if isinstance(g.inner, Pin) and g.type == "RRR"}
-    needed |= {g.right.block for g in dyads if isinstance(g.right, Sliding)}
+    allowed = choosing(groups)
     return [
         Problem(
             f"branches.{name}",
             "no group has a choice here",
-            "branches of " + (", ".join(sorted(needed)) or "nothing"),
+            "branches of " + (", ".join(sorted(allowed)) or "nothing"),
             "take it out, or graphkin check shows which groups there are",
         )
         for name in scene.branches
-        if name not in needed
+        if name not in allowed and not harmless(scene, name)
     ]
 
 
-def moving_guide(dyad: Dyad) -> str:
-    """Words for a guide that is not of the frame."""
-    moving = any(isinstance(p, Sliding) and FRAME not in p.links for p in (dyad.left, dyad.right))
-    return " on a guide that moves" if moving else ""
+def harmless(scene: Scene, name: str) -> bool:
+    """A way stated for a block whose group closes in one way only: not demanded, not refused."""
+    return isinstance(scene.branches[name], Way) and bool(
+        name in scene.links and scene.links[name].slides
+    )
 
 
 def side_of(scene: Scene, dyad: Dyad) -> int:
@@ -129,18 +290,51 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
     )
 
 
+def block_of(dyad: Dyad) -> str:
+    """The block, or the wheel, by which the scene names the way of a dyad."""
+    slide = next(p for p in (dyad.right, dyad.inner, dyad.left) if not isinstance(p, Pin))
+    return slide.links[0]
+
+
 def way_of(scene: Scene, dyad: Dyad) -> int:
     """The stated way of a sliding link: +1 the larger slide coordinate, -1 the smaller."""
-    assert isinstance(dyad.right, Sliding)
-    block = dyad.right.block
+    block = block_of(dyad)
     branch = scene.branches.get(block)
     if isinstance(branch, Way):
         return branch.way
+    hint = "the arc cuts the guide twice; forward is the larger coordinate along the guide"
+    if dyad.type == "RPR":
+        hint = "the bar can point either way; forward is the larger coordinate along the guide"
     raise StructureError(
         Problem(
             f"branches.{block}",
             "is missing" if branch is None else "is not the branch of a sliding link",
             '"forward" or "backward"',
-            "the arc cuts the guide twice; forward is the larger coordinate along the guide",
+            hint,
         )
     )
+
+
+def closure_of(scene: Scene, group: Higher) -> int:
+    """The stated number of a higher group's closure, counted from one."""
+    stated = [scene.branches[name] for name in group.links if name in scene.branches]
+    numbers = [branch.number for branch in stated if isinstance(branch, Closure)]
+    if numbers and len(stated) == 1:
+        return numbers[0]
+    link = first_written(scene, group)
+    found = "is missing"
+    if stated:
+        found = "is given twice" if len(stated) > 1 else 'is not "closure 1" or another number'
+    raise StructureError(
+        Problem(
+            f"branches.{link}",
+            found,
+            f'{link} = "closure 1", or another number, for the links {", ".join(group.links)}',
+            "they close together in several ways; graphkin check lists them",
+        )
+    )
+
+
+def first_written(scene: Scene, group: Higher) -> str:
+    """The link of a group that is written first."""
+    return next(name for name in scene.links if name in group.links)

@@ -8,10 +8,13 @@ from typing import Any
 
 from graphkin.arithmetic import FLOAT
 from graphkin.errors import ClosureError
-from graphkin.scene.model import Scene
-from graphkin.steps.program import Given, Part, Plane, Program, Step, Target
-from graphkin.steps.run import StepFailed, run
+from graphkin.plans.links import Base, block_of, side_of, way_of
+from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.steps.program import CONTACT, Drive, Given, Part, Plane, Program, Step, Target
+from graphkin.steps.run import StepFailed, evaluate
 from graphkin.steps.vocabulary import Action, pole
+from graphkin.structure.graph import Sliding, turns
+from graphkin.structure.groups import Dyad
 
 Says = dict[str, Any]
 """The names that a sentence needs."""
@@ -26,9 +29,17 @@ class Pen:
         self.scene = scene
         self.steps: list[Step] = []
         self.targets: dict[Target, int] = {}
-        self.guides: dict[str, int] = {}
+        self.bases: dict[str, Base] = {}
+        self.leads: dict[str, str] = {}
+        self.arrows: set[str] = set()
+        self.chosen: dict[tuple[str, str], int] = {}
+        self.drives: dict[int, Drive] = {}
+        self.turning: dict[str, bool] = {FRAME: False}
         self.scale_step: int | None = None
         self.shared: dict[tuple[Any, ...], int] = {}
+        self.peeked: dict[int, Any] = {}
+        self.layer: dict[Target, int] | None = None
+        self.tag = ""
         self.part, self.plane, self.hand = Part.SHAPE, Plane.NUMBERS, False
 
     @contextmanager
@@ -46,6 +57,13 @@ class Pen:
         yield
         self.hand = before
 
+    @contextmanager
+    def trial(self, tag: str) -> Iterator[dict[Target, int]]:
+        """Work at a trial plan: its points bear a tag, its quantities are gathered apart."""
+        self.layer, self.tag = {}, tag
+        yield self.layer
+        self.layer, self.tag = None, ""
+
     def draw(
         self,
         action: Action,
@@ -56,6 +74,8 @@ class Pen:
         **says: Any,
     ) -> int:
         """Add a step that follows from earlier ones."""
+        if name and self.plane in (Plane.VELOCITIES, Plane.ACCELERATIONS):
+            name += self.tag
         return self._add(
             Step(
                 action,
@@ -71,15 +91,35 @@ class Pen:
             )
         )
 
+    def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **says: Any) -> int:
+        """Add a step that others will ask for again under a key."""
+        self.shared[key] = self.draw(action, *args, **says)
+        return self.shared[key]
+
+    def choice(self, dyad: Dyad) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Which crossing a dyad takes: a step that holds the sign, or the sign that is stated.
+
+        A block that stays while the link with its guide moves counts the other way.
+        """
+        if dyad.links in self.chosen:
+            return (self.chosen[dyad.links],), ()
+        if dyad.type == "RRR":
+            return (), (side_of(self.scene, dyad),)
+        stays = dyad.type == "RRP" and block_of(dyad) not in dyad.links
+        return (), (-way_of(self.scene, dyad) if stays else way_of(self.scene, dyad),)
+
     def arrow(self, action: Action, *args: int, name: str, **says: Any) -> int:
-        """Add an arrow: drawn where its ends are, used by no other step."""
+        """Add an arrow: drawn where its ends are, used by no other step, in no trial."""
+        if self.layer is not None:
+            return -1
+        self.arrows.add(name)
         return self._add(
             Step(action, args, self.part, self.plane, name, hand=True, arrow=True, says=says)
         )
 
     def given(self, form: str, *quantities: Any, name: str = "", **says: Any) -> int:
         """Add a value that the scene states; the same value is written down once."""
-        key = (form, quantities, name, self.plane)
+        key = (form, quantities, name, self.plane, says.get("d"))
         if key not in self.shared:
             given = Given(form, quantities)
             plane = self.plane if form == "point" else Plane.NUMBERS
@@ -93,15 +133,18 @@ class Pen:
 
     def want(self, quantity: str, of: str, number: int) -> int:
         """Say which step carries a quantity of a point or link."""
-        self.targets[quantity, of] = number
+        where = self.targets if self.layer is None else self.layer
+        where[quantity, of] = number
         return number
 
     def has(self, quantity: str, of: str) -> bool:
         """True when a quantity has been constructed."""
-        return (quantity, of) in self.targets
+        return (quantity, of) in self.targets or (quantity, of) in (self.layer or {})
 
     def the(self, quantity: str, of: str) -> int:
         """The step that carries a quantity."""
+        if self.layer and (quantity, of) in self.layer:
+            return self.layer[quantity, of]
         return self.targets[quantity, of]
 
     def pole(self, plane: Plane) -> int:
@@ -112,6 +155,53 @@ class Pen:
             part = Part.VELOCITY if plane is Plane.VELOCITIES else Part.ACCELERATION
             self.shared[key] = self._add(Step(pole, (), part, plane, name))
         return self.shared[key]
+
+    def turns(self, link: str) -> bool:
+        """False for the frame and for links that slides alone join to it: they only shift."""
+        if link not in self.turning:
+            self.turning[link] = turns(self.scene, link)
+        return self.turning[link]
+
+    def drive(self, driver: Driver) -> Drive:
+        """The given motion of a driver."""
+        number = self.scene.drivers.index(driver)
+        if number not in self.drives:
+            turning = driver.kind == "turn"
+            with self.on(Part.SHAPE, Plane.NUMBERS):
+                self.drives[number] = Drive(
+                    self.given(
+                        "direction" if turning else "length",
+                        driver.position,
+                        name="phi" if turning else "s",
+                        d=number,
+                    ),
+                    self.given("number", driver.speed, name="omega" if turning else "v", d=number),
+                    self.given(
+                        "number", driver.acceleration, name="epsilon" if turning else "a", d=number
+                    ),
+                )
+        return self.drives[number]
+
+    def driven_angle(self, driver: Driver) -> int:
+        """The angle of a turning driver in radians, as written and not reduced."""
+        drive, number = self.drive(driver), self.scene.drivers.index(driver)
+        if drive.angle is None:
+            with self.on(Part.SHAPE, Plane.NUMBERS):
+                angle = self.given("number", driver.position, name="angle", d=number)
+            self.drives[number] = drive._replace(angle=angle)
+            return angle
+        return drive.angle
+
+    def turner(self, link: str) -> str | None:
+        """The link from whose points the turning of a link is found; None for a driven one."""
+        while link in self.bases and self.bases[link].end is None and link in self.leads:
+            link = self.leads[link]
+        return link if link in self.bases and self.bases[link].end is not None else None
+
+    def first_slide(self, block: str) -> Sliding:
+        """The first guide of a block."""
+        slide = self.scene.links[block].slides[0]
+        return Sliding(slide, (block, slide.on))
 
     def seconds(self) -> int:
         """kL/kv, by which velocities are set on the mechanism; with one crank it is 1/omega."""
@@ -129,28 +219,51 @@ class Pen:
 
         None when the mechanism does not close there.
         """
-        program = self.program()
-        wanted = Program(program.steps, {("step", ""): number}).needed([("step", "")])
-        try:
-            return run(program, wanted, self.scene.values, FLOAT).values[number]
-        except (StepFailed, ClosureError):
-            return None
+        waiting, wanted = [number], set[int]()
+        while waiting:
+            step = waiting.pop()
+            if step not in wanted and step not in self.peeked:
+                wanted.add(step)
+                waiting += self.steps[step].args
+        for step in sorted(wanted):
+            try:
+                self.peeked[step] = evaluate(
+                    self.steps[step], step, self.peeked, self.scene.values, FLOAT, {}
+                )
+            except (StepFailed, ClosureError):
+                return None
+        return self.peeked[number]
 
     def program(self) -> Program:
         """The steps written so far."""
-        return Program(tuple(self.steps), dict(self.targets), self.scale_step)
+        drives = tuple(self.drives[number] for number in sorted(self.drives))
+        return Program(tuple(self.steps), dict(self.targets), self.scale_step, drives)
 
 
 def image(point: str) -> str:
-    """Name of a point's image in the velocity plan: the same letter, small."""
-    return point.lower() if point.lower() != point else point + "_v"
+    """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3."""
+    name, _, link = point.removeprefix(CONTACT).partition("@")
+    small = name.lower() if name.lower() != name else name + "_v"
+    return f"{small}_{link}" if link else small
 
 
 def second_image(point: str) -> str:
     """Name of a point's image in the acceleration plan: the small letter with a prime."""
-    return image(point) + PRIME
+    small, _, link = image(point).partition("_") if "@" in point else (image(point), "", "")
+    return f"{small}{PRIME}_{link}" if link else small + PRIME
+
+
+def letter(point: str) -> str:
+    """A point as the index of a symbol: A, and A3 for the point of link 3 under A."""
+    return point.removeprefix(CONTACT).replace("@", "")
 
 
 def about(pen: Pen, pin: str, pivot: str) -> str:
     """Index of a relative motion: BA for B about A, and B alone about a fixed pivot."""
-    return pin if pivot in pen.scene.frame.points else pin + pivot
+    fixed = pivot in pen.scene.frame.points
+    return letter(pin) if fixed else letter(pin) + letter(pivot)
+
+
+def named(pen: Pen, number: int) -> str:
+    """Name of the point of a plan that a step carries."""
+    return pen.steps[number].name

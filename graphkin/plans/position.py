@@ -1,34 +1,60 @@
-"""The mechanism to scale, by compass and ruler: cranks by their angle, dyads by two arcs."""
+"""The mechanism to scale, by compass and ruler: cranks by their angle, dyads by two loci."""
 
 from __future__ import annotations
 
+from graphkin.errors import Problem, StructureError
 from graphkin.plane import Line, crossing_sine
-from graphkin.plans.links import Base, crank_tip, side_of, way_of
+from graphkin.plans import rolling
+from graphkin.plans.guides import (
+    axis,
+    direction_on,
+    height_of,
+    known_guide,
+    local_line,
+    path_of,
+    turned_with,
+)
+from graphkin.plans.links import Base, crank_tip, led_point
 from graphkin.plans.pen import Pen, Says
 from graphkin.plans.shape import Shapes, place
-from graphkin.scene.model import Apart, Link, Slide
+from graphkin.scene.model import Apart, Link
+from graphkin.steps.guides import (
+    axis_by_guide,
+    axis_with_guide,
+    from_foot,
+    half,
+    middle,
+    placed,
+    set_at,
+    set_back,
+    size,
+    swing,
+    swing_through,
+    turned_back,
+)
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
-    across,
-    along_bar,
     arc_cuts_line,
     arcs_meet,
     arm,
     arm_by_axis,
-    beside,
     compass,
-    coordinate,
     mark_off,
+    meet,
     ray,
-    shifted,
     similar_point,
     step_along,
 )
-from graphkin.structure.graph import Pin, Sliding
-from graphkin.structure.groups import Crank, Dyad
+from graphkin.structure.graph import Contact, Pin, Sliding
+from graphkin.structure.groups import Crank, Driven, Dyad, Tie
+from graphkin.structure.joints import Joint
 
 CLEAR_CROSSING = 0.342
 """Sine of 20 degrees: below it a plate point is found by similarity, not by two flat lines."""
+
+
+FITS = 1e-6
+"""Misfit of an idle link, in parts of its length, that printed lengths may leave."""
 
 
 IN_LINE = 1e-9
@@ -37,29 +63,59 @@ IN_LINE = 1e-9
 
 def frame(pen: Pen) -> None:
     """Mark the fixed points."""
-    placed: dict[str, int] = {}
+    done: dict[str, int] = {}
     with pen.on(Part.POSITION, Plane.MECHANISM):
         for placing in pen.scene.frame.placings:
-            placed[placing.point] = place(pen, placing, placed, name=placing.point)
-            pen.want("position", placing.point, placed[placing.point])
+            done[placing.point] = place(pen, placing, done, name=placing.point)
+            pen.want("position", placing.point, done[placing.point])
+
+
+# --- driven links --------------------------------------------------------------------------------
 
 
 def crank(pen: Pen, shapes: Shapes, group: Crank) -> None:
     """The tip of a driven bar: the line at the driver's angle, and the bar laid off on it."""
-    pivot, tip = group.pivot, crank_tip(pen.scene, group)
-    line = group.driver.of or axis_line(pen.scene.link(group.link))
-    turn = pen.given("direction", group.driver.position, name="phi")
-    start = pen.the("position", pivot)
+    driver, link = group.driver, group.link
+    given, ends = pen.drive(driver).position, (group.pivot, crank_tip(pen.scene, group))
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        if line == (pivot, tip):
-            way = pen.draw(ray, start, turn, p=pivot, k=group.link)
-            length = shapes.length(group.link, pivot, tip)
-            found = pen.draw(mark_off, way, length, name=tip, p=pivot, q=tip)
+        if driver.link == link:
+            line = driver.of or axis_line(pen.scene.link(link))
+            turn = direction_on(pen, shapes, driver.against, given)
+            turn_about(pen, shapes, link, ends, line, turn)
         else:
-            locals_ = [shapes.local(group.link, point) for point in (*line, pivot, tip)]
-            turned = arm if line else arm_by_axis
-            says: Says = {"p": pivot, "q": tip, "k": group.link}
-            found = pen.draw(turned, start, turn, *locals_, name=tip, **says)
+            lead = axis(pen, shapes, driver.link)
+            if driver.of:
+                locals_ = [shapes.local(driver.link, point) for point in driver.of]
+                lead = pen.draw(axis_with_guide, lead, *locals_)
+            turn_about(pen, shapes, link, ends, (), pen.draw(turned_back, lead, given))
+
+
+def turn_about(
+    pen: Pen,
+    shapes: Shapes,
+    link: str,
+    ends: tuple[str, str | None],
+    line: tuple[str, ...],
+    turn: int,
+) -> None:
+    """Set a link at its pivot so that one of its lines (its x axis if none) has a direction."""
+    pivot, tip = ends
+    start = pen.the("position", pivot)
+    if not line:
+        pen.want("axis", link, turn)
+    if tip is None:
+        if line:
+            here = [shapes.local(link, point) for point in line]
+            pen.want("axis", link, pen.draw(axis_by_guide, turn, *here))
+        return
+    if line == (pivot, tip):
+        way = pen.draw(ray, start, turn, p=pivot, k=link)
+        length = shapes.length(link, pivot, tip)
+        found = pen.draw(mark_off, way, length, name=tip, p=pivot, q=tip)
+    else:
+        locals_ = [shapes.local(link, point) for point in (*line, pivot, tip)]
+        action = arm if line else arm_by_axis
+        found = pen.draw(action, start, turn, *locals_, name=tip, p=pivot, q=tip, k=link)
     pen.want("position", tip, found)
 
 
@@ -68,22 +124,163 @@ def axis_line(link: Link) -> tuple[str, ...]:
     return link.points[:2] if any(isinstance(each, Apart) for each in link.placings) else ()
 
 
+def driven(pen: Pen, shapes: Shapes, group: Driven) -> None:
+    """A point of a driven slider, or the centre of a driven wheel, at its coordinate."""
+    link, pair = group.link, group.pair
+    if isinstance(pair, Contact):
+        way = rolling.driven_way(pen, group.driver, pair)
+        rolling.set_on_track(pen, shapes, pair, led_point(pen.scene, link, pair), way)
+    else:
+        set_on_guide(pen, shapes, pair, link, pen.drive(group.driver).position)
+
+
+def set_on_guide(pen: Pen, shapes: Shapes, pair: Sliding, link: str, where: int) -> None:
+    """A point of a link at a coordinate of the guide on which it slides, or which it carries."""
+    point = pen.bases[link].start
+    says: Says = {"q": point, "g": pair.links[0], "k": link}
+    line = path_of(pen, shapes, pair, link, point)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        if pair.block == link:
+            found = pen.draw(set_at, line, where, name=point, **says)
+        else:
+            zero = known_guide(pen, shapes, pair, link)
+            through = local_line(pen, shapes, pair.slide, link)[0]
+            ends = shapes.local(link, point), through, axis(pen, shapes, link)
+            found = pen.draw(set_back, zero, where, *ends, name=point, **says)
+    pen.want("position", point, found)
+
+
+# --- dyads and ties ------------------------------------------------------------------------------
+
+
 def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
-    """The inner pin of a dyad: two arcs, or an arc and the line that the guide keeps it on."""
-    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
-    left, pin = group.left.point, group.inner.point
+    """What two links and three pairs leave free: one crossing of two loci."""
+    match group.left, group.inner, group.right:
+        case Pin(), Pin(), Pin():
+            two_bars(pen, shapes, group)
+        case Pin(), Pin(), _:
+            bar_and_guide(pen, shapes, group)
+        case Pin(), Sliding(), Pin():
+            swivelling(pen, shapes, group)
+        case _, Pin(point=pin), _:
+            two_guides(pen, shapes, pin, (group.left, group.right), group.links)
+        case Pin(), Sliding() as inner, Sliding() as right:
+            first, second = group.links
+            led = pen.scene.link(second).points[0]
+            path_of(pen, shapes, right, second, led)
+            turned_with(pen, shapes, inner, second)
+            plate_points(pen, shapes, pen.bases[first])
+            two_guides(pen, shapes, led, (inner, right), (second, second))
+
+
+def two_bars(pen: Pen, shapes: Shapes, group: Dyad) -> None:
+    """The inner pin of a dyad RRR: two arcs."""
+    assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
+    assert isinstance(group.inner, Pin)
+    left, pin, right = group.left.point, group.inner.point, group.right.point
     with pen.on(Part.POSITION, Plane.MECHANISM):
         near = arc(pen, shapes, group.links[0], left, pin)
-        if isinstance(group.right, Pin):
-            right = group.right.point
-            far = arc(pen, shapes, group.links[1], right, pin)
-            side = side_of(pen.scene, group)
-            found = pen.draw(arcs_meet, near, far, name=pin, extra=(side,), p=left, q=right)
-        else:
-            way = way_of(pen.scene, group)
-            path = guide_of(pen, shapes, group.right, pin)
-            found = pen.draw(arc_cuts_line, path, near, name=pin, extra=(way,), p=left)
+        far = arc(pen, shapes, group.links[1], right, pin)
+        side, extra = pen.choice(group)
+        found = pen.draw(arcs_meet, near, far, *side, name=pin, extra=extra, p=left, q=right)
     pen.want("position", pin, found)
+
+
+def bar_and_guide(pen: Pen, shapes: Shapes, group: Dyad) -> None:
+    """The inner pin of a dyad RRP: the arc of the bar cuts the line that the guide leads it on."""
+    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
+    left, pin, link = group.left.point, group.inner.point, group.links[1]
+    path = led_path(pen, shapes, group.right, link, pin)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        near = arc(pen, shapes, group.links[0], left, pin)
+        way, extra = pen.choice(group)
+        found = pen.draw(arc_cuts_line, path, near, *way, name=pin, extra=extra, p=left)
+    pen.want("position", pin, found)
+
+
+def led_path(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str) -> int:
+    """The line on which a slide or a track with a known link leads a point."""
+    if isinstance(pair, Sliding):
+        return path_of(pen, shapes, pair, link, point)
+    assert isinstance(pair, Contact)
+    return rolling.path_of_centre(pen, shapes, pair)
+
+
+def two_guides(
+    pen: Pen, shapes: Shapes, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]
+) -> None:
+    """A point that two guides lead: where their lines cross."""
+    paths = [led_path(pen, shapes, *each, point) for each in zip(pairs, links, strict=True)]
+    names = [pair.links[0] for pair in pairs]
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        found = pen.draw(meet, *paths, name=point, g=names[0], h=names[1])
+    pen.want("position", point, found)
+
+
+def swivelling(pen: Pen, shapes: Shapes, group: Dyad) -> None:
+    """A dyad RPR: the guide through one pin and, at its height, the other; its link's axis."""
+    assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
+    assert isinstance(group.inner, Sliding)
+    first, second = group.links
+    block, carrier = group.inner.links
+    pins = {first: group.left.point, second: group.right.point}
+    places = [pen.the("position", pins[link]) for link in (carrier, block)]
+    height = height_of(pen, shapes, group.inner, pins)
+    way, extra = pen.choice(group)
+    says: Says = {"p": pins[carrier], "q": pins[block], "k": carrier, "g": block}
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        if height is None:
+            turn = pen.draw(swing_through, *places, *way, extra=extra, **says)
+        else:
+            by_hand = None if way else tangent(pen, places, height, extra[0], says)
+            turn = pen.draw(swing, *places, height, *way, extra=extra, by_hand=by_hand, **says)
+        pen.draw_shared(("swing", carrier), ray, places[0], turn, p=pins[carrier], g=block)
+    ends = local_line(pen, shapes, group.inner.slide, carrier)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
+        pen.want("axis", block, turn)
+    pen.want("position", pen.bases[carrier].end or "", places[1])
+
+
+def tangent(pen: Pen, places: list[int], height: int, way: int, says: Says) -> int | None:
+    """The hand's way to an offset guide: the tangent to a circle, by Thales's circle."""
+    value = pen.peek(height)
+    if not value:
+        return None
+    pivot, pin = places
+    with pen.hands_way():
+        small = pen.draw(compass, pivot, pen.draw(size, height), **says)
+        large = pen.draw(compass, pen.draw(middle, pivot, pin), pen.draw(half, pivot, pin), **says)
+        side = 1 if value * way > 0 else -1
+        foot = pen.draw(arcs_meet, small, large, extra=(side,), **says)
+        return pen.draw(from_foot, foot, pin, extra=(way,), **says)
+
+
+def tie(pen: Pen, shapes: Shapes, group: Tie) -> None:
+    """A link between two known points: only its turning is left to know, on a guide."""
+    if isinstance(group.second, Sliding):
+        assert isinstance(group.first, Pin)
+        path_of(pen, shapes, group.second, group.link, group.first.point)
+
+
+def refuse_misfit(pen: Pen, shapes: Shapes, group: Tie) -> None:
+    """Raise StructureError for an idle link that its neighbours leave no room for."""
+    if not isinstance(group.first, Pin) or not isinstance(group.second, Pin):
+        return
+    p, q = group.first.point, group.second.point
+    ends = [pen.peek(pen.the("position", point)) for point in (p, q)]
+    length = pen.peek(shapes.length(group.link, p, q))
+    if None in (*ends, length) or abs(abs(ends[1] - ends[0]) - length) <= FITS * length:
+        return
+    raise StructureError(
+        Problem(
+            f"links.{group.link}",
+            f"{p} and {q} stand {1e3 * abs(ends[1] - ends[0]):.6g} mm apart without it, but it is "
+            f"{1e3 * length:.6g} mm long",
+            "a length that fits: the link is idle, the rest moves without it",
+            "or take a driver away, if the link is to move the rest",
+        )
+    )
 
 
 def arc(pen: Pen, shapes: Shapes, link: str, centre: str, point: str) -> int:
@@ -92,61 +289,45 @@ def arc(pen: Pen, shapes: Shapes, link: str, centre: str, point: str) -> int:
     return pen.draw(compass, pen.the("position", centre), length, p=centre, q=point)
 
 
-def guide_of(pen: Pen, shapes: Shapes, pair: Sliding, pin: str) -> int:
-    """The line that a guide of the frame keeps a point of its block on."""
-    block = pen.scene.link(pair.block)
-    line = guide_line(pen, pair.slide, block.name)
-    if pair.slide.offset.number(pen.scene.values) != 0:
-        line = pen.draw(shifted, line, pen.given("length", pair.slide.offset), p=block.name)
-    if pin != block.points[0]:
-        ends = shapes.local(block.name, block.points[0]), shapes.local(block.name, pin)
-        line = pen.draw(shifted, line, pen.draw(across, *ends), p=block.name)
-    pen.guides[block.name] = line
-    return line
-
-
-def guide_line(pen: Pen, slide: Slide, block: str) -> int:
-    """The guide itself, through a point at an angle or along two points of the frame."""
-    if slide.along is not None:
-        start, end = (pen.the("position", point) for point in slide.along)
-        return pen.draw(along_bar, start, start, end, p=slide.along[0], g=block)
-    if isinstance(slide.through, str):
-        start, through = pen.the("position", slide.through), slide.through
-    else:
-        assert slide.through is not None
-        start, through = pen.given("point", *slide.through), ""
-    return pen.draw(ray, start, pen.given("direction", slide.angle), p=through, g=block)
+# --- the other points of a link ------------------------------------------------------------------
 
 
 def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
     """The other points of a link: by hand two arcs, in value the figure similar to the link."""
-    if base.end is None:
-        block_points(pen, shapes, base)
-        return
-    ends = pen.the("position", base.start), pen.the("position", base.end)
     for point in base.others:
         if pen.has("position", point):
             continue
-        ratio = shapes.ratio(base.link, base.start, base.end, point)
-        by_hand = hands_way(pen, shapes, base, point)
-        with pen.on(Part.POSITION, Plane.MECHANISM):
-            says: Says = {"p": base.start, "q": base.end, "r": point}
-            found = pen.draw(similar_point, *ends, ratio, name=point, by_hand=by_hand, **says)
+        if base.end is None or "@" in base.end:
+            found = set_by_axis(pen, shapes, base, point)
+        else:
+            ends = pen.the("position", base.start), pen.the("position", base.end)
+            ratio = shapes.ratio(base.link, base.start, base.end, point)
+            by_hand = hands_way(pen, shapes, base, point)
+            with pen.on(Part.POSITION, Plane.MECHANISM):
+                says: Says = {"p": base.start, "q": base.end, "r": point}
+                found = pen.draw(similar_point, *ends, ratio, name=point, by_hand=by_hand, **says)
         pen.want("position", point, found)
 
 
-def block_points(pen: Pen, shapes: Shapes, base: Base) -> None:
-    """The other points of a block, and the coordinate of its first along the guide."""
-    line, start = pen.guides[base.link], pen.the("position", base.start)
-    for point in base.others:
+def set_by_axis(pen: Pen, shapes: Shapes, base: Base, point: str) -> int:
+    """A point of a link that is turned to its axis already; on its own guide it is laid off."""
+    line = pen.shared.get(("swing", base.link))
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        if line is not None and runs_along(pen, base, point):
+            length = shapes.length(base.link, base.start, point)
+            return pen.draw(mark_off, line, length, name=point, p=base.start, q=point)
+        here = (pen.the("position", base.start), axis(pen, shapes, base.link))
         ends = shapes.local(base.link, base.start), shapes.local(base.link, point)
-        with pen.on(Part.POSITION, Plane.MECHANISM):
-            says: Says = {"p": base.start, "g": base.link}
-            found = pen.draw(beside, line, start, *ends, name=point, **says)
-        pen.want("position", point, found)
-    first = pen.the("position", pen.scene.link(base.link).points[0])
-    with pen.on(Part.RESULT, Plane.NUMBERS):
-        pen.want("slide", base.link, pen.draw(coordinate, line, first))
+        return pen.draw(placed, *here, *ends, name=point, p=base.start, g=base.link, q=point)
+
+
+def runs_along(pen: Pen, base: Base, point: str) -> bool:
+    """Whether a guide is written along the way from a link's pivot to one of its points."""
+    for link in pen.scene.links.values():
+        for slide in link.slides:
+            if slide.on == base.link and slide.along == (base.start, point):
+                return True
+    return False
 
 
 def hands_way(pen: Pen, shapes: Shapes, base: Base, point: str) -> int | None:
@@ -175,10 +356,9 @@ def two_arcs(pen: Pen, shapes: Shapes, base: Base, point: str) -> int:
         return pen.draw(arcs_meet, near, far, extra=(side,), p=base.start, q=base.end)
 
 
-def crosses_well(pen: Pen, shapes: Shapes, base: Base, point: str) -> bool:
+def crosses_well(pen: Pen, ratio: int) -> bool:
     """True when the two bars to a plate point cross at an angle that a hand can draw."""
-    assert base.end is not None
-    ratio = pen.peek(shapes.ratio(base.link, base.start, base.end, point))
-    if ratio in (None, 0, 1):
+    value = pen.peek(ratio)
+    if value in (None, 0, 1):
         return False
-    return bool(crossing_sine(Line(0j, ratio), Line(1 + 0j, ratio - 1)) >= CLEAR_CROSSING)
+    return bool(crossing_sine(Line(0j, value), Line(1 + 0j, value - 1)) >= CLEAR_CROSSING)

@@ -5,6 +5,7 @@ Nothing here is drawn: it gives the ratios by which a point of a plate follows f
 
 from __future__ import annotations
 
+from graphkin.plans.links import Base
 from graphkin.plans.pen import Pen
 from graphkin.scene.model import Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
 from graphkin.steps.program import Part, Plane
@@ -44,6 +45,18 @@ class Shapes:
             locals_ = [self.local(link, name) for name in (base, end, point)]
             with self.pen.on(Part.SHAPE, Plane.NUMBERS):
                 self.ratios[key] = self.pen.draw(in_proportion, *locals_)
+        return self.ratios[key]
+
+    def ratio_of(self, base: Base, point: str) -> int:
+        """The ratio of a point of a link on its base; from places where the base is not its own."""
+        assert base.end is not None
+        if "@" not in base.end:
+            return self.ratio(base.link, base.start, base.end, point)
+        key = (base.link, base.start, base.end, point)
+        if key not in self.ratios:
+            places = [self.pen.the("position", name) for name in (base.start, base.end, point)]
+            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
+                self.ratios[key] = self.pen.draw(in_proportion, *places)
         return self.ratios[key]
 
     def length(self, link: str, p: str, q: str) -> int:

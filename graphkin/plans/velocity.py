@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
-from graphkin.plans.links import Base, crank_tip
-from graphkin.plans.pen import Pen, Says, image
-from graphkin.plans.position import crosses_well
+from graphkin.plans import wheels
+from graphkin.plans.carried import image_under, omega_of
+from graphkin.plans.guides import known_guide
+from graphkin.plans.links import Base, crank_tip, under
+from graphkin.plans.pen import Pen, Says, image, letter, named
+from graphkin.plans.position import crosses_well, led_path
 from graphkin.plans.shape import Shapes
+from graphkin.scene.model import FRAME
+from graphkin.steps.guides import driven_slide
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
+    difference,
     join,
     meet,
-    omega,
     parallel_to,
     part_along,
     set_on,
     similar_point,
     square_to,
+    sum_of,
     turned_velocity,
 )
-from graphkin.structure.graph import Pin, Sliding
-from graphkin.structure.groups import Crank, Dyad
+from graphkin.structure.graph import Contact, Pin, Sliding
+from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
+from graphkin.structure.joints import Joint, partner
 
 
 def frame(pen: Pen) -> None:
@@ -29,140 +36,224 @@ def frame(pen: Pen) -> None:
         pen.want("velocity", point, pen.pole(Plane.VELOCITIES))
 
 
-def crank(pen: Pen, group: Crank) -> None:
+# --- driven links --------------------------------------------------------------------------------
+
+
+def crank(pen: Pen, shapes: Shapes, group: Crank) -> None:
     """Image of a driven tip: omega times the bar, square to it, in the sense of omega."""
     pivot, tip = group.pivot, crank_tip(pen.scene, group)
-    speed = pen.given("number", group.driver.speed, name="omega")
-    pen.want("omega", group.link, speed)
+    speed = pen.drive(group.driver).speed
+    pen.want("omega", group.link, driven_rate(pen, group, "omega", speed))
+    if tip is not None:
+        turn_tip(pen, group.link, pivot, tip)
+
+
+def driven_rate(pen: Pen, group: Crank, quantity: str, given: int) -> int:
+    """Angular velocity or acceleration of a driven link: the given one, on top of the other's."""
+    against = other_of(group.driver, group.link)
+    if not pen.turns(against):
+        return given if group.driver.link == group.link else turned_round(pen, given)
+    rate = omega_of(pen, against, quantity)
+    action = sum_of if group.driver.link == group.link else difference
+    with pen.on(Part.RESULT, Plane.NUMBERS):
+        return pen.draw(action, rate, given, name=group.link)
+
+
+def turned_round(pen: Pen, given: int) -> int:
+    """A given rate of the frame against a link, as the link's own."""
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.draw(difference, pen.given("nought"), given)
+
+
+def turn_tip(pen: Pen, link: str, pivot: str, tip: str) -> None:
+    """Image of a point of a link whose angular velocity is known, from that of its pivot."""
     ends = pen.the("position", pivot), pen.the("position", tip)
     start = pen.the("velocity", pivot)
+    says: Says = {"p": pivot, "q": tip, "s": named(pen, start)}
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        found = pen.draw(
-            turned_velocity,
-            start,
-            *ends,
-            speed,
-            name=image(tip),
-            p=pivot,
-            q=tip,
-            s=named(pen, start),
-        )
+        rate = pen.the("omega", link)
+        found = pen.draw(turned_velocity, start, *ends, rate, name=image(tip), **says)
     pen.want("velocity", tip, found)
     arrow_to(pen, tip, pivot)
 
 
-def dyad(pen: Pen, group: Dyad) -> None:
-    """Image of an inner pin: each relative velocity is square to its bar, or along the guide."""
-    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
-    left, pin = group.left.point, group.inner.point
-    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        near = square(pen, left, pin)
-        if isinstance(group.right, Pin):
-            far = square(pen, group.right.point, pin)
-        else:
-            far = along_guide(pen, group.right, Plane.VELOCITIES)
-        found = pen.draw(meet, near, far, name=image(pin))
-    pen.want("velocity", pin, found)
-    arrow_to(pen, pin, left)
-    if isinstance(group.right, Pin):
-        arrow_to(pen, pin, group.right.point)
+def driven(pen: Pen, shapes: Shapes, group: Driven) -> None:
+    """Image of a driven slider, or of a driven wheel's centre: the given speed on its guide."""
+    if isinstance(group.pair, Contact):
+        speed = wheels.given_speed(pen, group.driver, group.pair, "speed")
     else:
-        arrow_to(pen, pin, None)
+        speed = pen.drive(group.driver).speed
+    slide_on(pen, shapes, group.pair, group.link, speed)
+
+
+def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, speed: int) -> None:
+    """Image of the point of a link that slides, or rolls, at a speed along its guide."""
+    point, known = pen.bases[link].start, partner(pair, link)
+    way = 1 if pair.links[0] == link else -1
+    line = line_of(pen, shapes, pair, link, point)
+    start = image_under(pen, known, point)
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        says: Says = {"q": point, "g": pair.links[0], "s": named(pen, start)}
+        found = pen.draw(driven_slide, start, line, speed, name=image(point), extra=(way,), **says)
+    pen.want("velocity", point, found)
+    arrow_to(pen, point, relative_to(pen, known, point))
+    if isinstance(pair, Contact):
+        wheels.touch(pen, pair)
+
+
+def line_of(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, point: str) -> int:
+    """The line of a guide, or of the way of a wheel's centre, in the plane."""
+    if isinstance(pair, Contact):
+        return led_path(pen, shapes, pair, link, point)
+    return known_guide(pen, shapes, pair)
+
+
+# --- dyads and ties ------------------------------------------------------------------------------
+
+
+def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
+    """Image of the point that closes a dyad: each relative velocity has its known direction."""
+    first, second = group.links
+    match group.left, group.inner, group.right:
+        case _, Pin(point=pin), _:
+            sides = [(group.left, first), (group.right, second)]
+            cross(pen, shapes, pin, pin, sides)
+        case Pin(), Sliding() as inner, Pin():
+            block, carrier = inner.links
+            base = pen.bases[carrier]
+            pin = pen.bases[block].start
+            assert base.end is not None
+            pivot = Pin(base.start, (carrier, FRAME))
+            cross(pen, shapes, base.end, pin, [(pivot, carrier), (inner, carrier)])
+        case Pin(), Sliding() as inner, Sliding() as right:
+            led = pen.bases[second].start
+            cross(pen, shapes, led, led, [(inner, second), (right, second)])
+
+
+def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joint, str]]) -> None:
+    """The image of a point where the lines meet that two pairs leave it free on."""
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        lines = [ray(pen, shapes, pair, link, point) for pair, link in sides]
+        found = pen.draw(meet, *lines, name=image(name), q=name)
+    pen.want("velocity", name, found)
+    for pair, link in sides:
+        arrow_to(pen, name, source(pen, pair, link, name))
+        if isinstance(pair, Contact):
+            wheels.touch(pen, pair)
+
+
+def source(pen: Pen, pair: Joint, link: str, point: str) -> str | None:
+    """The point against which a pair leaves a point free; None where that stands still."""
+    if isinstance(pair, Pin):
+        return pair.point
+    if "@" in point:
+        return point.partition("@")[0]
+    return relative_to(pen, partner(pair, link), point)
+
+
+def relative_to(pen: Pen, link: str, point: str) -> str | None:
+    """The point of a moving link under another, where the plan has its image."""
+    name = under(point, link)
+    return name if pen.has("velocity", name) else None
+
+
+def ray(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str) -> int:
+    """The line on which a pair of a link leaves the image of a point free."""
+    if isinstance(pair, Pin):
+        return square(pen, pair.point, point)
+    line, known = line_of(pen, shapes, pair, link, point), partner(pair, link)
+    own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
+    start = pen.the("velocity", point) if own else image_under(pen, known, point)
+    return pen.draw(parallel_to, start, line, s=named(pen, start), g=pair.links[0])
 
 
 def square(pen: Pen, pivot: str, pin: str) -> int:
     """Through the image of one end of a bar the perpendicular to the bar."""
     start = pen.the("velocity", pivot)
     ends = pen.the("position", pivot), pen.the("position", pin)
-    return pen.draw(square_to, start, *ends, s=named(pen, start), p=pivot, q=pin)
+    return pen.draw(square_to, start, *ends, s=named(pen, start), p=letter(pivot), q=letter(pin))
 
 
-def along_guide(pen: Pen, pair: Sliding, plane: Plane) -> int:
-    """Through the pole of a plan the parallel to a guide of the frame."""
-    start = pen.pole(plane)
-    return pen.draw(parallel_to, start, pen.guides[pair.block], s=named(pen, start), g=pair.block)
+def tie(pen: Pen, shapes: Shapes, group: Tie) -> None:
+    """A link between two known points: both images are there."""
 
 
-def sliding(pen: Pen, base: Base) -> None:
-    """Speed and acceleration of a block along its guide; on the frame nothing turns it."""
-    if base.end is not None:
-        return
-    guide = pen.guides[base.link]
-    for quantity in ("omega", "epsilon"):
-        pen.want(quantity, base.link, pen.given("nought"))
-    for quantity, result, plane in (
-        ("velocity", "slide speed", Plane.VELOCITIES),
-        ("acceleration", "slide acceleration", Plane.ACCELERATIONS),
-    ):
-        o = pen.pole(plane)
-        with pen.on(Part.RESULT, Plane.NUMBERS):
-            pen.want(
-                result, base.link, pen.draw(part_along, guide, o, pen.the(quantity, base.start))
-            )
+# --- the rest of a link --------------------------------------------------------------------------
 
 
 def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
     """Images of the other points of a link: the triangle abc is similar to ABC, turned 90°."""
     if base.end is None:
-        block_points(pen, base)
+        led_points(pen, base)
         return
     ends = pen.the("velocity", base.start), pen.the("velocity", base.end)
     for point in base.others:
         if pen.has("velocity", point):
             continue
-        ratio = shapes.ratio(base.link, base.start, base.end, point)
+        ratio = shapes.ratio_of(base, point)
         by_hand = None
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-            if crosses_well(pen, shapes, base, point):
+            if crosses_well(pen, ratio):
                 with pen.hands_way():
                     lines = square(pen, base.start, point), square(pen, base.end, point)
                     by_hand = pen.draw(meet, *lines)
-            says: Says = {"p": base.start, "q": base.end, "r": point}
+            says: Says = {"p": letter(base.start), "q": letter(base.end), "r": point}
             found = pen.draw(
                 similar_point, *ends, ratio, name=image(point), by_hand=by_hand, **says
             )
         pen.want("velocity", point, found)
         arrow_to(pen, point, base.start)
-        arrow_to(pen, point, base.end)
+        if base.end in pen.scene.link(base.link).points:
+            arrow_to(pen, point, base.end)
 
 
-def block_points(pen: Pen, base: Base) -> None:
-    """All points of a block on a fixed guide have one image."""
+def led_points(pen: Pen, base: Base) -> None:
+    """The other points of a link that turns with its guide; where it only shifts, one image."""
     for point in base.others:
-        if not pen.has("velocity", point):
-            start = pen.the("velocity", base.start)
-            with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-                found = pen.draw(alike, start, name=image(point), p=base.start, q=point)
-            pen.want("velocity", point, found)
-            arrow_to(pen, point, None)
+        if pen.has("velocity", point):
+            continue
+        if pen.turns(base.link):
+            omega_of(pen, base.link)
+            turn_tip(pen, base.link, base.start, point)
+            continue
+        start = pen.the("velocity", base.start)
+        with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+            found = pen.draw(alike, start, name=image(point), p=base.start, q=point)
+        pen.want("velocity", point, found)
+        arrow_to(pen, point, None)
 
 
 def turning(pen: Pen, base: Base) -> None:
     """Angular velocity of a link: relative velocity over length, with its sense."""
-    if base.end is None or pen.has("omega", base.link):
-        return
-    ends = [
-        pen.the(what, point)
-        for what in ("position", "velocity")
-        for point in (base.start, base.end)
-    ]
+    omega_of(pen, base.link)
+
+
+def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
+    """Speed of a block along its guide."""
+    pair = pen.first_slide(block)
+    first = pen.scene.link(block).points[0]
+    start = image_under(pen, pair.links[1], first)
     with pen.on(Part.RESULT, Plane.NUMBERS):
-        found = pen.draw(omega, *ends, name=base.link, p=base.start, q=base.end)
-    pen.want("omega", base.link, found)
+        guide = known_guide(pen, shapes, pair)
+        found = pen.draw(part_along, guide, start, pen.the("velocity", first))
+    pen.want("slide speed", block, found)
+
+
+# --- arrows --------------------------------------------------------------------------------------
 
 
 def arrow_to(pen: Pen, pin: str, pivot: str | None) -> None:
     """The arrows of a plan to an image: the absolute velocity, and the one relative to a pivot."""
     o = pen.pole(Plane.VELOCITIES)
     tip = pen.the("velocity", pin)
-    starts = {o: (f"v_{pin}", "")}
-    if pivot is not None and pen.the("velocity", pivot) != o:
-        starts[pen.the("velocity", pivot)] = (f"v_{pin}{pivot}", pivot)
+    starts = {o: (f"v_{letter(pin)}", "")}
+    if pivot is not None and pen.the("velocity", pivot) not in (o, tip):
+        starts[pen.the("velocity", pivot)] = (f"v_{letter(pin)}{letter(pivot)}", letter(pivot))
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
         for start, (symbol, about) in starts.items():
             name = named(pen, start) + image(pin)
-            if not any(step.arrow and step.name == name for step in pen.steps):
-                pen.arrow(join, start, tip, name=name, symbol=symbol, q=pin, p=about)
+            if name not in pen.arrows:
+                pen.arrow(join, start, tip, name=name, symbol=symbol, q=letter(pin), p=about)
 
 
 def set_on_mechanism(pen: Pen, point: str) -> None:
@@ -171,9 +262,5 @@ def set_on_mechanism(pen: Pen, point: str) -> None:
     ends = pen.the("position", point), o, pen.the("velocity", point)
     with pen.on(Part.VELOCITY, Plane.MECHANISM):
         seconds = pen.seconds()
-        pen.arrow(set_on, *ends, seconds, name=f"v_{point}", symbol=f"v_{point}")
-
-
-def named(pen: Pen, number: int) -> str:
-    """Name of the point of a plan that a step carries."""
-    return pen.steps[number].name
+        symbol = f"v_{letter(point)}"
+        pen.arrow(set_on, *ends, seconds, name=symbol, symbol=symbol)

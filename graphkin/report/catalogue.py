@@ -20,8 +20,11 @@ ASKED = (
     ("epsilon", "ε of"),
     ("slides", "sliding of"),
     ("centres", "instantaneous centres of"),
+    ("pairs", "relative centres of"),
     ("poles", "acceleration poles of"),
+    ("inflection", "inflection circles of"),
     ("centrodes", "centrodes of"),
+    ("curves", "paths of"),
 )
 
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from math import degrees
+from typing import Any
 
-from graphkin.effects import guides_under
 from graphkin.plane import Ratio
-from graphkin.report.table import NOISE, number
+from graphkin.report.table import NOISE, Cell, number, table
 from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.solution import LinkMotion, PointMotion, Solution
+from graphkin.structure.graph import guides_under
 
 FAR = 1e9
 """Breadths of the mechanism beyond which a centre counts as at infinity."""
@@ -106,6 +107,35 @@ def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float
     if ratio is None or not acceleration:
         return "every point: none of them accelerates"
     return f"at infinity: all accelerate alike, towards {number(degrees(phase(acceleration)))}°"
+
+
+def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
+    """Where the relative centres of two links lie (m)."""
+    breadth = breadth_of(solution)
+    rows: list[list[Cell]] = []
+    for name in names:
+        ratio = solution.centres[name]
+        words = centre_words(ratio, breadth)
+        if place_of(ratio, breadth) is None and ratio.shift == 0:
+            words = "every point: they move as one"
+        rows.append([name.replace("-", " and "), words])
+    return table(["links", "centre of both, m"], rows) if rows else []
+
+
+def inflection_table(links: Mapping[str, dict[str, Any]]) -> list[str]:
+    """The inflection circle of each link that has one reported (m)."""
+    rows: list[list[Cell]] = []
+    for name, link in links.items():
+        if "inflection" not in link:
+            continue
+        circle = link["inflection"]
+        pole, centre, radius = "at infinity", None, None
+        if circle is not None:
+            pole, centre = (point_words(complex(*circle[key])) for key in ("pole", "centre"))
+            radius = circle["radius"]
+        rows.append([name, pole, centre, radius])
+    heads = ["link", "inflection pole, m", "centre of circle, m", "radius, m"]
+    return table(heads, rows) if rows else []
 
 
 def point_words(place: complex) -> str:

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import asin, degrees
 
 from graphkin.closures import Choice, choices
-from graphkin.errors import GraphkinError, Problem, WitnessError
+from graphkin.errors import ClosureError, GraphkinError, Problem, WitnessError
 from graphkin.mechanism import Mechanism
 from graphkin.reach import closing_ranges
 from graphkin.report.motion import verdict_words
 from graphkin.report.record import plain, settings_words
+from graphkin.report.structure import group_lines, structure
 from graphkin.report.table import crossing, labelled, listed, table
-from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.model import Scene
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
-from graphkin.structure.graph import Pair, Pin, Sliding, pairs
-from graphkin.structure.groups import Crank, Dyad, Group
-from graphkin.structure.mobility import count
+from graphkin.structure.drivers import driver_problem
+from graphkin.structure.groups import decompose
 
 WORST = 3
 """Flattest crossings shown."""
@@ -35,12 +35,12 @@ class Checking:
         """The whole report, line by line, as far as the scene allows."""
         scene = self.mechanism.scene
         yield from title(scene)
-        yield from structure(scene)
         try:
-            yield from labelled("groups", group_lines(self.mechanism.groups))
+            yield from structure(scene)
+            yield from labelled("groups", group_lines(decompose(scene)))
             yield from self.closing()
+            yield from labelled("rank", self.rank())
             trace = self.mechanism.trace()
-            yield from labelled("rank", [true_words(scene, trace)])
             yield from labelled("crossings", crossing_lines(trace))
             yield from labelled("witness", [self.witness(trace)])
         except GraphkinError as error:
@@ -55,6 +55,22 @@ class Checking:
         legend = ["(* as the scene says)"] if lines else ["nothing to choose"]
         yield from labelled("closures", [*lines, *legend])
         yield from labelled("range", [range_words(mechanism)])
+
+    def rank(self) -> list[str]:
+        """The true mobility in words; a wrong number of drivers for it is a problem.
+
+        Where nothing closes, more drivers than the count leaves freedoms may be the cause.
+        """
+        from graphkin.report.rank import Rank
+
+        try:
+            rank = Rank(self.mechanism)
+        except ClosureError as error:
+            doubt = driver_problem(self.mechanism.scene)
+            raise ClosureError([*error.problems, *([doubt] if doubt else [])]) from error
+        problem = driver_problem(self.mechanism.scene, rank.moving)
+        self.problems += [problem] if problem else []
+        return list(rank.lines())
 
     def witness(self, trace: Trace) -> str:
         """The verdict of the independent route."""
@@ -71,82 +87,6 @@ def title(scene: Scene) -> list[str]:
     """Title, name and parameters."""
     settings = settings_words({name: plain(scene.values.get(name)) for name in scene.parameters})
     return [f"{scene.title} ({scene.name})" + (f", {settings}" if settings else ""), ""]
-
-
-def structure(scene: Scene) -> list[str]:
-    """Links, pairs, the count of freedoms, and the drivers."""
-    counted = count(scene)
-    joined = pairs(scene)
-    moving = listed(scene.links)
-    freedoms = f"3·{counted.moving} − 2·{counted.pairs} = {counted.mobility}, mobility by the count"
-    drivers = [driver_words(scene, driver) for driver in scene.drivers] or ["none"]
-    return [
-        *labelled("links", [f"{len(scene.links)} moving ({moving}), and the frame"]),
-        *labelled("pairs", [f"{len(joined)}:", *map(pair_words, joined)]),
-        *labelled("count", [freedoms]),
-        *labelled("drivers", drivers),
-    ]
-
-
-def pair_words(pair: Pair) -> str:
-    """A pair with the links that it joins."""
-    if isinstance(pair, Pin):
-        return f"pin {pair.point} of {joined_words(pair.links)}"
-    if isinstance(pair, Sliding):
-        return f"slide of block {pair.block} on {link_words(pair.links[1])}"
-    return f"{type(pair).__name__.lower()} of {joined_words(pair.links)}"
-
-
-def link_words(name: str) -> str:
-    """A link by its name, link 0 as the frame."""
-    return "the frame" if name == FRAME else f"link {name}"
-
-
-def joined_words(names: Sequence[str]) -> str:
-    """Several links by their names, the frame apart."""
-    if FRAME in names:
-        return listed(map(link_words, names))
-    return f"links {listed(names)}"
-
-
-def driver_words(scene: Scene, driver: Driver) -> str:
-    """What a driver does, in the units of the scene, at these parameters."""
-    what = {"turn": "turns", "slide": "slides", "roll": "rolls"}[driver.kind]
-    found = [
-        f"{quantity.written(scene.values)} {quantity.unit}".strip()
-        for quantity in (driver.position, driver.speed, driver.acceleration)
-    ]
-    at = f"at {found[0]}, speed {found[1]}"
-    at += "" if driver.acceleration.is_zero() else f", acceleration {found[2]}"
-    return f"link {driver.link} {what} against {link_words(driver.against)}: {at}"
-
-
-def group_lines(groups: tuple[Group, ...]) -> list[str]:
-    """The groups in the order of construction."""
-    return [f"{i}. {group_words(group)}" for i, group in enumerate(groups, 1)]
-
-
-def group_words(group: Group) -> str:
-    """A group by its kind, its links and what it hangs on."""
-    if isinstance(group, Crank):
-        return f"crank {group.link} about {group.pivot} (class I)"
-    if isinstance(group, Dyad):
-        outer = listed(map(pair_name, (group.left, group.right)))
-        inner = pair_name(group.inner)
-        of = f"dyad {group.type} (class II) of links {listed(group.links)}"
-        return f"{of}, inner {inner}, outer {outer}"
-    links = getattr(group, "links", None) or (getattr(group, "link", ""),)
-    kind = type(group).__name__.lower()
-    if kind == "unresolved":
-        kind = "not a crank or a dyad (class III or higher, or without a driver):"
-    return f"{kind} of links {listed(links)}".replace(": of", ":")
-
-
-def pair_name(pair: Pair) -> str:
-    """A pair in short: pin B, slide of 5 on the frame."""
-    if isinstance(pair, Pin):
-        return f"pin {pair.point}"
-    return pair_words(pair)
 
 
 def closure_lines(choice: Choice) -> list[str]:
@@ -178,19 +118,6 @@ def range_words(mechanism: Mechanism) -> str:
     turned = sorted((low - 360 * (high > 360), high - 360 * (high > 360)) for low, high in found)
     words = ", ".join(f"{low:.2f}° to {high:.2f}°" for low, high in turned)
     return f"closes for driver angles {words}" if words else "closes for no angle of the driver"
-
-
-def true_words(scene: Scene, trace: Trace) -> str:
-    """True mobility, from the rank of the constraints, and what a difference means."""
-    from graphkin.freedom import true_mobility
-
-    solution = gathered(trace)
-    places = {n: p.position for n, p in solution.points.items() if p.position is not None}
-    true, counted = true_mobility(scene, places), count(scene).mobility
-    words = f"{true}, true mobility by the rank of the constraints"
-    if true > counted:
-        words += f": {true - counted} more than the count (idle constraints or a singular position)"
-    return words
 
 
 def crossing_lines(trace: Trace) -> list[str]:

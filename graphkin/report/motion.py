@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.report.centres import breadth_of, centre_words, completed, largest, pole_words
+from graphkin.report.centres import (
+    breadth_of,
+    centre_words,
+    completed,
+    inflection_table,
+    largest,
+    pole_words,
+    relative_table,
+)
 from graphkin.report.record import Record, settings_words
 from graphkin.report.table import Cell, cleaned, number, table
 from graphkin.scene.model import Scene
@@ -25,6 +33,8 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
         points_table(found["points"], solution),
         turning_table(found["links"], solution),
         centres_table(scene, solution, found["links"]),
+        relative_table(solution, found.get("centres", {})),
+        inflection_table(found["links"]),
         slides_table(found["slides"]),
         scale_lines(found["scales"]),
         [f"witness  {verdict_words(verdict)}"],

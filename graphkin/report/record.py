@@ -42,6 +42,7 @@ def record(
         "parameters": {name: plain(scene.values.get(name)) for name in scene.parameters},
         "points": named(point_names(scene, full), lambda n: point(n, motion_of(n, full), wanted)),
         "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth_of(full))),
+        **centres(scene, full),
         "slides": named(blocks(scene, full), lambda n: slide(n, full.slides[n], wanted)),
         "scales": {"kL": scales.kL, "kv": scales.kv, "ka": scales.ka},
         "witness": witness(verdict),
@@ -61,6 +62,7 @@ def wanted_of(scene: Scene, asked: bool) -> Wanted:
         "epsilon": ask.epsilon,
         "instant_centre": ask.centres,
         "acceleration_pole": ask.poles,
+        "inflection": ask.inflection,
         "slide": ask.slides,
     }
     return lambda quantity, of: of in names.get(quantity, ())
@@ -112,7 +114,26 @@ def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Recor
     }
     found: Record = {key: real(value) for key, value in turning.items() if wanted(key, name)}
     found |= {key: pair(value) for key, value in centres.items() if wanted(key, name)}
+    if motion.inflection_pole is not None and wanted("inflection", name):
+        found["inflection"] = inflection(motion, breadth)
     return found
+
+
+def inflection(motion: LinkMotion, breadth: float) -> Record | None:
+    """The inflection circle: its pole, centre and radius; null where the link does not turn."""
+    first = place_of(motion.instant_centre, breadth)
+    pole = place_of(motion.inflection_pole, breadth)
+    if first is None or pole is None:
+        return None
+    return {"pole": pair(pole), "centre": pair((first + pole) / 2), "radius": abs(pole - first) / 2}
+
+
+def centres(scene: Scene, solution: Solution) -> Record:
+    """The relative centres that are asked, or null where they are at infinity."""
+    breadth = breadth_of(solution)
+    known = [name for name in scene.ask.pairs if name in solution.centres]
+    found = {name: pair(place_of(solution.centres[name], breadth)) for name in known}
+    return {"centres": found} if found else {}
 
 
 def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:

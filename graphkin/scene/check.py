@@ -239,7 +239,12 @@ def check_ask(scene: Scene, findings: Findings) -> None:
             known_point(point, points, "the mechanism", place, findings)
             if link:
                 known_link(scene, link, place, findings)
-    for key in ("omega", "epsilon", "poles", "centres", "centrodes", "slides"):
+    for index, name in enumerate(scene.ask.curves):
+        known_point(name, points, "the mechanism", f"ask.curves[{index}]", findings)
+    for pair in scene.ask.pairs:
+        for name in pair.split("-"):
+            known_link(scene, name, "ask.centres", findings)
+    for key in ("omega", "epsilon", "poles", "centres", "centrodes", "slides", "inflection"):
         for index, name in enumerate(getattr(scene.ask, key)):
             place = f"ask.{key}[{index}]"
             link_asked = known_link(scene, name, place, findings)

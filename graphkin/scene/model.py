@@ -206,7 +206,11 @@ Branch = Side | Way | Closure
 
 
 class Ask(NamedTuple):
-    """What is asked of the mechanism; points may be written ``A@3``."""
+    """What is asked of the mechanism; points may be written ``A@3``.
+
+    ``pairs`` are two links joined by a dash, ``2-4``, whose relative centre is asked, in the order
+    of the scene with the frame first; ``curves`` are points whose paths are asked.
+    """
 
     velocity: tuple[str, ...] = ()
     acceleration: tuple[str, ...] = ()
@@ -216,6 +220,9 @@ class Ask(NamedTuple):
     centres: tuple[str, ...] = ()
     centrodes: tuple[str, ...] = ()
     slides: tuple[str, ...] = ()
+    pairs: tuple[str, ...] = ()
+    inflection: tuple[str, ...] = ()
+    curves: tuple[str, ...] = ()
 
 
 class Sheet(NamedTuple):

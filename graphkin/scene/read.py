@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.check import check_scene
@@ -16,6 +17,7 @@ from graphkin.scene.limits import decoded, read_bytes, tables_of
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Link, Scene
 from graphkin.scene.parameters import read_parameters, set_values
+from graphkin.scene.profiles import normals
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
 from graphkin.scene.shapes import read_shape
 from graphkin.scene.wishes import read_ask, read_branches, read_languages, read_sheet
@@ -93,16 +95,19 @@ def assembled(
     time = read_time(top, Measures(findings, units, values), values)
     measures = Measures(findings, units, values)
     module = read_module(top, measures)
+    title = top.text("title", name)
+    frame = read_link(FRAME, top.table(FRAME_WORD), measures, module)
+    links = read_links(top, measures, module)
     return Scene(
         name=name,
-        title=top.text("title", name),
+        title=title,
         units=units,
         parameters=parameters,
-        frame=read_link(FRAME, top.table(FRAME_WORD), measures, module),
-        links=read_links(top, measures, module),
+        frame=frame,
+        links=links,
         drivers=read_drivers(top, measures),
         branches=read_branches(top.table("branches"), findings),
-        ask=read_ask(top.table("ask"), findings),
+        ask=read_ask(top.table("ask"), findings, tuple(links)),
         sheet=read_sheet(top.table("sheet"), measures),
         time=time,
         titles=read_languages(top.table("titles"), findings),
@@ -154,7 +159,8 @@ def read_links(top: Table, measures: Measures, module: Quantity | None) -> dict[
     if len(table.raw) > MOST_LINKS:
         found = f"{len(table.raw)} links"
         raise SceneError(Problem("links", found, f"at most {MOST_LINKS}"))
-    links = {}
+    links: dict[str, Link] = {}
+    written: dict[str, Table] = {}
     for name, raw in table.raw.items():
         place = table.at(name)
         if name in (FRAME, FRAME_WORD):
@@ -165,8 +171,17 @@ def read_links(top: Table, measures: Measures, module: Quantity | None) -> dict[
         elif not isinstance(raw, dict):
             measures.findings.add(place, shown(raw), "a table with its points")
         else:
-            links[name] = read_link(name, Table(place, raw, measures.findings), measures, module)
+            written[name] = Table(place, raw, measures.findings)
+            links[name] = read_link(name, written[name], measures, module)
+    frame = Table(FRAME_WORD, as_table(top.raw.get(FRAME_WORD)), measures.findings)
+    for name, lengths in normals(written, frame, links, measures):
+        links[name] = read_link(name, lengths, measures, module)
     return links
+
+
+def as_table(raw: object) -> dict[str, Any]:
+    """A table as it was written; an empty one for anything else."""
+    return raw if isinstance(raw, dict) else {}
 
 
 def read_link(name: str, table: Table, measures: Measures, module: Quantity | None) -> Link:
@@ -174,7 +189,7 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
     points, placings = read_shape(table, measures)
     wheels = read_wheels(table, measures, module)
     if name == FRAME:
-        for key in ("slides", "rolls"):
+        for key in ("slides", "rolls", "touches"):
             if table.take(key) is not None:
                 measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
         return Link(FRAME, points, placings, (), wheels)

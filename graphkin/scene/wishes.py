@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from datetime import date, datetime
 from fractions import Fraction
+from itertools import combinations
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Sheet
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.scene.words import asked_point, branch_words, link_name
+from graphkin.scene.words import asked_point, branch_words, link_name, point_name
 
 LANGUAGES = ("en", "it", "ro")
 POINTS_ASKED = ("velocity", "acceleration")
-LINKS_ASKED = ("omega", "epsilon", "poles", "centres", "centrodes", "slides")
+PATHS_ASKED = "curves"
+LINKS_ASKED = ("omega", "epsilon", "poles", "centrodes", "slides", "inflection")
+ALL = "all"
+"""Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
 MOST = 500
 
@@ -35,32 +40,73 @@ def read_branches(table: Table, findings: Findings) -> dict[str, Branch]:
     return branches
 
 
-def read_ask(table: Table, findings: Findings) -> Ask:
-    """What is asked; each key holds a list of points or of links."""
-    points = {key: asked(table, key, findings, of_points=True) for key in POINTS_ASKED}
-    links = {key: asked(table, key, findings, of_points=False) for key in LINKS_ASKED}
+def read_ask(table: Table, findings: Findings, links: Sequence[str] = ()) -> Ask:
+    """What is asked; each key holds a list of points or of links. ``links`` are all, as written."""
+    points = {key: names_asked(table, key, findings, asked_point) for key in POINTS_ASKED}
+    of_links = {key: names_asked(table, key, findings, moving_link) for key in LINKS_ASKED}
+    curves = names_asked(table, PATHS_ASKED, findings, point_name)
+    centres, pairs = centres_asked(table, findings, (FRAME, *links))
     table.finish()
-    return Ask(**points, **links)
+    return Ask(**points, **of_links, centres=centres, pairs=pairs, curves=curves)
 
 
-def asked(table: Table, key: str, findings: Findings, *, of_points: bool) -> tuple[str, ...]:
+def names_asked(
+    table: Table, key: str, findings: Findings, read: Callable[[str, object, Findings], str | None]
+) -> tuple[str, ...]:
     """The names in one list, each once."""
+    found = (read(place, each, findings) for place, each in items(table, key, findings, read))
+    return tuple(dict.fromkeys(name for name in found if name is not None))
+
+
+def items(table: Table, key: str, findings: Findings, read: object) -> Iterator[tuple[str, object]]:
+    """Each item of a list with its place; a problem is noted when there is no list."""
     raw = table.take(key)
-    if raw is None:
-        return ()
-    if not isinstance(raw, list) or len(raw) > MOST:
-        what = '["A", "B"]' if of_points else "[2, 3]"
+    if isinstance(raw, list) and len(raw) <= MOST:
+        yield from ((f"{table.at(key)}[{index}]", each) for index, each in enumerate(raw))
+    elif raw is not None:
+        what = "[2, 3]" if read is moving_link else '["A", "B"]'
         findings.add(table.at(key), shown(raw), f"a list, such as {what}")
-        return ()
-    names: list[str] = []
-    for index, each in enumerate(raw):
-        place = f"{table.at(key)}[{index}]"
-        name = (asked_point if of_points else link_name)(place, each, findings)
-        if name == FRAME:
-            findings.add(place, "the frame, which is at rest", "a moving link")
-        elif name is not None and name not in names:
-            names.append(name)
-    return tuple(names)
+
+
+def moving_link(place: str, raw: object, findings: Findings) -> str | None:
+    """The name of a link; not that of the frame, which is at rest."""
+    name = link_name(place, raw, findings)
+    if name == FRAME:
+        findings.add(place, "the frame, which is at rest", "a moving link")
+        return None
+    return name
+
+
+def centres_asked(
+    table: Table, findings: Findings, links: Sequence[str]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The links and the pairs of links whose centres are asked: 2, "2-4", or "all" pairs."""
+    if table.raw.get("centres") == ALL:
+        table.take("centres")
+        return (), tuple("-".join(pair) for pair in combinations(links, 2))
+    centres: list[str] = []
+    pairs: list[str] = []
+    for place, raw in items(table, "centres", findings, moving_link):
+        if raw == ALL:
+            pairs += ["-".join(pair) for pair in combinations(links, 2)]
+        elif isinstance(raw, str) and "-" in raw:
+            pairs += link_pair(place, raw, findings, links)
+        elif name := moving_link(place, raw, findings):
+            centres.append(name)
+    return tuple(dict.fromkeys(centres)), tuple(dict.fromkeys(pairs))
+
+
+def link_pair(place: str, raw: str, findings: Findings, links: Sequence[str]) -> list[str]:
+    """Two links with a dash, in the order of the scene; none, with a problem noted, if not so."""
+    first, _, second = raw.replace(" ", "").partition("-")
+    names = [link_name(place, name, findings) for name in (first, second)]
+    if None in names:
+        return []
+    if names[0] == names[1]:
+        findings.add(place, f"{shown(raw)} is one link twice", 'two links, such as "2-4"')
+        return []
+    rank = {name: number for number, name in enumerate(links)}
+    return ["-".join(sorted((str(name) for name in names), key=lambda n: rank.get(n, len(rank))))]
 
 
 def read_sheet(table: Table, measures: Measures) -> Sheet:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphkin.arithmetic import Kind, pick
 from graphkin.steps.vocabulary import Action
@@ -33,6 +33,10 @@ class Plane(Enum):
     ACCELERATIONS = "accelerations"
 
 
+CONSTANTS: Mapping[str, Any] = {"one": 1.0, "nought": 0.0, "origin": 0j, "ahead": 1 + 0j}
+"""Values that need nothing from the scene; ahead is the direction of the x axis."""
+
+
 @dataclass(frozen=True, slots=True)
 class Given:
     """A value that the scene states: quantities, and how they make a number or a point."""
@@ -47,7 +51,7 @@ class Given:
     def value(self, values: Mapping[str, Any], kind: Kind) -> Any:
         """The given value in SI, as a number of a kind."""
         if not self.quantities:
-            return 1.0 if self.form == "one" else 0.0
+            return CONSTANTS[self.form]
         first = self.quantities[0]
         match self.form:
             case "direction":
@@ -83,20 +87,46 @@ class Step:
     says: Mapping[str, str] = field(default_factory=dict)
 
 
+PLACES = ("axis", "guide", "track", "rolled")
+"""Quantities that tell how links and guides lie: the drawing needs them, no answer does."""
+
+CONTACT = "~"
+"""The first letter of the names of points of contact, which belong to no scene."""
+
 Target = tuple[str, str]
 """What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""
+
+
+class Drive(NamedTuple):
+    """The steps that hold a driver's given position, speed and acceleration.
+
+    The position is a direction (unit complex) for one that turns, else a length in metres.
+    ``angle`` holds the angle in radians too, where wheels need it; None where none does.
+    """
+
+    position: int
+    speed: int
+    acceleration: int
+    angle: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Program:
     """Steps in drawing order, and which of them carries each quantity.
 
-    ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism.
+    ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism; ``drives``
+    are the given motions, in the order of the scene's drivers.
     """
 
     steps: tuple[Step, ...]
     targets: Mapping[Target, int]
     seconds: int | None = None
+    drives: tuple[Drive, ...] = ()
+
+    @property
+    def answers(self) -> tuple[Target, ...]:
+        """The targets that are motions, centres and poles: all that can be asked."""
+        return tuple(target for target in self.targets if target[0] not in PLACES)
 
     def needed(self, targets: Iterable[Target], *, by_hand: bool = False) -> tuple[int, ...]:
         """Numbers of the steps that the targets need, in order: the backward slice.

@@ -25,13 +25,15 @@ class PointMotion:
 class LinkMotion:
     """Angular velocity (rad/s) and acceleration (rad/s²), counter-clockwise positive, and centres.
 
-    A centre is a Ratio, so that it may lie at infinity; None where it was not asked for.
+    A centre is a Ratio, so that it may lie at infinity; None where it was not asked for. The
+    inflection circle is the one on the segment from the instantaneous centre to inflection_pole.
     """
 
     omega: Real | None = None
     epsilon: Real | None = None
     instant_centre: Ratio | None = None
     acceleration_pole: Ratio | None = None
+    inflection_pole: Ratio | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,13 +50,29 @@ class SlideMotion:
 class Solution:
     """The motion of a mechanism in one position, or of a batch of variants as arrays.
 
-    ``margin`` is the smallest sine of crossing among the steps run.
+    ``margin`` is the smallest sine of crossing among the steps run; ``centres`` are those of two
+    links, under names such as 2-4.
     """
 
     points: Mapping[str, PointMotion]
     links: Mapping[str, LinkMotion]
     slides: Mapping[str, SlideMotion] = field(default_factory=dict)
     margin: Real = 1.0
+    centres: Mapping[str, Ratio] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A curve on the mechanism over its motion, in metres, in runs without a break.
+
+    ``kind`` is fixed-centrode or moving-centrode, of link ``of``, or trajectory, of point ``of``;
+    ``now`` is its point at the scene's own position, where the centrodes touch.
+    """
+
+    kind: str
+    of: str
+    runs: tuple[tuple[complex, ...], ...]
+    now: complex | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +82,8 @@ class Verdict:
     ``largest_difference`` is the largest absolute difference over the largest magnitude of that
     quantity in the scene; ``quantity`` names where it was found; ``limit`` is what was allowed.
     ``residual`` (m) is the closure error before the first iteration, ``moved`` (m) the way that
-    Newton's method then went. ``branches`` lists the branch conditions that do not hold.
+    Newton's method then went. ``branches`` lists the branch conditions that do not hold,
+    ``guessed`` the links that no position tells, which the witness assembled by itself.
     """
 
     agrees: bool
@@ -74,3 +93,4 @@ class Verdict:
     residual: float
     moved: float
     branches: tuple[str, ...] = ()
+    guessed: tuple[str, ...] = ()

@@ -73,12 +73,6 @@ def across(first: Point, point: Point) -> Real:
     return (point - first).imag
 
 
-@action("beside")
-def beside(line: Line, point: Point, here: Point, there: Point) -> Point:
-    """A point of a block from another of its points; the block's x axis lies along its guide."""
-    return point + (there - here) * (line.along / abs(line.along))
-
-
 @action("shifted")
 def shifted(line: Line, offset: Real) -> Line:
     """The parallel to a line at a distance to its left."""
@@ -208,6 +202,18 @@ def parallel_to(start: Point, line: Line) -> Line:
 def meet(m: Line, n: Line) -> Point:
     """Where two lines meet."""
     return line_meets_line(m, n)
+
+
+@action("sum")
+def sum_of(a: Real, b: Real) -> Real:
+    """The rate of a link against the frame from its rate against one that turns too."""
+    return a + b
+
+
+@action("difference")
+def difference(a: Real, b: Real) -> Real:
+    """The rate of the link against which another turns at a given rate."""
+    return a - b
 
 
 @action("omega")

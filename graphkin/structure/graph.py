@@ -5,7 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
-from graphkin.scene.model import FRAME, Scene, Slide
+from graphkin.scene.model import FRAME, Rolling, Scene, Slide, Wheel
+from graphkin.structure.rolling import touching
+from graphkin.structure.turning import guides_under, turns
+
+__all__ = [
+    "Contact",
+    "Pair",
+    "Pin",
+    "Sliding",
+    "contacts",
+    "contacts_between",
+    "guides_under",
+    "pairs",
+    "pairs_between",
+    "sharers",
+    "turns",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +43,27 @@ class Sliding:
     def block(self) -> str:
         """The link that slides."""
         return self.links[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A wheel that rolls without slip on a straight track or on a wheel of another link.
+
+    ``links`` are the wheel's and the track's; ``track`` is the wheel rolled on, None on a straight
+    track. ``arm`` is the link that keeps the two together already, None where only the contact
+    does.
+    """
+
+    rolling: Rolling
+    links: tuple[str, str]
+    wheel: Wheel
+    track: Wheel | None
+    arm: str | None
+
+    @property
+    def taken(self) -> int:
+        """Freedoms that it takes: the slip, and the distance unless an arm keeps that."""
+        return 2 if self.arm is None else 1
 
 
 Pair = Pin | Sliding
@@ -68,3 +105,27 @@ def pairs_between(scene: Scene, link: str, others: frozenset[str]) -> tuple[Pair
         if slide.on == link
     ]
     return (*pins, *guides, *carried)
+
+
+def contacts(scene: Scene) -> tuple[Contact, ...]:
+    """All rolling pairs, as written. Raises StructureError for wheels that do not touch."""
+    return tuple(contact for link in scene.links for contact in contacts_of(scene, link))
+
+
+def contacts_of(scene: Scene, link: str) -> list[Contact]:
+    """The rolling pairs that a link is written with; each may rest on the tracks before it."""
+    found: list[Contact] = []
+    for rolling in scene.links[link].rolls:
+        before = [(each.rolling, each.wheel) for each in found if each.track is None]
+        touch = touching(scene, link, rolling, before)
+        found.append(Contact(rolling, (link, rolling.on), *touch))
+    return found
+
+
+def contacts_between(scene: Scene, link: str, others: frozenset[str]) -> tuple[Contact, ...]:
+    """The rolling pairs that join a link, by its wheel or by its track, to a set of others."""
+    return tuple(
+        contact
+        for contact in contacts(scene)
+        if link in contact.links and not others.isdisjoint(set(contact.links) - {link})
+    )

@@ -6,13 +6,16 @@ are joined one after the other. The smallest, two links and three pairs, is the 
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
-from itertools import combinations
 
-from graphkin.errors import Problem, StructureError
 from graphkin.scene.model import FRAME, Driver, Scene
-from graphkin.structure.graph import Pair, Pin, Sliding, pairs_between, sharers
-from graphkin.structure.mobility import count
+from graphkin.structure.assur import assur_class
+from graphkin.structure.graph import Contact, Pin, Sliding
+from graphkin.structure.joints import Joint, Joints, partner, taken
+
+LETTERS = {Pin: "R", Sliding: "P", Contact: "W"}
+ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,114 +26,334 @@ class Crank:
     link: str
     pivot: str
 
+    @property
+    def links(self) -> tuple[str]:
+        """The one link."""
+        return (self.link,)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        against = other_of(self.driver, self.link)
+        beside = "" if against == FRAME else f", against link {against}"
+        return f"driven by a crank about {self.pivot}{beside}"
+
+
+@dataclass(frozen=True, slots=True)
+class Driven:
+    """A link that a driver slides along a guide, or rolls on a track, of a known link."""
+
+    driver: Driver
+    link: str
+    pair: Sliding | Contact
+
+    @property
+    def links(self) -> tuple[str]:
+        """The one link."""
+        return (self.link,)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        against = other_of(self.driver, self.link)
+        beside = "frame" if against == FRAME else f"link {against}"
+        return f"driven, {'sliding' if isinstance(self.pair, Sliding) else 'rolling'} on {beside}"
+
 
 @dataclass(frozen=True, slots=True)
 class Dyad:
     """Two links and three pairs: each link joined to what is known, and to the other."""
 
     links: tuple[str, str]
-    left: Pair
-    inner: Pair
-    right: Pair
+    left: Joint
+    inner: Joint
+    right: Joint
 
     @property
     def type(self) -> str:
-        """R for a pin and P for a slide, from one outer pair over the inner to the other."""
-        return "".join("R" if isinstance(pair, Pin) else "P" for pair in self._pairs())
+        """R for a pin, P for a slide, W for a wheel, from one outer pair to the other."""
+        return "".join(LETTERS[type(pair)] for pair in (self.left, self.inner, self.right))
 
-    def _pairs(self) -> tuple[Pair, Pair, Pair]:
-        return self.left, self.inner, self.right
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return f"dyad {self.type}"
+
+
+@dataclass(frozen=True, slots=True)
+class Geared:
+    """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
+
+    link: str
+    pair: Joint
+    contact: Contact
+
+    @property
+    def links(self) -> tuple[str]:
+        """The one link."""
+        return (self.link,)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return f"rolls on link {partner(self.contact, self.link)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Train:
+    """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
+
+    arm: str
+    wheel: str
+    pivot: Pin
+    centre: Pin
+    contacts: tuple[Contact, Contact]
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """Arm and wheel."""
+        return (self.arm, self.wheel)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        links = " and ".join(partner(contact, self.wheel) for contact in self.contacts)
+        return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
+
+
+@dataclass(frozen=True, slots=True)
+class Tie:
+    """A link that two pairs join to known links: it closes a loop and moves nothing."""
+
+    link: str
+    first: Joint
+    second: Joint
+
+    @property
+    def links(self) -> tuple[str]:
+        """The one link."""
+        return (self.link,)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return "idle: joins what moves together without it"
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """A link whose place in its pair with a known one is tried until the rest closes."""
+
+    link: str
+    pair: Joint
+
+    @property
+    def links(self) -> tuple[str]:
+        """The one link."""
+        return (self.link,)
+
+
+@dataclass(frozen=True, slots=True)
+class Higher:
+    """A group of class III or more: once one link is tried, the others follow as dyads.
+
+    What closes it at last is a link between two known points, or a driver's given motion.
+    """
+
+    trial: Trial
+    chain: tuple[Group, ...]
+    last: Tie | Driver
+    joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All links, that whose place is tried first and that which closes last."""
+        last = self.last.links if isinstance(self.last, Tie) else ()
+        return (*self.trial.links, *(link for g in self.chain for link in g.links), *last)
+
+    @property
+    def order(self) -> tuple[int, int]:
+        """Assur's class, and the order: the number of pairs with known links."""
+        return assur_class(*self.joints)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        if isinstance(self.last, Driver):
+            return "group closed by a driver within it"
+        rank, order = self.order
+        return f"group of class {ROMAN[min(rank, 8)]}, order {order}"
 
 
 @dataclass(frozen=True, slots=True)
 class Unresolved:
-    """What is left when no driver and no dyad applies: a group of class III or higher."""
+    """What is left when no driver and no group applies."""
 
     links: tuple[str, ...]
 
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return "a group for which no construction was found"
 
-Group = Crank | Dyad | Unresolved
+
+Group = Crank | Driven | Dyad | Geared | Train | Tie | Higher | Unresolved
+
+
+def other_of(driver: Driver, link: str) -> str:
+    """The link against which a link is driven."""
+    return driver.against if driver.link == link else driver.link
 
 
 def decompose(scene: Scene) -> tuple[Group, ...]:
-    """The groups in order of construction. Raises StructureError for wrong numbers of drivers."""
-    refuse_wrong_drivers(scene)
-    known = frozenset({FRAME})
+    """The groups in order of construction."""
+    from graphkin.structure.higher import next_higher
+
+    joints = Joints(scene)
+    known = {FRAME}
     waiting = list(scene.drivers)
     groups: list[Group] = []
     while len(known) <= len(scene.links):
-        group = next_crank(scene, known, waiting) or next_dyad(scene, known)
-        if group is None:
-            groups.append(Unresolved(tuple(name for name in scene.links if name not in known)))
-            break
+        group = (
+            next_driven(joints, known, waiting)
+            or next_group(joints, known)
+            or next_tie(joints, known)
+            or next_higher(joints, known, waiting)
+            or Unresolved(tuple(joints.unknown(known)))
+        )
         groups.append(group)
-        if isinstance(group, Crank):
-            waiting.remove(group.driver)
-        known |= {group.link} if isinstance(group, Crank) else set(group.links)
+        settle(group, known, waiting)
     return tuple(groups)
 
 
-def refuse_wrong_drivers(scene: Scene) -> None:
-    """Raise StructureError unless there are as many drivers as the count leaves freedoms."""
-    freedoms, drivers = count(scene).mobility, len(scene.drivers)
-    if freedoms == drivers:
-        return
-    noun = "freedom" if freedoms == 1 else "freedoms"
-    hint = "add a driver" if freedoms > drivers else "take a driver away"
-    if freedoms > drivers and (loose := lone_points(scene)):
-        hint += f", or a pin is missing: only one link has the points {', '.join(loose)}"
-    raise StructureError(
-        Problem(
-            "drivers",
-            f"{drivers} given, but the count 3·{count(scene).moving} - "
-            f"2·{count(scene).pairs} leaves {freedoms} {noun}",
-            "as many drivers as freedoms",
-            hint,
-        )
-    )
+def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
+    """The group's links are known now, and its drivers used."""
+    known.update(group.links)
+    if isinstance(group, Higher):
+        for each in group.chain:
+            settle(each, known, waiting)
+        if isinstance(group.last, Driver):
+            waiting.remove(group.last)
+    elif isinstance(group, Crank | Driven):
+        waiting.remove(group.driver)
 
 
-def lone_points(scene: Scene) -> list[str]:
-    """The points that only one link has, each with its link."""
-    owners = sharers(scene)
-    return [f"{point} ({links[0]})" for point, links in owners.items() if len(links) == 1]
-
-
-def next_crank(scene: Scene, known: frozenset[str], waiting: list[Driver]) -> Crank | None:
-    """The first driven link, as written, that turns about a pin of a known link."""
+def next_driven(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
+    """The first link, as its driver is written, that a known one drives."""
     for driver in waiting:
-        if driver.kind != "turn" or driver.link in known or driver.against not in known:
+        for link, against in ((driver.link, driver.against), (driver.against, driver.link)):
+            if link in known or against not in known:
+                continue
+            group = driven_by(joints, known, driver, link, against)
+            if group is not None:
+                return group
+    return None
+
+
+def driven_by(
+    joints: Joints, known: Collection[str], driver: Driver, link: str, against: str
+) -> Crank | Driven | None:
+    """The group of one driven link: a crank about any known pin, or along its own guide."""
+    if driver.kind == "turn":
+        pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
+        return Crank(driver, link, pins[0].point) if pins else None
+    wanted = Sliding if driver.kind == "slide" else Contact
+    for pair in joints.between(link, (against,)):
+        if isinstance(pair, wanted) and pair.links[0] == driver.link:
+            assert not isinstance(pair, Pin)
+            return Driven(driver, link, pair)
+    return None
+
+
+def next_group(joints: Joints, known: Collection[str]) -> Group | None:
+    """The first dyad or geared wheel, as written, that closes on known links."""
+    for first in joints.unknown(known):
+        left = joints.between(first, known)
+        if not left:
             continue
-        for pair in pairs_between(scene, driver.link, known):
-            if isinstance(pair, Pin):
-                return Crank(driver, driver.link, pair.point)
+        if geared := geared_of(first, left):
+            return geared
+        if dyad := dyad_with(joints, known, first, left):
+            return dyad
+        if train := train_with(joints, known, first, left):
+            return train
     return None
 
 
-def next_dyad(scene: Scene, known: frozenset[str]) -> Dyad | None:
-    """The first two unknown links, as written, that together close on known ones."""
-    unknown = [name for name in scene.links if name not in known]
-    for first, second in combinations(unknown, 2):
-        between = pairs_between(scene, first, frozenset({second}))
-        inner = [pair for pair in between if not is_known_pin(scene, pair, known)]
-        left = pairs_between(scene, first, known)
-        right = pairs_between(scene, second, known)
-        if len(inner) == len(left) == len(right) == 1:
-            return in_order(Dyad((first, second), left[0], inner[0], right[0]))
+def train_with(
+    joints: Joints, known: Collection[str], arm: str, left: tuple[Joint, ...]
+) -> Train | None:
+    """The arm of a planet that rolls on two known links, such as a sun and a ring."""
+    if len(left) != 1 or not isinstance(left[0], Pin):
+        return None
+    for wheel in joints.neighbours(arm):
+        if wheel in known:
+            continue
+        inner = joints.inner(arm, wheel, known)
+        outer = joints.between(wheel, known)
+        contacts = [pair for pair in outer if isinstance(pair, Contact) and pair.arm == arm]
+        if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
+            return Train(arm, wheel, left[0], inner[0], (contacts[0], contacts[1]))
     return None
 
 
-def is_known_pin(scene: Scene, pair: Pair, known: frozenset[str]) -> bool:
-    """Whether a pin stands already: links that meet there hang on it, not on one another."""
-    return isinstance(pair, Pin) and not known.isdisjoint(sharers(scene)[pair.point])
+def geared_of(link: str, joined: tuple[Joint, ...]) -> Geared | None:
+    """A link with one pair and one contact that takes a single freedom."""
+    ones = [pair for pair in joined if isinstance(pair, Contact) and pair.taken == 1]
+    twos = [pair for pair in joined if taken(pair) == 2]
+    return Geared(link, twos[0], ones[0]) if len(ones) == len(twos) == 1 else None
+
+
+def dyad_with(
+    joints: Joints, known: Collection[str], first: str, left: tuple[Joint, ...]
+) -> Dyad | None:
+    """The dyad of a link with the first of its neighbours that is joined to known links too."""
+    if len(left) != 1 or taken(left[0]) != 2:
+        return None
+    for second in joints.neighbours(first):
+        if second in known:
+            continue
+        inner = joints.inner(first, second, known)
+        right = joints.between(second, known)
+        if len(inner) == len(right) == 1 and taken(inner[0]) == taken(right[0]) == 2:
+            dyad = Dyad((first, second), left[0], inner[0], right[0])
+            if can_close(dyad):
+                return in_order(dyad)
+    return None
+
+
+def can_close(dyad: Dyad) -> bool:
+    """False for three slides, which leave the group loose, and for wheels that roll on wheels."""
+    wheels = dyad.type.count("W")
+    if isinstance(dyad.inner, Contact) or dyad.type == "PPP":
+        return False
+    return not wheels or (isinstance(dyad.inner, Pin) and (wheels == 1 or both_by_centre(dyad)))
+
+
+def both_by_centre(dyad: Dyad) -> bool:
+    """Whether the inner pin is the centre of both wheels."""
+    assert isinstance(dyad.inner, Pin)
+    pairs = (dyad.left, dyad.right)
+    return all(isinstance(p, Contact) and p.wheel.centre == dyad.inner.point for p in pairs)
 
 
 def in_order(dyad: Dyad) -> Dyad:
-    """The dyad read from its moving pin: RRP rather than PRR, the driver's side first."""
+    """The dyad read from its pin: RRP rather than PRR, the driver's side first."""
     turned = Dyad((dyad.links[1], dyad.links[0]), dyad.right, dyad.inner, dyad.left)
-    if isinstance(dyad.left, Sliding) and isinstance(dyad.right, Pin):
+    if not isinstance(dyad.left, Pin) and isinstance(dyad.right, Pin):
         return turned
     both = isinstance(dyad.left, Pin) and isinstance(dyad.right, Pin)
     if both and FRAME in dyad.left.links and FRAME not in dyad.right.links:
         return turned
     return dyad
+
+
+def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
+    """The first link, as written, that two pins, or a pin and a slide, join to known links."""
+    for link in joints.unknown(known):
+        pairs = joints.between(link, known)
+        if len(pairs) == 2 and all(taken(pair) == 2 for pair in pairs):
+            first, second = sorted(pairs, key=lambda pair: not isinstance(pair, Pin))
+            if isinstance(first, Pin) and isinstance(second, Pin | Sliding):
+                return Tie(link, first, second)
+    return None

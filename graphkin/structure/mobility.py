@@ -1,4 +1,4 @@
-"""The count of freedoms: Gruebler in the plane, Kutzbach in space."""
+"""The count of freedoms: Gruebler in the plane, Kutzbach in space; and of independent loops."""
 
 from __future__ import annotations
 
@@ -6,25 +6,54 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.scene.model import Scene
-from graphkin.structure.graph import pairs
+from graphkin.structure.graph import contacts, pairs
 
 
 @dataclass(frozen=True, slots=True)
 class Count:
-    """Moving links, pairs that leave one freedom, and the freedoms that the count leaves."""
+    """Moving links, pairs that take two freedoms, and those that take one.
+
+    ``pairs`` are pins, slides, and rolling pairs that alone keep their distance; ``singles`` are
+    rolling pairs whose distance an arm keeps already, teeth and tracks.
+    """
 
     moving: int
     pairs: int
+    singles: int = 0
 
     @property
     def mobility(self) -> int:
-        """Gruebler: three freedoms a moving link, two taken by each lower pair."""
-        return 3 * self.moving - 2 * self.pairs
+        """Gruebler: three freedoms a moving link, less what the pairs take."""
+        return gruebler(self.moving, self.pairs, self.singles)
+
+    @property
+    def loops(self) -> int:
+        """Independent closed loops: pairs beyond those that a tree of as many links needs."""
+        return self.pairs + self.singles - self.moving
+
+    @property
+    def words(self) -> str:
+        """The sum as it is written: 3·5 − 2·7 = 1."""
+        singles = f" − 1·{self.singles}" if self.singles else ""
+        return f"3·{self.moving} − 2·{self.pairs}{singles} = {self.mobility}".replace("= -", "= −")
 
 
 def count(scene: Scene) -> Count:
-    """Gruebler's count of a scene, multiple hinges counted as so many pairs less one."""
-    return Count(len(scene.links), len(pairs(scene)))
+    """Gruebler's count of a scene, a pin of k links counted as k - 1 pairs.
+
+    Raises StructureError for wheels that do not touch what they roll on.
+    """
+    rolling = contacts(scene)
+    singles = sum(contact.taken == 1 for contact in rolling)
+    return Count(len(scene.links), len(pairs(scene)) + len(rolling) - singles, singles)
+
+
+def gruebler(moving: int, lower: int, higher: int = 0) -> int:
+    """Freedoms in the plane: 3 a moving link, less 2 a lower pair and 1 a higher pair.
+
+    Lower pairs are pins and slides; higher ones cams, teeth and belts. Springs take nothing.
+    """
+    return 3 * moving - 2 * lower - higher
 
 
 def kutzbach(links: int, pairs_by_freedom: Mapping[int, int]) -> int:

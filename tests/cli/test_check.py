@@ -21,10 +21,12 @@ def test_the_pump_is_told_in_full(run: Run) -> None:
         "pin A of links 1 and 3",
         "slide of block 5 on the frame",
         "3·5 − 2·7 = 1, mobility by the count",
-        "1, true mobility by the rank of the constraints",
+        "2 independent closed loops",
+        "four-bar 0–1–3–2: 30 + 40 > 30 + 30 cm, no link turns fully (triple rocker)",
+        "1, true mobility by the rank of the constraints, as the count says",
         "1. crank 1 about O1",
-        "dyad RRR (class II) of links 3 and 2, inner pin B",
-        "dyad RRP (class II) of links 4 and 5, inner pin D",
+        "dyad RRR (class II, order 2) of links 3 and 2, inner pin B",
+        "dyad RRP (class II, order 2) of links 4 and 5, inner pin D",
         "closes for driver angles",
         "flattest crossings",
         "agrees: largest difference",
@@ -117,7 +119,7 @@ def test_groups_are_named_even_where_they_cannot_be_constructed(
     path.write_text(path.read_text().replace('B = "left of A-O2"', ""))
     result = run("check", path)
     assert result.exit_code == 2
-    assert "dyad RRR (class II) of links 2 and 3" in result.stdout
+    assert "dyad RRR (class II, order 2) of links 2 and 3" in result.stdout
     assert "four.toml: branches.B: is missing" in result.stderr
 
 
@@ -129,3 +131,202 @@ def test_a_position_that_does_not_close_still_shows_its_range(
     assert "cannot be drawn" in result.stdout
     assert "closes for driver angles" in result.stdout
     assert "B cannot be found" in result.stderr
+
+
+# --- structure: the count, the truth, and the drivers --------------------------------------------
+
+CRANKS = """
+graphkin = 1
+title = "Three parallel cranks"
+units = {{ length = "{unit}", angle = "deg", speed = "rad/s" }}
+[frame]
+O = [0, 0]
+Q = [40, 0]
+S = [20, 0]
+[links.1]
+O-A = 10
+[links.2]
+A-B = 40
+A-M = 20
+M = "on A-B"
+[links.3]
+Q-B = 10
+[links.4]
+S-M = {third}
+[[drivers]]
+turn = 1
+angle = {angle}
+speed = 1
+{driver}
+[branches]
+B = "left of A-Q"
+"""
+TWICE = """
+graphkin = 1
+title = "Stephenson driven twice"
+units = { length = "m", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+Q = [40, -20]
+[links.1]
+O = [0, 0]
+A = [10, 0]
+B = [-10, 0]
+[links.2]
+A-C = 30
+[links.3]
+B-D = 30
+[links.4]
+E = [0, 0]
+C = [10, 10]
+D = [-10, 10]
+[links.5]
+Q-E = 20
+[[drivers]]
+turn = 1
+angle = 90
+speed = 1
+[[drivers]]
+turn = 5
+angle = 90
+speed = 1
+[branches]
+C = "left of A-E"
+"""
+WHEEL = "rolls = { on = 1 }\n"
+SECOND = "[[drivers]]\nturn = 4\nangle = 40\nspeed = 1\n"
+
+
+@pytest.fixture
+def cranks(tmp_path: Path) -> Callable[..., Path]:
+    """Write the three parallel cranks: cranks(third=11) makes the third one longer."""
+
+    def written(third: float = 10, angle: float = 40, driver: str = "", unit: str = "mm") -> Path:
+        path = tmp_path / "cranks.toml"
+        text = CRANKS.format(third=third, angle=angle, driver=driver, unit=unit)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return written
+
+
+def part(text: str, label: str) -> list[str]:
+    """The lines of one part of the report, without their label."""
+    lines = text.splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith(label))
+    rest = [line[11:] for line in lines[start + 1 :]]
+    own = next(
+        (n for n, line in enumerate(lines[start + 1 :]) if not line.startswith(" " * 11)), None
+    )
+    return [lines[start][11:], *rest[:own]]
+
+
+def test_an_idle_crank_is_told_apart_from_a_jam(run: Run, cranks: Callable[..., Path]) -> None:
+    """The count says 0, the rank 1: the third parallel crank could be left out."""
+    result = run("check", cranks())
+    assert result.exit_code == 0
+    assert part(result.stdout, "count") == ["3·4 − 2·6 = 0, mobility by the count"]
+    assert part(result.stdout, "groups")[-1] == (
+        "3. link 4 between pin S and pin M, which stand already: it must be idle"
+    )
+    assert part(result.stdout, "rank") == [
+        "1, true mobility by the rank of the constraints",
+        "1 more than the count: one constraint is idle, taking what others take already",
+        "without link 4 (or link 3) the motion is the same, and the count is right",
+    ]
+
+
+def test_a_third_crank_that_does_not_fit_is_named(run: Run, cranks: Callable[..., Path]) -> None:
+    result = run("check", cranks(third=11))
+    assert result.exit_code == 2
+    assert "links.4: S and M stand 10 mm apart without it" in result.stderr
+
+
+def test_a_singular_position_is_told_apart_from_an_idle_link(
+    run: Run, cranks: Callable[..., Path]
+) -> None:
+    """All in line the velocities are freer by one more than the motion.
+
+    In metres, whole numbers, so that rounding does not part the arcs that touch.
+    """
+    result = run("check", cranks(angle=0, unit="m"))
+    assert part(result.stdout, "rank")[:3] == [
+        "2, true mobility by the rank of the constraints",
+        "singular position: beside it the constraints leave 1",
+        "1 more than the count: one constraint is idle, taking what others take already",
+    ]
+    assert "drivers" not in result.stderr
+
+
+def test_a_wheel_that_only_goes_along_is_not_idle(run: Run, cranks: Callable[..., Path]) -> None:
+    """It could be left out like the third crank, but takes no freedom from the others."""
+    path = cranks(driver='[links.w]\nX = [0, 0]\nwheel = { centre = "X", radius = 5 }\n' + WHEEL)
+    text = path.read_text(encoding="utf-8")
+    text = text.replace("O-A = 10", 'O-A = 10\nwheel = { centre = "O", radius = 5 }')
+    path.write_text(text.replace("O = [0, 0]", "O = [0, 0]\nX = [0, -10]", 1), encoding="utf-8")
+    assert part(run("check", path).stdout, "rank")[2] == (
+        "without link 4 (or link 3) the motion is the same, and the count is right"
+    )
+
+
+def test_a_driver_too_many_by_the_rank_is_told_though_everything_fits(
+    run: Run, tmp_path: Path
+) -> None:
+    """A Stephenson six-bar driven at both ends: without either a group of higher class is left."""
+    path = tmp_path / "twice.toml"
+    path.write_text(TWICE, encoding="utf-8")
+    result = run("check", path)
+    assert result.exit_code == 2
+    assert part(result.stdout, "rank")[0].startswith("1, true mobility")
+    assert "drivers: 2 given, but the count 3·5 - 2·7 leaves 1 freedom" in result.stderr
+
+
+def test_a_driver_too_many_is_told_once_and_before_its_branches(
+    run: Run, cranks: Callable[..., Path]
+) -> None:
+    result = run("check", cranks(driver=SECOND))
+    assert result.exit_code == 2
+    assert result.stderr.count("graphkin: ") == 1
+    assert "take one driver away, of turn = 1, turn = 4" in result.stderr
+
+
+def test_a_driver_too_few_is_told_with_the_groups_that_stand(
+    run: Run, four_bar: Callable[..., Path]
+) -> None:
+    path = four_bar()
+    text = path.read_text(encoding="utf-8").replace("O2-B", "B-C")
+    fourth = "[links.4]\nO2-C = 50\n[[drivers]]"
+    path.write_text(text.replace("[[drivers]]", fourth), encoding="utf-8")
+    result = run("check", path)
+    assert result.exit_code == 2
+    assert part(result.stdout, "count") == ["3·4 − 2·5 = 2, mobility by the count"]
+    assert part(result.stdout, "groups")[0] == "1. crank 1 about O1 (class I)"
+    assert result.stderr.count("graphkin: ") == 1
+    assert "1 given, but the count 3·4 - 2·5 leaves 2 freedoms" in result.stderr
+    assert "add a driver, such as turn = 4" in result.stderr
+
+
+def test_a_second_collar_on_the_same_rail_is_two_idle_constraints(run: Run, tmp_path: Path) -> None:
+    """One slide would do: the second takes the same distance and the same turning again."""
+    path = tmp_path / "collars.toml"
+    text = """
+graphkin = 1
+title = "Two collars"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+A = [0, 0]
+B = [30, 0]
+slides = [{ on = 0, through = "O", angle = 0 }, { on = 0, through = [5, 0], angle = 0 }]
+[[drivers]]
+slide = 1
+position = 10
+speed = 4
+"""
+    path.write_text(text, encoding="utf-8")
+    assert part(run("check", path).stdout, "rank") == [
+        "1, true mobility by the rank of the constraints",
+        "2 more than the count: 2 constraints are idle, taking what others take already",
+        "without the guide of block 1 on the frame the motion is the same",
+    ]

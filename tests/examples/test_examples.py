@@ -31,7 +31,8 @@ from tests.examples.document import (
 )
 
 SCRIPTS = sorted(EXAMPLES.glob("[0-9][0-9]_*.py"))
-SCENES = sorted((EXAMPLES / "scenes").glob("*.toml"))
+FIRST = ("crank-rocker", "engine", "offset-slider-crank", "six-bar")  # those that the pages name
+SCENES = [EXAMPLES / "scenes" / f"{name}.toml" for name in FIRST]
 WHOLE, *PARTS = blocks(SCENES_PAGE, "toml")
 READ_ONLY = "Read, not constructed yet"
 DOCUMENTS = (
@@ -86,7 +87,7 @@ def test_a_script_runs_and_has_something_to_show(script: Path, tmp_path: Path) -
 
 def test_there_are_scripts_and_scenes_to_test() -> None:
     assert len(SCRIPTS) == 4
-    assert len(SCENES) == 4
+    assert all(scene.is_file() for scene in SCENES)
 
 
 def test_sheets_go_into_the_folder_that_is_named(tmp_path: Path) -> None:

@@ -45,7 +45,7 @@ class Moving:
     def links(self):
         """The links that can turn; a block on the frame has no centre and no pole."""
         found = self.solution.links.items()
-        return {name: link for name, link in found if link.instant_centre is not None}
+        return {name: link for name, link in found if link.acceleration_pole is not None}
 
     def bars(self):
         """Each link that can turn, with each two of its points."""

@@ -7,8 +7,9 @@ import math
 
 import pytest
 
-from graphkin.errors import StructureError
-from graphkin.freedom import true_mobility
+from graphkin.errors import StructureError, WitnessError
+from graphkin.freedom import idle, true_mobility
+from graphkin.loops.assemble import assemble
 
 CRANKS = """
 [frame]
@@ -30,6 +31,7 @@ turn = 1
 angle = 60
 speed = 3
 """
+SIDE = '[branches]\nC = "right of B-D"\n'
 TRAMMEL = """
 [frame]
 O = [0, 0]
@@ -79,9 +81,31 @@ def test_third_parallel_crank(read, solved):
         assert motion.omega[0, motion.index[link]] == pytest.approx(omega, abs=1e-12)
 
 
+def test_any_of_three_parallel_cranks_is_idle_and_no_pin_alone(read):
+    found = idle(read(CRANKS))
+    assert found.links == ("1", "3", "4")
+    assert set(found.joints.values()) == {1}
+    assert len(found.joints) == 6
+    four_bar = CRANKS.replace("[links.4]\nF-E = 2\n", "")
+    assert idle(read(four_bar)) == ({}, ())
+
+
+def test_a_third_crank_of_another_length_does_not_close(read):
+    with pytest.raises(WitnessError, match="close"):
+        assemble(read(CRANKS.replace("F-E = 2", "F-E = 2.01") + SIDE))
+
+
+def test_where_no_position_is_given_one_is_found(read):
+    assert true_mobility(read(CRANKS)) == 1
+    assert true_mobility(read(TRAMMEL)) == 1
+    assert true_mobility(read(WEDGES)) == 1
+
+
 def test_bar_to_the_middle_of_the_trammel(read):
     start = {"A": 1 + 0j, "B": 1j * math.sqrt(3), "M": 0.5 + 0.5j * math.sqrt(3)}
-    assert true_mobility(read(TRAMMEL), start) == 1
+    scene = read(TRAMMEL)
+    assert true_mobility(scene, start) == 1
+    assert "4" in idle(scene, start).links
 
 
 def test_wedges(read, solved):
@@ -98,25 +122,6 @@ def test_pump_five_bar_and_a_frame(sheet, read, pump_start):
     assert true_mobility(read(chain + drivers), {"A": 2 + 0j, "B": 3 + 0j}) == 2
     truss = chain.replace("O = [0, 0]\n", "O = [0, 0]\nB = [2, 2]\n", 1)
     assert true_mobility(read(truss + drivers), {"A": 2 + 1j}) == 0
-
-
-def test_rolling_is_refused_for_now(read):
-    scene = read(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-C = [0, 0]
-wheel = { centre = "C", radius = 1 }
-rolls = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-roll = 1
-position = 0
-speed = 1
-"""
-    )
-    with pytest.raises(StructureError, match="rolling and gear pairs are not covered"):
-        true_mobility(scene, {"C": 1j})
 
 
 def test_an_angle_that_the_scene_does_not_say_is_named(read):

@@ -10,7 +10,7 @@ import pytest
 from graphkin.errors import StructureError, WitnessError
 from graphkin.plane import Ratio
 from graphkin.steps.solution import PointMotion, Solution
-from graphkin.witness import compare, compare_batch
+from graphkin.witness import by_loops, compare, compare_batch
 
 
 @pytest.fixture
@@ -288,3 +288,109 @@ def test_far_from_the_origin_nothing_is_lost(read, solved, written):
     for mine, its in zip(near.motion.points[1:], there.motion.points[1:], strict=True):
         assert abs(mine - its).max() < 1e-12 * abs(mine).max()
     assert compare(read(far), written(there)).agrees
+
+
+WHEELS = """
+[frame]
+O = [0, 0]
+[links.sun]
+O = [0, 0]
+T = [0.1, 0.5]
+wheel = { centre = "O", radius = 0.6 }
+[links.arm]
+O-P = 0.9
+[links.planet]
+P = [0, 0]
+Q = [0.3, 0]
+wheel = { centre = "P", radius = 0.3 }
+rolls = { on = "sun" }
+[links.rod]
+Q-S = 2
+[links.roller]
+S = [0, 0]
+R = [0.1, 0.1]
+wheel = { centre = "S", radius = 0.2 }
+rolls = { on = 0, through = [0, -1], angle = 0 }
+[[drivers]]
+turn = "arm"
+angle = 400
+speed = 7
+acceleration = -3
+[[drivers]]
+turn = "sun"
+angle = -500
+speed = -5
+[branches]
+roller = "forward"
+[ask]
+centres = ["sun-planet", "arm-planet", "planet-roller"]
+"""
+
+
+def test_wheels_are_held(read):
+    scene = read(WHEELS)
+    solution = by_loops(scene)
+    assert compare(scene, solution).agrees
+    touch = solution.centres["sun-planet"]
+    pitch = touch.start + touch.shift / touch.size
+    assert pitch == pytest.approx(solution.points["P"].position * 0.6 / 0.9)
+    for name in ("planet", "roller"):
+        for quantity in ("omega", "epsilon"):
+            value = getattr(solution.links[name], quantity)
+            wrong = replace(solution.links[name], **{quantity: value * (1 + 1e-6)})
+            verdict = compare(scene, replace(solution, links={**solution.links, name: wrong}))
+            assert verdict.quantity == f"links.{name}.{quantity}"
+            assert not verdict.agrees
+
+
+def test_a_wheel_a_tooth_out_is_caught(read):
+    """The rim point of the planet turned by the thousandth of a turn, everything else as it was."""
+    scene = read(WHEELS)
+    solution = by_loops(scene)
+    centre, rim = (solution.points[name].position for name in "PQ")
+    turned = centre + (rim - centre) * np.exp(2e-3j * np.pi)
+    verdict = compare(scene, moved(solution, "Q", position=complex(turned)))
+    assert not verdict.agrees
+    assert verdict.residual > 1e-4
+
+
+def test_a_roller_in_its_other_closure_is_caught(read):
+    scene = read(WHEELS)
+    backward = by_loops(read(WHEELS.replace("forward", "backward")))
+    assert compare(scene, backward).branches == ("roller",)
+
+
+@pytest.mark.parametrize("pair", ["sun-planet", "arm-planet", "planet-roller"])
+def test_a_wrong_relative_centre_is_caught(pair, read):
+    scene = read(WHEELS)
+    solution = by_loops(scene)
+    ratio = solution.centres[pair]
+    wrong = Ratio(ratio.start + 1e-6, ratio.shift, ratio.size)
+    verdict = compare(scene, replace(solution, centres={**solution.centres, pair: wrong}))
+    assert verdict.quantity == f"centres.{pair}"
+    assert not verdict.agrees
+
+
+def test_inflection_poles_are_held(pump):
+    """Points of the circle on the centre and the pole move straight for an instant."""
+    scene, solution = pump
+    for name, link in by_loops(scene).links.items():
+        if name in ("1", "2", "5"):
+            continue
+        pole, centre = (
+            each.start + each.shift / each.size
+            for each in (link.inflection_pole, link.instant_centre)
+        )
+        at = PointMotion((pole + centre) / 2 + 1j * (pole - centre) / 2)
+        turn, epsilon = 1j * link.omega, link.epsilon
+        ratio = link.acceleration_pole
+        still = ratio.start + ratio.shift / ratio.size
+        velocity = turn * (at.position - centre)
+        acceleration = (1j * epsilon + turn**2) * (at.position - still)
+        across = (velocity.conjugate() * acceleration).imag
+        assert abs(across) < 1e-9 * abs(velocity) * abs(acceleration)
+        held = replace(solution.links[name], inflection_pole=link.inflection_pole)
+        assert compare(scene, replace(solution, links={**solution.links, name: held})).agrees
+        wrong = replace(held, inflection_pole=link.inflection_pole._replace(start=pole))
+        verdict = compare(scene, replace(solution, links={**solution.links, name: wrong}))
+        assert verdict.quantity == f"links.{name}.inflection_pole"

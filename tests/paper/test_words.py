@@ -22,6 +22,7 @@ from graphkin.paper.sheet import sheet
 from graphkin.scene.read import read_text
 from graphkin.text import LANGUAGES, Words, words
 from tests.mechanisms import SHIPPED
+from tests.paper.centre_scenes import ASKING
 from tests.paper.sheet_tools import (
     HEAD,
     KINDS,
@@ -300,6 +301,9 @@ def every_page(mechanism: Mechanism, spoken: Words) -> list[Page]:
 def one_page(drawing: Drawing, view: str) -> list[Page]:
     """One sheet."""
     return [sheet(drawing, view, "1/1")]
+
+
+RARE |= ASKING
 
 
 def rare(name: str) -> Mechanism:

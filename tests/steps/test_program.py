@@ -105,7 +105,7 @@ def steps_of(mechanism):
 
 def test_the_hands_steps_come_only_when_asked_for():
     program = shipped("pump", 7).program
-    bare, by_hand = program.needed(program.targets), program.needed(program.targets, by_hand=True)
+    bare, by_hand = program.needed(program.answers), program.needed(program.answers, by_hand=True)
     assert not any(program.steps[number].hand for number in bare)
     assert set(bare) < set(by_hand)
     assert {"set-velocity", "square-at", "turn-over", "join"} <= keys(program, by_hand)
@@ -151,7 +151,7 @@ def test_moving_a_step_moves_exactly_its_descendants():
     """
     mechanism = shipped("pump", 7)
     program, values = mechanism.program, mechanism.scene.values
-    needed = program.needed(program.targets, by_hand=True)
+    needed = program.needed(program.answers, by_hand=True)
     before = run(program, needed, values, FLOAT).values
     for moved in needed:
 
@@ -160,7 +160,7 @@ def test_moving_a_step_moves_exactly_its_descendants():
 
         after = run(program, needed, values, FLOAT, hook=push).values
         changed = {number for number in needed if not same(after[number], before[number])}
-        follows = program.descendants(moved)
+        follows = program.descendants(moved) & set(needed)
         assert changed <= follows, program.steps[moved]
         still = [program.steps[number] for number in follows - changed]
         if not is_origin(program.steps[moved]):
@@ -170,7 +170,7 @@ def test_moving_a_step_moves_exactly_its_descendants():
 def test_a_hook_sees_every_step_in_order_and_may_leave_it():
     mechanism = shipped("pump", 7)
     program, seen = mechanism.program, []
-    needed = program.needed(program.targets)
+    needed = program.needed(program.answers)
 
     def look(number, step, value):
         assert step is program.steps[number]
@@ -188,7 +188,7 @@ def test_the_students_own_point_is_followed_through():
     program = mechanism.program
     number = program.targets["velocity", "B"]
     own = mechanism.trace().values[number] + (0.3 - 0.2j)
-    needed = program.needed(program.targets)
+    needed = program.needed(program.answers)
     trace = run(program, needed, mechanism.scene.values, FLOAT, overrides={number: own})
     whole = mechanism.trace()
     assert trace.values[number] == own
@@ -202,7 +202,7 @@ def test_the_hand_may_lead(name):
     """Composite steps taken by the hand's own value come to the same motion."""
     mechanism = shipped(name, 7)
     program = mechanism.program
-    needed = program.needed(program.targets, by_hand=True)
+    needed = program.needed(program.answers, by_hand=True)
     drawn = run(program, needed, mechanism.scene.values, FLOAT, by_hand=True)
     for target in (("velocity", "D"), ("acceleration", "D"), ("epsilon", "4")):
         assert drawn.value(*target) == pytest.approx(mechanism.trace().value(*target), rel=1e-12)
@@ -317,7 +317,7 @@ def test_what_does_not_hang_on_the_failed_step_stays():
 def test_no_value_outlives_its_last_use(made):
     """Nor does it die before: what is alive after a step is what is still to be used or kept."""
     program = mechanism_of(made.text(moving=True)).program
-    needed, keep = program.needed(program.targets), set(program.targets.values())
+    needed, keep = program.needed(program.answers), set(program.targets.values())
     values = {"h": np.zeros(3)}
     ready = made_ready(program, needed, values, sorted(keep))
     moving = [number for number, _ in ready.moving]

@@ -9,10 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.errors import StructureError
-from graphkin.structure.graph import Pin, pairs
-from graphkin.structure.groups import Crank, Dyad, Unresolved, decompose
+from graphkin.structure.graph import Contact, Pin, pairs
+from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Higher, Tie, decompose
 from graphkin.structure.mobility import count, kutzbach
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, scene_of, shipped
+from tests.structure.test_contacts import ALONE, train
 
 PUMP = {
     "1": "[links.{1}]\nO1-A = 30",
@@ -130,6 +131,21 @@ M = "on A-B"
 Q-B = 1
 [links.4]
 S-M = 1
+"""
+TRAMMEL_BAR = """[frame]
+O = [0, 0]
+[links.1]
+A = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.2]
+A-B = 2
+A-M = 1
+M = "on A-B"
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[links.4]
+O-M = 1
 """
 WATT = FOUR_BAR.replace("A-B = 4", 'A-B = 4\nA-C = 3\nB-C = 3\nC = "left of A-B"') + (
     '[links.3]\nQ-B = 3\nQ-E = 3\nB-E = 2\nE = "left of Q-B"\n'
@@ -270,9 +286,7 @@ def test_the_lifter_is_solved_one_loop_after_the_other():
     assert (set(second.links), second.inner.point) == ({"5", "4"}, "F")
 
 
-def test_what_no_crank_and_no_dyad_reaches_is_one_group_of_higher_class():
-    """A triad: three bars from a plate to points that stand, driven through one of them."""
-    text = """[frame]
+TRIAD = """[frame]
 O = [0, 0]
 Q = [6, 0]
 S = [6, 4]
@@ -289,47 +303,129 @@ Q-C = 3
 [links.5]
 S-E = 3
 """
-    groups = decompose(scene_of(text + DRIVEN))
-    assert groups[-1] == Unresolved(("2", "3", "4", "5"))
-    with pytest.raises(StructureError, match="are a group of class III or higher"):
-        mechanism_of(text + DRIVEN).solve()
+STEPHENSON = """[frame]
+O = [0, 0]
+Q = [6, 0]
+[links.1]
+O-A = 2
+O-B = 2
+A-B = 2
+B = "left of O-A"
+[links.2]
+A-C = 4
+[links.3]
+B-D = 4
+[links.4]
+C-D = 2
+D-E = 2
+C-E = 2
+E = "left of C-D"
+[links.5]
+Q-E = 3
+"""
+RAPID_RETURN = """[frame]
+O = [0, 0]
+[links.1]
+O-A = 1
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "P-Q" }
+[links.3]
+P-Q = 6
+[links.4]
+P = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[links.5]
+Q = [0, 0]
+slides = { on = 0, through = [0, 3], angle = 10 }
+"""
 
 
-# --- drivers -------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("text", "driver", "links", "order"),
+    [
+        (TRIAD, "turn = 1", "2345", (3, 3)),
+        (STEPHENSON, "turn = 1", "2345", (3, 3)),
+        (STEPHENSON, "turn = 5", "1234", (4, 2)),
+        (RAPID_RETURN, "turn = 1", "2345", (3, 3)),
+    ],
+    ids=["triad", "Stephenson II, ternary", "Stephenson II, binary", "lever on three slides"],
+)
+def test_groups_of_higher_class_are_named_by_class_and_order(text, driver, links, order):
+    """The same six-bar has a group of class III or IV by the link that drives it."""
+    crank, group = decompose(scene_of(text + DRIVEN.replace("turn = 1", driver)))
+    assert isinstance(crank, Crank)
+    assert isinstance(group, Higher)
+    assert (set(group.links), group.order) == (set(links), order)
 
 
-def words(text: str) -> str:
-    """The words of a refusal."""
-    with pytest.raises(StructureError) as caught:
-        mechanism_of(text).solve()
-    return str(caught.value)
+HINGE_WITHIN = """[frame]
+O = [0, 0]
+Q = [6, 0]
+S = [6, 5]
+[links.1]
+O-A = 1
+[links.2]
+A-H = 3
+[links.3]
+H-B = 3
+B-C = 2
+H-C = 2.5
+C = "left of H-B"
+[links.4]
+H-D = 3
+[links.5]
+Q-B = 3
+[links.6]
+S-D = 3
+D-E = 2
+S-E = 3
+E = "left of S-D"
+[links.7]
+C-E = 3.3
+"""
 
 
-def test_too_few_drivers_are_told_with_the_count():
-    assert words(FIVE_BAR + DRIVEN) == (
-        "drivers: 1 given, but the count 3·4 - 2·5 leaves 2 freedoms; "
-        "expected as many drivers as freedoms; "
-        "add a driver"
-    )
+def test_a_hinge_of_three_links_within_a_group_is_two_of_its_pairs():
+    """Six links have nine pairs: six within, H twice among them, and three outwards."""
+    _, group = decompose(scene_of(HINGE_WITHIN + DRIVEN))
+    inner, outer = group.joints
+    assert (len(group.links), len(inner), sorted(outer)) == (6, 6, ["2", "5", "6"])
+    assert group.order == (4, 3)
 
 
-def test_too_many_drivers_are_told_with_the_count():
-    second = DRIVEN.replace("turn = 1", "turn = 2")
-    assert "2 given, but the count 3·3 - 2·4 leaves 1 freedom;" in words(
-        SLIDER_CRANK + DRIVEN + second
-    )
+def test_the_same_lever_is_of_class_ii_when_a_slider_drives_it():
+    slider = DRIVEN.replace("turn = 1", "slide = 4").replace("angle = 40", "position = -1")
+    driven, first, second = decompose(scene_of(RAPID_RETURN + slider))
+    assert isinstance(driven, Driven)
+    assert isinstance(first, Dyad) and isinstance(second, Dyad)
+    assert (first.type, second.type) == ("RRP", "RRP")
 
 
-def test_two_cranks_may_turn_against_the_frame():
-    text = FIVE_BAR + DRIVEN + DRIVEN.replace("turn = 1", "turn = 4").replace("40", "120")
-    mechanism = mechanism_of(text + '[branches]\nB = "left of A-C"\n')
-    first, second, dyad = mechanism.groups
-    assert (first.link, second.link, dyad.type) == ("1", "4", "RRR")
-    solution = mechanism.solve()
-    assert mechanism.witness(solution).agrees
+@pytest.mark.parametrize(("text", "idle"), [(PARALLEL, "4"), (None, "4")])
+def test_a_link_between_two_known_pins_is_a_tie(text, idle):
+    """The third parallel crank, and the bar to the middle of the trammel."""
+    slider = DRIVEN.replace("turn = 1", "slide = 1").replace("angle = 40", "position = 1")
+    groups = decompose(scene_of(text + DRIVEN if text else TRAMMEL_BAR + slider))
+    assert isinstance(groups[-1], Tie)
+    assert groups[-1].link == idle
 
 
-# --- what is read and counted, but not constructed -----------------------------------------------
+def test_wheels_are_settled_by_their_contacts():
+    """A planet between a ring and a sun: the arm drives it, and it drives the sun."""
+    arm, planet, sun = decompose(scene_of(train() + DRIVEN))
+    assert isinstance(arm, Crank)
+    assert isinstance(planet, Geared) and isinstance(sun, Geared)
+    assert (planet.link, sun.link) == ("2", "sun")
+
+
+def test_a_wheel_that_rolls_by_itself_is_driven_along_its_track():
+    (wheel,) = decompose(scene_of(ALONE + "[[drivers]]\nroll = 1\nposition = 0\nspeed = 1\n"))
+    assert isinstance(wheel, Driven)
+    assert isinstance(wheel.pair, Contact)
+
+
+# --- the five dyads ------------------------------------------------------------------------------
 
 SLOTTED_LEVER = """[frame]
 O = [0, 0]
@@ -361,20 +457,7 @@ speed = 1
 """
 
 
-def test_a_crank_and_slotted_lever_is_named_and_refused():
-    assert words(SLOTTED_LEVER + DRIVEN) == (
-        "links.2, 3: are a dyad RPR, which this version reads but does not construct; "
-        "expected cranks on the frame, dyads RRR, and dyads RRP on a guide of the frame; "
-        "graphkin check names every group"
-    )
-
-
-def test_a_driven_slider_is_named_and_refused():
-    assert "which this version reads but does not construct" in words(TRAMMEL)
-
-
-def test_a_rod_to_a_block_on_a_moving_guide_is_named_and_refused():
-    text = """[frame]
+ROD_ON_A_LEVER = """[frame]
 O = [0, 0]
 Q = [4, 0]
 [links.1]
@@ -388,16 +471,79 @@ A-C = 2
 [links.5]
 C = [0, 0]
 slides = { on = 3, along = "Q-B" }
-[branches]
-B = "left of A-Q"
-5 = "forward"
 """
-    assert "a dyad RRP on a guide that moves" in words(text + DRIVEN)
+YOKE = """[frame]
+O = [0, 0]
+[links.1]
+O-A = 1
+[links.2]
+A = [0, 0]
+slides = { on = 3, through = "B", angle = 60 }
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+"""
+OLDHAM = """[frame]
+O = [0, 0]
+Q = [1, 0]
+[links.1]
+O-A = 1
+[links.2]
+P = [0, 0]
+slides = { on = 1, along = "O-A" }
+[links.3]
+Q = [0, 0]
+slides = { on = 2, through = "P", angle = 90 }
+"""
 
 
-def test_a_crank_of_one_point_is_refused():
-    text = SLIDER_CRANK.replace("O-A = 1", "O = [0, 0]").replace("A-B = 3", "O-B = 3")
-    assert words(text + DRIVEN).startswith(
-        "links.1: has only the point O; expected a second point; "
-        "a crank is a bar: write a length such as O-A = 30"
+@pytest.mark.parametrize(
+    ("text", "types"),
+    [
+        (SLIDER_CRANK + DRIVEN, ["RRP"]),
+        (SLOTTED_LEVER + DRIVEN, ["RPR"]),
+        (TRAMMEL, ["RRP"]),
+        (ROD_ON_A_LEVER + DRIVEN, ["RRR", "RRP"]),
+        (YOKE + DRIVEN, ["RPP"]),
+        (OLDHAM + DRIVEN, ["RPP"]),
+    ],
+    ids=["slider-crank", "slotted lever", "trammel", "rod on a lever", "yoke", "Oldham"],
+)
+def test_dyads_are_named_by_their_pairs_from_a_pin(text, types):
+    driven, *dyads = decompose(scene_of(text))
+    assert isinstance(driven, Crank | Driven)
+    assert [dyad.type for dyad in dyads] == types
+
+
+# --- drivers -------------------------------------------------------------------------------------
+
+
+def words(text: str) -> str:
+    """The words of a refusal."""
+    with pytest.raises(StructureError) as caught:
+        mechanism_of(text).solve()
+    return str(caught.value)
+
+
+def test_too_few_drivers_are_refused():
+    assert words(FIVE_BAR + DRIVEN) == (
+        "drivers: 1 given, but the count 3·4 - 2·5 leaves 2 freedoms; "
+        "expected as many drivers as freedoms; "
+        "add a driver, such as turn = 4"
     )
+
+
+def test_too_many_drivers_are_refused():
+    second = DRIVEN.replace("turn = 1", "turn = 2")
+    assert "2 given, but the count 3·3 - 2·4 leaves 1 freedom;" in words(
+        SLIDER_CRANK + DRIVEN + second
+    )
+
+
+def test_two_cranks_may_turn_against_the_frame():
+    text = FIVE_BAR + DRIVEN + DRIVEN.replace("turn = 1", "turn = 4").replace("40", "120")
+    mechanism = mechanism_of(text + '[branches]\nB = "left of A-C"\n')
+    first, second, dyad = mechanism.groups
+    assert (first.link, second.link, dyad.type) == ("1", "4", "RRR")
+    solution = mechanism.solve()
+    assert mechanism.witness(solution).agrees

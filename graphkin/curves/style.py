@@ -1,0 +1,155 @@
+"""How curves look: one font, quiet colours, thin grids; the same bytes for the same data."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+COLOURS = ("#1f5fa8", "#c8501e", "#2b8a5b", "#8a4fa3", "#b8860b", "#4a5a6a", "#c2407d", "#008b9a")
+"""Ink of the curves, one after the other; told apart also in grey and by the colour-blind."""
+DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (1.2, 1.6)), (0, (6, 2, 1.2, 2)))
+INK = "#26323c"
+FAINT = "#8895a0"
+PALE = "#dfe5ea"
+WARNING = "#b3261e"
+DOTS = 150
+"""Dots per inch of a PNG."""
+FORMATS = ("svg", "png")
+
+LOOK: dict[str, Any] = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9.0,
+    "mathtext.fontset": "dejavusans",
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.7,
+    "axes.titlesize": 9.5,
+    "axes.titlecolor": INK,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "grid.color": PALE,
+    "grid.linewidth": 0.5,
+    "lines.linewidth": 1.5,
+    "lines.solid_capstyle": "round",
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "text.color": INK,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "figure.facecolor": "white",
+    "svg.hashsalt": "graphkin",
+    "svg.fonttype": "path",
+    "savefig.dpi": DOTS,
+}
+
+
+@contextmanager
+def look() -> Iterator[None]:
+    """Draw in the look of this house, whatever a user's settings say."""
+    import matplotlib as mpl
+
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(LOOK)  # type: ignore[arg-type]
+        yield
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """An empty figure, sizes in inches, that leaves room for what it holds."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def written(figure: Figure, kind: str) -> bytes:
+    """The file of a figure, svg or png, without a date."""
+    out = io.BytesIO()
+    metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
+    if kind == "png":
+        metadata = {"Software": None}
+    figure.savefig(out, format=kind, metadata=metadata)
+    data = out.getvalue()
+    return without_trailing_blanks(data) if kind == "svg" else data
+
+
+def without_trailing_blanks(data: bytes) -> bytes:
+    """The lines of a text without blanks at their ends."""
+    return b"\n".join(line.rstrip() for line in data.split(b"\n"))
+
+
+def legend(ax: Axes, *, columns: int = 8) -> None:
+    """The legend above the panel, at the right, where no curve runs."""
+    handles, labels = ax.get_legend_handles_labels()
+    if handles:
+        ax.legend(
+            handles,
+            labels,
+            loc="lower right",
+            bbox_to_anchor=(1.0, 1.0),
+            ncols=min(len(handles), columns),
+            borderaxespad=0.2,
+            handlelength=2.2,
+            columnspacing=1.4,
+        )
+
+
+def heading(ax: Axes, text: str) -> None:
+    """The heading of a panel, at the left above it."""
+    ax.set_title(text, loc="left", fontweight="bold")
+
+
+def colour(number: int) -> str:
+    """The ink of the curve of a number."""
+    return COLOURS[number % len(COLOURS)]
+
+
+def dash(number: int) -> Any:
+    """The stroke of the curve of a number: whole lines first, dashed once the inks are used."""
+    return DASHES[(number // len(COLOURS)) % len(DASHES)]
+
+
+def subscripted(letter: str, name: str) -> str:
+    """A letter with a name below: v with B."""
+    return f"${letter}_{{\\mathrm{{{name.replace('_', chr(92) + '_')}}}}}$"
+
+
+def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:
+    """Bounds for an axis that curves running to infinity leave: wide enough for the rest of them.
+
+    None where no curve runs away, and all may be shown.
+    """
+    import numpy as np
+
+    even = np.linspace(at.min(), at.max(), 1001)
+    order = np.argsort(at)
+    known = np.concatenate([np.interp(even, at[order], v[order]) for v in values])
+    known = known[np.isfinite(known)]
+    if not known.size:
+        return None
+    most = max(float(np.nanmax(np.abs(v[np.isfinite(v)]), initial=0.0)) for v in values)
+    usual = float(np.quantile(np.abs(known), 0.85))
+    if most <= RUNS_AWAY * usual or usual == 0:
+        return None
+    inside = known[np.abs(known) <= KEPT * usual]
+    low, high = min(float(inside.min()), 0.0), max(float(inside.max()), 0.0)
+    room = 0.08 * (high - low)
+    return low - room, high + room
+
+
+RUNS_AWAY = 5.0
+"""A curve whose largest value is so many times its usual one runs to infinity."""
+KEPT = 2.0
+"""Values up to so many times the usual one stay in sight."""

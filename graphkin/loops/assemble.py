@@ -1,0 +1,226 @@
+"""A mechanism assembled from nothing: group after group, each in the closure that the scene states.
+
+No position is given. Each group's closures are found from many starts with the links before it
+held; sides, ways and numbers of closures leave one of them, or the scene says too little.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from graphkin.errors import GraphkinError, Problem, StructureError, WitnessError
+from graphkin.loops.bodies import Reals
+from graphkin.loops.closures import closures, scattered, turned_side
+from graphkin.loops.equations import Equations, equations, undriven
+from graphkin.loops.groups import Group, stages
+from graphkin.loops.motion import Motion
+from graphkin.loops.poses import Pose, pose_of, setting_of, spot, unknowns_of
+from graphkin.loops.solve import AT_REST, LoopSolution, closed_from, in_bars, largest, newton
+from graphkin.loops.start import Start
+from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
+
+TRIES = 64
+"""Random starts from which some closed position is looked for."""
+LEVEL = 1e-9
+"""Sine within which a pin on the line between two others is on either side."""
+
+
+def assemble(scene: Scene, values: Mapping[str, Any] | None = None) -> LoopSolution:
+    """The whole motion of a scene without a construction and without any position given.
+
+    ``values`` may hold arrays of shape (N,): each setting is assembled for itself, NaN where it
+    cannot be. Raises WitnessError where one scene does not close, StructureError where a group
+    could close in several ways and the scene does not say which, or where drivers are missing.
+    """
+    loops = equations(scene, values)
+    return closed_from(loops, starting(scene, loops))
+
+
+def starting(scene: Scene, loops: Equations) -> Reals:
+    """The unknowns (N, K + m) of every setting, assembled from nothing."""
+    if loops.numbers.single:
+        return assembled(scene, loops)
+    rows = np.full((loops.numbers.count, loops.unknown_count), np.nan)
+    for n in range(loops.numbers.count):
+        values = setting_of(loops, n)
+        try:
+            rows[n] = assembled(scene, equations(scene, values))[0]
+        except GraphkinError:
+            continue
+    return rows
+
+
+def completed(scene: Scene, loops: Equations, start: Start) -> Reals:
+    """Start values with what no position told taken from the loops' own assembly.
+
+    Left at zero where they cannot be assembled.
+    """
+    if start.told.all():
+        return start.unknowns
+    try:
+        own = starting(scene, loops)
+    except GraphkinError:
+        return start.unknowns
+    own = np.where(np.isfinite(own), own, start.unknowns)
+    return np.where(start.told, start.unknowns, own)
+
+
+def anywhere(loops: Equations) -> Reals:
+    """Unknowns (positions, K + m) of closed positions of one scene, wherever its drivers stand.
+
+    Raises WitnessError where none is found from many starts.
+    """
+    free = undriven(loops)
+    everything = np.ones(free.unknown_count, dtype=np.bool_)
+    with np.errstate(all="ignore"):
+        zero = np.zeros((1, free.unknown_count))
+        found, _, _ = newton(free, scattered(free, zero, everything, TRIES))
+        gaps = largest(in_bars(free, found)[0])
+    if (gaps < AT_REST).any():
+        return found[gaps < AT_REST]
+    raise WitnessError(
+        Problem(
+            "loops",
+            f"the loops do not close from any of {TRIES} starts",
+            "lengths for which the mechanism can be assembled",
+        )
+    )
+
+
+def assembled(scene: Scene, loops: Equations) -> Reals:
+    """The unknowns (1, K + m) of one scene."""
+    pose = Pose({FRAME: 0.0}, {})
+    order = stages(scene, loops)
+    refuse_undetermined(loops, order)
+    for group in order:
+        part = equations(scene, loops.numbers.values, group.known | set(group.links))
+        found = closures(part, unknowns_of(part, pose), group)
+        row = picked(scene, loops, part, group, found)
+        pose = pose_of(part, row)
+    return unknowns_of(loops, pose)
+
+
+def refuse_undetermined(loops: Equations, order: list[Group]) -> None:
+    """Every link must belong to a group."""
+    placed = {link for group in order for link in group.links}
+    left = [link for link in loops.links if link not in placed and link != FRAME]
+    if left:
+        raise StructureError(
+            Problem(
+                "drivers",
+                f"nothing determines the motion of {words('link', left)}",
+                "as many drivers as the mechanism has freedoms",
+            )
+        )
+
+
+def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found: Reals) -> Reals:
+    """The closure (K + m,) that the scene states, of all those of a group.
+
+    ``part`` are the equations up to and with the group, ``loops`` all of them.
+    """
+    if not len(found):
+        raise WitnessError(
+            Problem(
+                words("link", group.links),
+                "they do not close" if len(group.links) > 1 else "it does not close",
+                "lengths and driver positions for which the mechanism can be assembled",
+            )
+        )
+    holds = np.ones(len(found), dtype=np.bool_)
+    motion = places_of(part, found)
+    for name, branch in scene.branches.items():
+        holds &= stated(name, branch, motion, group, found, loops)
+    fitting = np.flatnonzero(holds)
+    if len(fitting) == 1:
+        return np.asarray(found[fitting[0]])
+    problem = Problem(
+        "branches",
+        f"{words('link', group.links)} close in {len(found)} ways, of which {len(fitting)} "
+        f"{'fits' if len(fitting) == 1 else 'fit'} what is stated",
+        suggestion(group, loops),
+        "; ".join(described(part, group, found, motion)),
+    )
+    raise StructureError(problem) if len(fitting) else WitnessError(problem)
+
+
+def places_of(part: Equations, found: Reals) -> Motion:
+    """Where points stand in each closure; nothing moves."""
+    many = replace(part, home=np.repeat(part.home, len(found)))
+    return Motion.of(many, found, np.zeros_like(found), np.zeros_like(found))
+
+
+def stated(
+    name: str,
+    branch: Side | Way | Closure,
+    motion: Motion,
+    group: Group,
+    found: Reals,
+    loops: Equations,
+) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    """Which closures of a group fit one statement of the scene; all where it means another."""
+    part = motion.loops
+    everything = np.ones(len(found), dtype=np.bool_)
+    if isinstance(branch, Side):
+        mine = {point for link in group.links for point in part.bodies[link]}
+        before = {point for link in group.known for point in part.bodies.get(link, ())}
+        told = {branch.first, branch.second, name} <= set(motion.names)
+        if name not in mine - before or not told:
+            return everything
+        side = turned_side(motion, branch.first, branch.second, name)
+        return np.asarray(branch.side * side > -LEVEL)
+    if name not in group.links:
+        return everything
+    if isinstance(branch, Closure):
+        return np.asarray(np.arange(1, len(found) + 1) == branch.number)
+    j = led_by(name, group, loops, part)
+    if j is None:
+        return everything
+    slid = found[:, part.turning_count + j]
+    end = slid.max() if branch.way > 0 else slid.min()
+    return np.asarray(np.abs(slid - end) <= LEVEL * part.size)
+
+
+def led_by(link: str, group: Group, loops: Equations, part: Equations) -> int | None:
+    """The guide of ``part`` whose coordinate tells forward from backward: the link's, or any."""
+    inside = [loops.guides[joint.slide] for joint in group.slides]
+    own = [guide for guide in inside if guide.block == link]
+    led = next((spot(guide) for guide in own or inside), None)
+    return next((j for j, guide in enumerate(part.guides) if spot(guide) == led), None)
+
+
+def suggestion(group: Group, loops: Equations) -> str:
+    """Words in [branches] that would pick one closure."""
+    first = next(link for link in loops.links if link in group.links)
+    if group.slides and len(group.links) <= 2:
+        block = loops.guides[group.slides[0].slide].block
+        return f'{block} = "forward" or "backward"'
+    if group.is_dyad:
+        ends = sorted(group.outer, key=lambda joint: group.links[0] not in joint.links)
+        left, right = (joint.pin for joint in ends)
+        return f'{group.inner[0].pin} = "left of {left}-{right}" or "right of …"'
+    return f'{first} = "closure 1", …'
+
+
+def described(part: Equations, group: Group, found: Reals, motion: Motion) -> list[str]:
+    """Each closure by the place of the pins that it moves (m)."""
+    mine = {point for link in group.links for point in part.bodies[link]}
+    before = {point for link in group.known for point in part.bodies.get(link, ())}
+    pins = sorted(mine - before)[:3]
+    lines = []
+    for n in range(len(found)):
+        spots = [motion.points.place[n, motion.names[pin]] for pin in pins]
+        where = ", ".join(
+            f"{pin} ({z.real:.4g}, {z.imag:.4g}) m" for pin, z in zip(pins, spots, strict=True)
+        )
+        lines.append(f"closure {n + 1}: {where}" if where else f"closure {n + 1}")
+    return lines
+
+
+def words(noun: str, names: list[str] | tuple[str, ...]) -> str:
+    """One or several things by name."""
+    return f"{noun}{'s' if len(names) > 1 else ''} {', '.join(names)}"

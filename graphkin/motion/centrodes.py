@@ -1,0 +1,72 @@
+"""The fixed and the moving centrode of a link: the motion is the one rolling on the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphkin.motion.cycle import Cycle
+from graphkin.plane import Ratio
+from graphkin.scene.model import FRAME, Link, Scene
+
+MOST = 2
+"""Couplers whose centrodes are drawn when the scene does not say which."""
+
+Complexes = np.ndarray[tuple[int], np.dtype[np.complex128]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Centrodes:
+    """Instantaneous centres of a link at places u (N,): in the plane, and carried by the link.
+
+    ``moving`` is in the link's own axes: origin at its first point, x axis towards its second;
+    ``origin`` and ``heading`` put it into the plane. Centres at infinity are NaN.
+    """
+
+    link: str
+    fixed: Complexes
+    moving: Complexes
+    origin: Complexes
+    heading: Complexes
+
+    def placed(self, origin: complex, heading: complex) -> Complexes:
+        """The moving centrode with the link put at a place and in a direction."""
+        return np.asarray(origin + heading * self.moving)
+
+
+def centrodes(cycle: Cycle, link: str) -> Centrodes | None:
+    """Both centrodes of a link through the rows of a cycle; None where it has no centres."""
+    motion = cycle.solution.links.get(link)
+    ends = base(cycle.scene.links[link])
+    if motion is None or not isinstance(motion.instant_centre, Ratio) or ends is None:
+        return None
+    start, end = (np.asarray(cycle.solution.points[p].position) for p in ends)
+    heading = (end - start) / np.abs(end - start)
+    ratio = motion.instant_centre
+    with np.errstate(all="ignore"):
+        fixed = ratio.start + ratio.shift / ratio.size
+    fixed = np.where(np.isfinite(fixed), fixed, complex(np.nan, np.nan))
+    return Centrodes(link, fixed, (fixed - start) * heading.conj(), start, heading)
+
+
+def base(link: Link) -> tuple[str, str] | None:
+    """The first two points of a link."""
+    return link.points[:2] if len(link.points) > 1 else None  # type: ignore[return-value]
+
+
+def links_with_centrodes(scene: Scene) -> tuple[str, ...]:
+    """The links asked, else the first couplers: links that no pair joins to the frame."""
+    if scene.ask.centrodes:
+        return tuple(scene.ask.centrodes)
+    fixed = set(scene.frame.points)
+    driven = {driver.link for driver in scene.drivers}
+    couplers = [
+        name
+        for name, link in scene.links.items()
+        if name not in driven
+        and len(link.points) > 1
+        and fixed.isdisjoint(link.points)
+        and all(slide.on != FRAME for slide in link.slides)
+    ]
+    return tuple(couplers[:MOST])

@@ -1,0 +1,167 @@
+"""A mechanism with its closures picked: where it stands and moves for arrays of u."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphkin.arithmetic import FLOAT, batch_kind
+from graphkin.errors import GraphkinError
+from graphkin.motion.sweep import Sweep
+from graphkin.plane import Ratio
+from graphkin.plans.compile import write
+from graphkin.scene.model import Branch, Scene
+from graphkin.steps.batch import BLOCK, run_batch, run_blocks
+from graphkin.steps.program import Program, Target
+from graphkin.steps.run import StepFailed, Trace, evaluate
+from graphkin.structure.groups import Group, decompose
+
+Reals = np.ndarray[Any, np.dtype[Any]]
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+Branches = Mapping[str, Branch]
+PLACES = ("position", "slide", "axis", "rolled")
+"""Targets that say where the mechanism stands."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """One choice of closures throughout a sweep: its scene, its program, and how to run it.
+
+    ``here`` is a u at which these closures hold, where the construction may look at the shape of
+    the mechanism; without it they hold where the scene stands.
+    """
+
+    sweep: Sweep
+    branches: Branches
+    here: float | None = None
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene ready for arrays, with these closures."""
+        return self.sweep.with_branches(self.branches, self.here)
+
+    @cached_property
+    def groups(self) -> tuple[Group, ...]:
+        """Driven links and groups, with the drivers that are named values."""
+        return decompose(self.scene)
+
+    @cached_property
+    def program(self) -> Program:
+        """The construction with these closures."""
+        return write(self.scene, self.groups)
+
+    @cached_property
+    def early(self) -> tuple[int, ...]:
+        """The steps that construct the positions of everything."""
+        return self.program.needed(t for t in self.program.targets if t[0] in PLACES)
+
+    @cached_property
+    def crossings(self) -> tuple[int, ...]:
+        """The steps of the positions that cross two loci and hang on u, in order."""
+        moving = self._moving()
+        steps = self.program.steps
+        return tuple(
+            n
+            for n in self.early
+            if n in moving and (action := steps[n].action) is not None and action.margin is not None
+        )
+
+    def _moving(self) -> set[int]:
+        """The early steps that hang on a driver."""
+        arrays = {n for n in self.scene.values if n.startswith("drive ")}
+        moving: set[int] = set()
+        for n in self.early:
+            step = self.program.steps[n]
+            given = step.given is not None and not arrays.isdisjoint(step.given.uses())
+            if given or not moving.isdisjoint(step.args):
+                moving.add(n)
+        return moving
+
+    def margins(self, at: Any) -> Reals:
+        """The sine of every crossing (rows as ``crossings``) for each u (N,); NaN does not close.
+
+        The last row is 1 where all positions are finite, NaN elsewhere.
+        """
+        at = np.asarray(at, dtype=float)
+        keep = [number for target, number in self.program.targets.items() if target[0] in PLACES]
+        found = np.empty((len(self.crossings) + 1, len(at)))
+        for start in range(0, len(at), BLOCK):
+            part = slice(start, start + BLOCK)
+            values = self.sweep.values(at[part])
+            with np.errstate(all="ignore"):
+                trace = run_batch(
+                    self.program, self.early, values, batch_kind(), keep, margins=True
+                )
+            for row, number in enumerate(self.crossings):
+                found[row, part] = trace.margins[number]
+            closed = np.ones(len(at[part]))
+            for value in trace.values.values():
+                closed = np.where(np.isfinite(value), closed, np.nan)
+            found[-1, part] = closed
+        return found
+
+    def closes(self, at: Any) -> Flags:
+        """Whether everything can be placed, for each u (N,)."""
+        return np.asarray(np.isfinite(self.margins(at)).all(axis=0))
+
+    def run(
+        self, at: Any, targets: Iterable[Target] | None = None, *, geometric: bool = False
+    ) -> Trace:
+        """Values of the targets (all if None) with every margin on the way, for each u (N,)."""
+        wanted = list(self.program.answers if targets is None else targets)
+        needed = self.program.needed(wanted)
+        keep = [self.program.targets[target] for target in wanted]
+        values = self.sweep.values(np.asarray(at, dtype=float), geometric=geometric)
+        with np.errstate(all="ignore"):
+            return run_blocks(self.program, needed, values, batch_kind(), keep, margins=True)
+
+    def columns(
+        self, at: Any, targets: Iterable[Target], *, geometric: bool = False
+    ) -> dict[Target, Any]:
+        """Each target as an array (N,), also where all u share one value."""
+        wanted = list(targets)
+        trace = self.run(at, wanted, geometric=geometric)
+        return {target: spread(trace.value(*target), len(at)) for target in wanted}
+
+    def loci(self, number: int, at: float) -> tuple[Any, ...]:
+        """The two loci that a step crosses at one u, and what it picks by; empty if unknown."""
+        found: dict[int, Any] = {}
+        values = {**self.sweep.values(np.array([at]))}
+        floats = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in values.items()}
+        step = self.program.steps[number]
+        try:
+            for n in Program(self.program.steps, {("", ""): number}).needed([("", "")]):
+                if n != number:
+                    found[n] = evaluate(self.program.steps[n], n, found, floats, FLOAT, {})
+        except (StepFailed, KeyError):
+            return ()
+        return tuple(found[arg] for arg in step.args)
+
+    def picks(self, name: str, other: Branch) -> set[int]:
+        """The steps that one branch decides: those that change when it does.
+
+        All crossings where the other closure does not fit what the construction looks at.
+        """
+        changed = Course(self.sweep, {**self.branches, name: other}, self.here)
+        try:
+            steps = changed.program.steps
+        except GraphkinError:
+            return set(self.crossings)
+        return {
+            n
+            for n, (mine, theirs) in enumerate(zip(self.program.steps, steps, strict=False))
+            if mine.extra != theirs.extra
+        }
+
+
+def spread(value: Any, count: int) -> Any:
+    """An array of shape (N,) of a value that may be shared by all; None stays None."""
+    if isinstance(value, Ratio):
+        return Ratio(*(spread(part, count) for part in value))
+    if value is None:
+        return None
+    return np.array(np.broadcast_to(np.asarray(value), (count,)))

@@ -1,0 +1,280 @@
+"""A whole turn of the driver, or its reachable ranges, as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from graphkin.errors import GraphkinError
+from graphkin.motion.course import Flags, Reals, spread
+from graphkin.motion.events import Singular, singulars
+from graphkin.motion.pieces import Path, Piece, followed
+from graphkin.motion.sweep import TURN, Sweep, sweep_of
+from graphkin.plane import Ratio
+from graphkin.scene.model import Branch, Scene
+from graphkin.steps.gather import gathered
+from graphkin.steps.program import Target
+from graphkin.steps.run import Trace
+from graphkin.steps.solution import Solution
+
+if TYPE_CHECKING:
+    from graphkin.mechanism import Mechanism
+
+BESIDE = 1e-6
+"""How near to a singular place (degrees, mm or ms) a row tells nothing."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Witnessed:
+    """What the independent route says of every row: its difference (N,), and whether it agrees.
+
+    ``refused`` says why it could not judge.
+    """
+
+    difference: Reals
+    agrees: Flags
+    refused: str = ""
+
+    @property
+    def largest(self) -> float:
+        """The largest difference among the rows that could be judged; NaN without any."""
+        known = self.difference[np.isfinite(self.difference)]
+        return float(known.max()) if known.size else float("nan")
+
+
+@dataclass(frozen=True, eq=False)
+class Cycle:
+    """The motion of a mechanism over a turn of its driver or its reachable ranges.
+
+    ``at`` (N,) is u, the driver's position (degrees, metres) or the time (s), of every row;
+    ``piece`` (N,) counts the pieces of constant signs from 1; ``solution`` holds the motion of
+    points, links and slides as arrays (N,) in SI; ``margins`` the sine of each crossing by the
+    point that it finds. ``left_out`` are the positions asked that have no row.
+    """
+
+    mechanism: Mechanism
+    sweep: Sweep
+    path: Path
+    at: Reals
+    piece: np.ndarray[Any, np.dtype[np.int_]]
+    solution: Solution
+    margins: Mapping[str, Reals]
+    left_out: Reals
+
+    @property
+    def scene(self) -> Scene:
+        """The scene as it was read."""
+        return self.mechanism.scene
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """All pieces, range by range, in the order of the rows' numbers."""
+        return tuple(piece for found in self.path.ranges for piece in found)
+
+    @property
+    def ranges(self) -> tuple[tuple[float, float], ...]:
+        """The reachable ranges of u, the one of the scene first."""
+        return tuple((found[0].low.at, found[-1].high.at) for found in self.path.ranges)
+
+    @cached_property
+    def singulars(self) -> tuple[Singular, ...]:
+        """Dead points and change points, named."""
+        return singulars(self.path)
+
+    @cached_property
+    def witnessed(self) -> Witnessed:
+        """Every row held against the vector loops."""
+        return witnessed(self)
+
+    def along(self, at: Sequence[float] | Reals, *, geometric: bool = False) -> Cycle:
+        """The same cycle at other places u, those that have no motion left out.
+
+        ``geometric`` gives rates by the driver's position in place of those by the time.
+        """
+        return filled(self.mechanism, self.sweep, self.path, np.asarray(at, float), geometric)
+
+
+def cycle(
+    mechanism: Mechanism,
+    *,
+    driver: int | None = None,
+    steps: int = 360,
+    low: float | None = None,
+    high: float | None = None,
+    branches: Mapping[str, Branch] | None = None,
+) -> Cycle:
+    """A whole turn of a driver, or its reachable ranges, or a span of time, as arrays.
+
+    One driver is moved through its positions at its stated speed and acceleration; driver number
+    ``driver`` of several, while the others stand still; several drivers, or one that follows a law
+    of time, move with the time. ``steps`` parts a turn, a range or the span; ``low`` and ``high``
+    (degrees, metres, seconds) bound it; ``branches`` picks other closures to start with. Raises
+    SceneError for a driver that there is not, ClosureError where nothing closes.
+    """
+    sweep = sweep_of(mechanism.scene, driver=driver, low=low, high=high)
+    path = followed(sweep, branches)
+    return filled(mechanism, sweep, path, places(sweep, path, steps))
+
+
+def places(sweep: Sweep, path: Path, steps: int) -> Reals:
+    """The places of the rows: a whole turn in equal steps from nought, a range between its ends."""
+    if sweep.whole:
+        even = np.arange(steps) * (TURN / steps)
+        if path.whole:
+            return even if path.returns else even + path.ranges[0][0].low.at
+        every = np.concatenate([even - TURN, even, even + TURN])
+        parts = [every[(low <= every) & (every <= high)] for low, high in spans(path)]
+        missing = even[~closing(even, np.concatenate(parts))]
+        return np.concatenate([*parts, missing])
+    if sweep.low < sweep.high and (sweep.what in ("turn", "time")):
+        return np.linspace(sweep.low, sweep.high, steps + 1)
+    return np.concatenate([np.linspace(low, high, steps + 1) for low, high in spans(path)])
+
+
+def closing(even: Reals, found: Reals) -> Flags:
+    """Which positions of a turn are among those found, whole turns apart."""
+    have = np.round(found % TURN, 9) % TURN
+    return np.isin(np.round(even, 9), have)
+
+
+def spans(path: Path) -> list[tuple[float, float]]:
+    """Where each range begins and ends."""
+    return [(found[0].low.at, found[-1].high.at) for found in path.ranges]
+
+
+def filled(
+    mechanism: Mechanism, sweep: Sweep, path: Path, at: Reals, geometric: bool = False
+) -> Cycle:
+    """The rows of a cycle: each place run with the closures of its piece, in batches."""
+    found = columns_at(sweep, path, at, geometric=geometric)
+    moves = found.piece > 0
+    for value in found.columns.values():
+        moves &= np.ones(len(at), bool) if isinstance(value, Ratio) else np.isfinite(value)
+    program = path.ranges[0][0].course.program
+    values = {program.targets[t]: kept(v, moves) for t, v in found.columns.items()}
+    motion = gathered(Trace(program, values, {}), mechanism.scene.links)
+    margins = {name: row[moves] for name, row in found.margins.items()}
+    smallest = np.min([np.ones(moves.sum()), *margins.values()], axis=0)
+    solution = Solution(motion.points, motion.links, motion.slides, smallest)
+    left_out = np.sort(at[~moves])
+    return Cycle(mechanism, sweep, path, at[moves], found.piece[moves], solution, margins, left_out)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Columns:
+    """Values by target and margins by pin for each place (N,), NaN where there is no piece."""
+
+    piece: np.ndarray[Any, np.dtype[np.int_]]
+    columns: Mapping[Target, Any]
+    margins: Mapping[str, Reals]
+
+
+def columns_at(
+    sweep: Sweep,
+    path: Path,
+    at: Reals,
+    targets: Sequence[Target] | None = None,
+    *,
+    geometric: bool = False,
+    near: float | None = None,
+) -> Columns:
+    """Run every place with the closures of its piece; places within ``near`` of its ends are left.
+
+    ``near`` nought lets positions stand at the dead points themselves.
+    """
+    usual = BESIDE if sweep.what in ("turn", "time") else BESIDE / 1000
+    which, within = assigned(sweep, path, at, usual if near is None else near)
+    columns: dict[Target, Any] = {}
+    margins: dict[str, Reals] = {}
+    every = [piece for pieces in path.ranges for piece in pieces]
+    for number, piece in enumerate(every, 1):
+        rows = np.flatnonzero(which == number)
+        if not rows.size:
+            continue
+        trace = piece.course.run(within[rows], targets, geometric=geometric)
+        for target in targets or piece.course.program.answers:
+            value = spread(trace.value(*target), len(rows))
+            if value is not None:
+                columns[target] = placed(columns.get(target), value, rows, len(at))
+        for n, margin in trace.margins.items():
+            name = piece.course.program.steps[n].name
+            if n in piece.course.crossings and name:
+                margins.setdefault(name, np.full(len(at), np.nan))[rows] = margin
+    return Columns(which, columns, margins)
+
+
+def assigned(sweep: Sweep, path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
+    """The piece of each place, from 1 (0 where there is none), and the place within that piece."""
+    which = np.zeros(len(at), dtype=int)
+    within = at.copy()
+    turns = (0.0, TURN, -TURN) if sweep.whole else (0.0,)
+    every = [piece for pieces in path.ranges for piece in pieces]
+    for number, piece in enumerate(every, 1):
+        for turn in turns:
+            place = at + turn
+            inside = (which == 0) & piece.holds(place)
+            for end in (piece.low, piece.high):
+                if end.kind != "window":
+                    inside &= np.abs(place - end.at) >= near
+            which[inside], within[inside] = number, place[inside]
+    return which, within
+
+
+def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
+    """Values at their rows of an array of the whole length, made where there is none."""
+    if isinstance(value, Ratio):
+        parts = whole or (None, None, None)
+        return Ratio(*(placed(w, v, rows, count) for w, v in zip(parts, value, strict=True)))
+    if whole is None:
+        whole = np.full(count, np.nan, dtype=value.dtype)
+    elif whole.dtype != value.dtype:
+        whole = whole.astype(np.result_type(whole, value))
+    whole[rows] = value
+    return whole
+
+
+def kept(value: Any, rows: Flags) -> Any:
+    """Some rows of an array, or of each part of a ratio."""
+    return Ratio(*(part[rows] for part in value)) if isinstance(value, Ratio) else value[rows]
+
+
+def witnessed(found: Cycle) -> Witnessed:
+    """Each piece held against the vector loops with its own closures."""
+    from graphkin.witness import compare_batch
+
+    count = len(found.at)
+    difference, agrees = np.full(count, np.nan), np.zeros(count, dtype=bool)
+    for number, piece in enumerate(found.pieces, 1):
+        rows = found.piece == number
+        if not rows.any():
+            continue
+        scene = piece.course.scene
+        try:
+            worst, fine = compare_batch(
+                scene, rows_of(found.solution, rows), found.sweep.values(found.at[rows])
+            )
+        except GraphkinError as error:
+            return Witnessed(difference, agrees, str(error))
+        difference[rows], agrees[rows] = worst, fine
+    return Witnessed(difference, agrees)
+
+
+def rows_of(solution: Solution, rows: Flags) -> Solution:
+    """Some rows of a solution of arrays."""
+    from dataclasses import fields, replace
+
+    def cut(record: Any) -> Any:
+        found = {f.name: getattr(record, f.name) for f in fields(record)}
+        some = {name: kept(v, rows) for name, v in found.items() if v is not None}
+        return replace(record, **some)
+
+    return Solution(
+        {name: cut(point) for name, point in solution.points.items()},
+        {name: cut(link) for name, link in solution.links.items()},
+        {name: cut(slide) for name, slide in solution.slides.items()},
+        np.asarray(solution.margin)[rows],
+    )

@@ -1,0 +1,112 @@
+"""Dead points and change points in words: what becomes impossible, and what lies in line there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphkin.motion.course import Course
+from graphkin.motion.pieces import ALIKE, Event, Path
+from graphkin.motion.sweep import TURN
+from graphkin.plane import Circle, Line
+from graphkin.steps.program import Program
+
+COINCIDE = 1e-6
+"""Distance of two centres, in radii, at which they fall on one another."""
+INSIDE = 1e-7
+"""How far before a dead point its loci are looked at, as a share of a step of the grid."""
+
+
+@dataclass(frozen=True, slots=True)
+class Singular:
+    """A dead point (the driver can go no further) or a change point (the closure may change).
+
+    ``at`` is u; ``pin`` what cannot be found beyond; ``lines`` says which lines are in line or
+    parallel there.
+    """
+
+    kind: Literal["dead", "change"]
+    at: float
+    pin: str
+    lines: str
+
+
+def singulars(path: Path) -> tuple[Singular, ...]:
+    """Every dead and change point of all ranges, in order, each once."""
+    found: list[Singular] = []
+    for pieces in path.ranges:
+        for piece in pieces:
+            found += [named(piece.course, *end) for end in ends(piece.low, piece.high)]
+    known: dict[tuple[str, float], Singular] = {}
+    for each in found:
+        at = once_round(path, each.at)
+        known.setdefault((each.kind, round(at, 8)), replace(each, at=at))
+    return tuple(sorted(known.values(), key=lambda each: each.at))
+
+
+def once_round(path: Path, at: float) -> float:
+    """A place of a whole turn counted from 0 to 360 degrees."""
+    if not path.whole:
+        return at
+    at %= TURN
+    return 0.0 if TURN - at < ALIKE else at
+
+
+def ends(low: Event, high: Event) -> list[tuple[Event, float]]:
+    """The ends of a piece that are singular, each with a place inside the piece."""
+    way = high.at - low.at
+    pairs = [(low, low.at + INSIDE * way), (high, high.at - INSIDE * way)]
+    return [(event, inside) for event, inside in pairs if event.kind != "window"]
+
+
+def named(course: Course, event: Event, inside: float) -> Singular:
+    """An event with its words."""
+    kind: Literal["dead", "change"] = "dead" if event.kind == "dead" else "change"
+    if not event.steps:
+        return Singular(kind, event.at, "a position", "two loci touch")
+    told = [words(course, number, inside) for number in event.steps]
+    pins = dict.fromkeys(pin for pin, _ in told)
+    lines = dict.fromkeys(line for _, line in told)
+    return Singular(kind, event.at, ", ".join(pins), "; ".join(lines))
+
+
+def words(course: Course, number: int, inside: float) -> tuple[str, str]:
+    """The pin that a step finds, and which lines are in line, square or parallel there."""
+    program = course.program
+    step = program.steps[number]
+    pin = step.name or of_later(program, number)
+    p, q = step.says.get("p", ""), step.says.get("q", "")
+    match course.loci(number, inside):
+        case (Circle() as m, Circle() as n) if p and q:
+            if abs(m.centre - n.centre) < COINCIDE * m.radius:
+                return pin, f"{p} on {q}"
+            return pin, f"{p}, {pin} and {q} in line"
+        case (Line(), Circle()) | (Circle(), Line()) if p:
+            return pin, f"{p}-{pin} square to {guide_under(program, number)}"
+        case (Line(), Line()):
+            return pin, f"the two lines through {pin} parallel"
+    return pin, f"the loci of {pin} touch"
+
+
+def guide_under(program: Program, number: int) -> str:
+    """The guide on which a step seeks its point, from the words of the lines before it."""
+    for arg in program.steps[number].args:
+        line: int | None = arg
+        while line is not None:
+            step = program.steps[line]
+            if "g" in step.says:
+                return f"the guide of {step.says['g']}"
+            line = next((a for a in step.args if program.steps[a].action is not None), None)
+    return "its guide"
+
+
+def of_later(program: Program, number: int) -> str:
+    """The name of the first step after it that uses a step and has one."""
+    reached = {number}
+    for later in range(number + 1, len(program.steps)):
+        step = program.steps[later]
+        if reached.intersection(step.args):
+            if step.name:
+                return step.name
+            reached.add(later)
+    return "a point"

@@ -1,0 +1,71 @@
+"""Finding where a motion ends, touches or turns round: to the last digits, many places at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+HALVINGS = 70
+"""Halvings after which two doubles of a bracket of the grid are neighbours."""
+AROUND = np.array([-4.5, -3.5, -2.5, -1.5, 1.5, 2.5, 3.5, 4.5])
+"""Where, in steps, a square of a margin is sampled about a place that it may touch nought at."""
+TOUCH = 1e-12
+"""Square of a sine that counts as nought: less is rounding, or a gap too narrow to be passed."""
+
+Reals = np.ndarray[Any, np.dtype[Any]]
+
+
+def last_closing(closes: Callable[[Reals], Any], inside: float, outside: float) -> float:
+    """The last u that closes between one that closes and one that does not, by halving."""
+    for _ in range(HALVINGS):
+        middle = (inside + outside) / 2
+        if middle in (inside, outside):
+            break
+        if closes(np.array([middle]))[0]:
+            inside = middle
+        else:
+            outside = middle
+    return inside
+
+
+def crossings_of_nought(value: Callable[[Reals], Reals], low: Reals, high: Reals) -> Reals:
+    """Where a function changes its sign in each bracket, by halving, all brackets at once.
+
+    ``value`` takes u (N,) and gives the function of bracket i at u[i].
+    """
+    at_low = value(low)
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        if ((middle == low) | (middle == high)).all():
+            break
+        here = value(middle)
+        same = np.sign(here) == np.sign(at_low)
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return (low + high) / 2
+
+
+def least_square(offsets: Reals, margins: Reals) -> tuple[float, float] | None:
+    """The least value of a squared margin about nought, and where, from samples around it.
+
+    The square is smooth where the margin has a corner, and goes on below nought where nothing
+    closes. None where it has no minimum among the samples.
+    """
+    if not np.isfinite(margins).all():
+        return None
+    square = np.polynomial.Polynomial.fit(offsets, margins**2, len(offsets) - 1)
+    roots = square.deriv().roots()
+    near = [float(r.real) for r in roots if abs(r.imag) < 1e-6 and abs(r.real) < abs(offsets).max()]
+    if not near:
+        return None
+    best = min(near, key=lambda r: float(square(r)))
+    return best, float(square(best))
+
+
+def touching(offsets: Reals, margins: Reals) -> float | None:
+    """Where a margin that touches nought does so: it is smooth when its sign is turned there."""
+    signed = np.polynomial.Polynomial.fit(offsets, np.sign(offsets) * margins, len(offsets) - 1)
+    roots = [float(r.real) for r in signed.roots() if abs(r.imag) < 1e-9]
+    inside = [r for r in roots if abs(r) < 1.5]
+    return min(inside, key=abs) if inside else None

@@ -1,0 +1,107 @@
+"""Curves on the mechanism: paths, centrodes and circles, as much of them as lies in a field."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import cos, hypot, pi, sin
+from typing import TYPE_CHECKING
+
+from graphkin.paper.areas import Rect
+from graphkin.paper.field import XY, Field
+from graphkin.paper.labels import Board, Label
+from graphkin.paper.marks import Polyline
+from graphkin.paper.scale import Extent, extent_of
+from graphkin.paper.symbolic import symbol
+from graphkin.plane import Circle
+from graphkin.steps.solution import Curve
+from graphkin.text import Words
+
+if TYPE_CHECKING:
+    from graphkin.paper.drawing import Drawing
+
+CHORDS, FINE = 240, 0.02
+"""Straight pieces of a small circle, and how far (mm) those of a large one may leave it."""
+ROOMY = 3.5
+"""A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
+COLOURS = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
+"""The classes whose colours the names of centrodes take."""
+
+
+def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
+    """Points around a circle, the first again at the end, close enough for so many mm a metre."""
+    chords = max(CHORDS, int(pi * (circle.radius * mm / FINE / 2) ** 0.5))
+    turns = (2 * pi * i / chords for i in range(chords + 1))
+    return [circle.centre + circle.radius * complex(cos(a), sin(a)) for a in turns]
+
+
+def clipped_path(
+    points: Sequence[XY], rect: Rect, cls: str, name: str, step: int | None = None
+) -> Iterator[Polyline]:
+    """The parts of a broken line that lie in a rectangle."""
+    from shapely import LineString, box
+
+    if len(points) < 2:
+        return
+    found = LineString(points).intersection(box(*rect))
+    for part in getattr(found, "geoms", [found]):
+        if part.geom_type == "LineString" and len(part.coords) > 1:
+            yield Polyline(tuple((x, y) for x, y in part.coords), cls, name, step)
+
+
+def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
+    """The points of curves for which the drawing makes room.
+
+    Paths and centrodes of the mechanism's size are drawn whole; of wider ones where they touch.
+    """
+    found: list[complex] = []
+    most = ROOMY * max(mechanism.width, mechanism.height)
+    for curve in curves:
+        points = [point for run in curve.runs for point in run]
+        box = extent_of(points) if points else mechanism
+        if curve.kind == "trajectory" or max(box.width, box.height) <= most:
+            found += points
+        elif curve.now is not None and abs(curve.now - mechanism.middle) <= most:
+            found.append(curve.now)
+    return found
+
+
+def draw_curves(board: Board, drawing: Drawing, field: Field, rect: Rect) -> None:
+    """Paths of points and centrodes, each with its name."""
+    for curve in drawing.curves:
+        name = f"{curve.kind} {curve.of}"
+        parts = [
+            part
+            for run in curve.runs
+            for part in clipped_path([field(point) for point in run], rect, curve.kind, name)
+        ]
+        board.marks += parts
+        if parts:
+            subject = middle_of(max(parts, key=length), share=SHARES[curve.kind])
+            words = name_of(drawing.words, curve)
+            cls = COLOURS.get(curve.kind, "")
+            board.labels.append(Label(words, cls, subject, 2.5, name, led=True))
+
+
+SHARES = {"fixed-centrode": 0.5, "moving-centrode": 0.3, "trajectory": 0.15}
+"""How far along its longest part a curve is named, so that names do not meet."""
+
+
+def name_of(words: Words, curve: Curve) -> str:
+    """What is written beside a curve."""
+    return words(f"page.{curve.kind}", of=symbol(curve.of))
+
+
+def length(part: Polyline) -> float:
+    """Length of a broken line in mm."""
+    ends = zip(part.points, part.points[1:], strict=False)
+    return sum(hypot(x - u, y - v) for (x, y), (u, v) in ends)
+
+
+def middle_of(part: Polyline, share: float) -> XY:
+    """The corner of a broken line that a share of its length lies before."""
+    left = share * length(part)
+    for (x, y), (u, v) in zip(part.points, part.points[1:], strict=False):
+        left -= hypot(x - u, y - v)
+        if left <= 0:
+            return u, v
+    return part.points[-1]

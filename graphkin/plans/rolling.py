@@ -1,0 +1,299 @@
+"""Wheels that roll without slip: where they touch, how they are turned, the contact's images."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from graphkin.plans.guides import axis, guide_line, local_line, path_of
+from graphkin.plans.links import contact_name, no_construction, under
+from graphkin.plans.pen import Pen, Says, letter
+from graphkin.plans.shape import Shapes
+from graphkin.scene.model import FRAME, Driver, Wheel
+from graphkin.steps.guides import placed, set_at, turned, turned_back
+from graphkin.steps.program import Part, Plane
+from graphkin.steps.vocabulary import coordinate
+from graphkin.steps.wheels import (
+    arm_between,
+    axis_turned,
+    between_tracks,
+    contact_of_wheels,
+    contact_on_track,
+    opposite,
+    rack_at,
+    radius_along,
+    rolled_on_track,
+    rolled_on_wheel,
+    turned_since,
+    turned_to,
+    way_of_turn,
+    way_rolled,
+)
+from graphkin.structure.graph import Contact, Pin, Sliding
+from graphkin.structure.groups import Geared, Train
+
+
+def track_of(pen: Pen, shapes: Shapes, contact: Contact) -> int:
+    """The line of a straight track in the plane."""
+    key = ("track", *contact.links)
+    if key not in pen.shared:
+        wheel, on = contact.links
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            pen.shared[key] = guide_line(pen, shapes, contact.rolling, on, wheel)
+        pen.want("track", wheel, pen.shared[key])
+    return pen.shared[key]
+
+
+def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
+    """The radius of a wheel, negative where it rolls to the right of a track or is a ring."""
+    chosen = contact.wheel if wheel else contact.track
+    assert chosen is not None
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        radius = pen.given("length", chosen.radius)
+        if chosen.inside or (contact.track is None and contact.rolling.side < 0):
+            return pen.draw(opposite, radius)
+    return radius
+
+
+def start_of(pen: Pen, contact: Contact, link: str) -> int:
+    """The direction of a link's x axis in the position that the rolling counts from."""
+    angle = contact.rolling.start.get(link)
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.given("ahead") if angle is None else pen.given("direction", angle)
+
+
+def path_of_centre(pen: Pen, shapes: Shapes, contact: Contact) -> int:
+    """The line on which a wheel's centre moves along a straight track."""
+    line = track_of(pen, shapes, contact)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        return pen.draw(radius_along, line, radius_of(pen, contact), k=contact.links[0])
+
+
+def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
+    """How far a driver has rolled, or by turning has made roll, a wheel along a straight track."""
+    if driver.kind == "roll":
+        return pen.drive(driver).position
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        ends = start_of(pen, contact, contact.links[0]), radius_of(pen, contact)
+        return pen.draw(way_rolled, pen.driven_angle(driver), *ends)
+
+
+def set_on_track(pen: Pen, shapes: Shapes, contact: Contact, centre: str, way: int) -> None:
+    """A wheel that has rolled a way along a straight track: centre, contact, axis."""
+    path = path_of_centre(pen, shapes, contact)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        found = pen.draw(set_at, path, way, name=centre, q=centre, k=contact.links[0])
+    pen.want("position", centre, found)
+    touch_and_turn(pen, shapes, contact)
+
+
+def touch_and_turn(pen: Pen, shapes: Shapes, contact: Contact) -> None:
+    """A wheel whose centre stands: its contact with the straight track, and its axis."""
+    wheel, on = contact.links
+    line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
+    touch = mark_contact(
+        pen, contact, lambda: pen.draw(contact_on_track, line, centre, **named(contact))
+    )
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        way = pen.draw(coordinate, line, touch)
+    pen.want("rolled", wheel, way)
+    if pen.has("axis", wheel):
+        return
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        lead = axis(pen, shapes, on) if on != FRAME else pen.given("ahead")
+        ends = start_of(pen, contact, wheel), way, radius_of(pen, contact)
+        pen.want("axis", wheel, pen.draw(rolled_on_track, lead, *ends))
+
+
+def named(contact: Contact) -> Says:
+    """The name of a contact and the links that touch there."""
+    return {"name": letter(contact_name(contact)), "k": contact.links[0], "g": contact.links[1]}
+
+
+def mark_contact(pen: Pen, contact: Contact, draw: Callable[[], int]) -> int:
+    """The place of a contact, known under its name and as a point of either link."""
+    name = contact_name(contact)
+    if not pen.has("position", name):
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            pen.want("position", name, draw())
+        for link in contact.links:
+            pen.want("position", under(name, link), pen.the("position", name))
+    return pen.the("position", name)
+
+
+def geared(pen: Pen, shapes: Shapes, group: Geared) -> None:
+    """A wheel on its pin, a rack on its guide, or a roller between two tracks: where it stands."""
+    match group.pair:
+        case Contact() as own:
+            roller(pen, shapes, group, own)
+        case Sliding() as slide:
+            rack(pen, shapes, group, slide)
+        case Pin():
+            if group.contact.track is None:
+                touch_and_turn(pen, shapes, group.contact)
+            else:
+                wheel_on_wheel(pen, shapes, group)
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """A contact seen from one of its wheels: the other link, both wheels and both radii."""
+
+    other: str
+    own: Wheel
+    track: Wheel
+    radius: int
+    track_radius: int
+
+
+def seen_from(pen: Pen, contact: Contact, link: str) -> Side:
+    """A contact of two wheels as one of them sees it."""
+    assert contact.track is not None
+    mine, its = radius_of(pen, contact), radius_of(pen, contact, wheel=False)
+    if contact.links[0] == link:
+        return Side(contact.links[1], contact.wheel, contact.track, mine, its)
+    return Side(contact.links[0], contact.track, contact.wheel, its, mine)
+
+
+def wheel_on_wheel(pen: Pen, shapes: Shapes, group: Geared) -> None:
+    """A wheel on its pin: the contact on the line of centres, its turning by the radii."""
+    contact, link = group.contact, group.link
+    assert contact.arm is not None
+    touch_wheels(pen, contact, link)
+    if not pen.has("axis", link):
+        roll_round(pen, shapes, contact, link)
+
+
+def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
+    """The contact of two wheels whose centres stand."""
+    side = seen_from(pen, contact, link)
+    ends = pen.the("position", side.track.centre), pen.the("position", side.own.centre)
+    radii = side.track_radius, side.radius
+    mark_contact(pen, contact, lambda: pen.draw(contact_of_wheels, *ends, *radii, **named(contact)))
+
+
+def roll_round(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> None:
+    """The axis of a wheel from how far its arm and the wheel that it rolls on have turned."""
+    side, arm = seen_from(pen, contact, link), contact.arm
+    assert arm is not None
+    turns = [turned_by(pen, shapes, contact, each) for each in (arm, side.other)]
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        turn = pen.draw(rolled_on_wheel, *turns, side.track_radius, side.radius)
+        pen.shared["turned", link, start_key(contact, link)] = turn
+        pen.want("axis", link, pen.draw(axis_turned, turn, start_of(pen, contact, link)))
+
+
+def train(pen: Pen, shapes: Shapes, group: Train) -> None:
+    """The arm of a planet between two wheels: how far they have turned says where it is."""
+    sides = [seen_from(pen, contact, group.wheel) for contact in group.contacts]
+    contact, centre = group.contacts[0], group.centre.point
+    turns = [
+        turned_by(pen, shapes, each, side.other)
+        for each, side in zip(group.contacts, sides, strict=True)
+    ]
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        radii = [side.track_radius for side in sides] + [side.radius for side in sides]
+        turn = pen.draw(arm_between, *turns, *radii)
+        pen.shared["turned", group.arm, start_key(contact, group.arm)] = turn
+        lead = pen.draw(axis_turned, turn, start_of(pen, contact, group.arm))
+        pen.want("axis", group.arm, lead)
+    ends = shapes.local(group.arm, group.pivot.point), shapes.local(group.arm, centre)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        start = pen.the("position", group.pivot.point)
+        says: Says = {"p": group.pivot.point, "g": group.arm, "q": centre}
+        pen.want("position", centre, pen.draw(placed, start, lead, *ends, name=centre, **says))
+    for each in group.contacts:
+        touch_wheels(pen, each, group.wheel)
+    roll_round(pen, shapes, contact, group.wheel)
+
+
+def start_key(contact: Contact, link: str) -> object:
+    """What the start of a link is written as; a turning is counted from there."""
+    return contact.rolling.start.get(link)
+
+
+def turned_by(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> int:
+    """How far a link has turned since the start.
+
+    Whole turns are counted for driven links; others are taken within half a turn.
+    """
+    key = ("turned", link, start_key(contact, link))
+    if key not in pen.shared:
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            if link == FRAME:
+                pen.shared[key] = pen.given("nought")
+            elif driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
+                pen.shared[key] = driven_turn(pen, shapes, contact, driver)
+            else:
+                ends = axis(pen, shapes, link), start_of(pen, contact, link)
+                pen.shared[key] = pen.draw(turned_since, *ends)
+    return pen.shared[key]
+
+
+def turns_link(driver: Driver, link: str) -> bool:
+    """Whether a driver gives the angle of a link."""
+    return driver.kind == "turn" and driver.link == link
+
+
+def driven_turn(pen: Pen, shapes: Shapes, contact: Contact, driver: Driver) -> int:
+    """How far a driver has turned a link since the start, whole turns counted."""
+    link = driver.link
+    before = turned_by(pen, shapes, contact, driver.against)
+    angle, start = pen.driven_angle(driver), start_of(pen, contact, link)
+    if driver.against in contact.rolling.start:
+        start = pen.draw(turned_back, start, start_of(pen, contact, driver.against))
+    if driver.of:
+        ends = [shapes.local(link, point) for point in driver.of]
+    else:
+        ends = [pen.given("origin"), pen.given("ahead")]
+    return pen.draw(turned_to, before, angle, start, *ends)
+
+
+def roller(pen: Pen, shapes: Shapes, group: Geared, own: Contact) -> None:
+    """A roller between two parallel tracks: where on the first it stands, then as any wheel."""
+    other = group.contact
+    lines = [track_of(pen, shapes, each) for each in (own, other)]
+    values = [pen.peek(line) for line in lines]
+    way = -1 if all(values) and (values[0].along.conjugate() * values[1].along).real < 0 else 1
+    leads = []
+    for each in (own, other):
+        on, start = each.links[1], start_of(pen, each, group.link)
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            leads.append(start if on == FRAME else pen.draw(turned, axis(pen, shapes, on), start))
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        lean = pen.draw(turned_back, *leads)
+        radii = radius_of(pen, own), radius_of(pen, other)
+        where = pen.draw(between_tracks, *lines, lean, *radii, extra=(way,))
+    path = path_of_centre(pen, shapes, own)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        centre = own.wheel.centre
+        found = pen.draw(set_at, path, where, name=centre, q=centre, k=group.link)
+    pen.want("position", centre, found)
+    for each in (own, other):
+        touch_and_turn(pen, shapes, each)
+
+
+def rack(pen: Pen, shapes: Shapes, group: Geared, slide: Sliding) -> None:
+    """A rack on its guide: the wheel's turning says how far it has come along the track."""
+    contact, link = group.contact, group.link
+    point, wheel = pen.scene.link(link).points[0], contact.links[0]
+    if wheel == link or contact.track is not None:
+        raise no_construction(group)
+    path_of(pen, shapes, slide, link, point)
+    ends = local_line(pen, shapes, contact.rolling, link)
+    radius, axis_ = radius_of(pen, contact), axis(pen, shapes, link)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        start = pen.draw(turned, axis_, start_of(pen, contact, wheel))
+        driver = next((d for d in pen.scene.drivers if turns_link(d, wheel)), None)
+        if driver is not None and driver.against == FRAME and not driver.of:
+            line = pen.given("origin"), pen.given("ahead")
+            angle = pen.driven_angle(driver)
+            turn = pen.draw(turned_to, pen.given("nought"), angle, start, *line)
+        else:
+            turn = pen.draw(turned_since, axis(pen, shapes, wheel), start)
+        way = pen.draw(way_of_turn, turn, radius)
+    centre = pen.the("position", contact.wheel.centre)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        where = centre, axis_, *ends, shapes.local(link, point), radius, way
+        pen.want("position", point, pen.draw(rack_at, *where, name=point, q=point, g=link))
+    touch_and_turn(pen, shapes, contact)

@@ -1,0 +1,34 @@
+"""A pen that writes the program of a trial: what the real one knows comes in from outside."""
+
+from __future__ import annotations
+
+from graphkin.plans.pen import Pen
+from graphkin.steps.program import Given, Part, Plane, Step
+
+
+class TrialPen(Pen):
+    """Writes a program of its own; ``inputs`` maps each of its inputs to the real pen's step."""
+
+    def __init__(self, parent: Pen) -> None:
+        super().__init__(parent.scene)
+        self.parent = parent
+        self.bases |= parent.bases
+        self.leads |= parent.leads
+        self.turning = parent.turning
+        self.inputs: dict[int, int] = {}
+
+    def input_step(self) -> int:
+        """A step whose value comes from outside."""
+        return self._add(Step(None, (), Part.POSITION, Plane.NUMBERS, given=Given("input", ())))
+
+    def has(self, quantity: str, of: str) -> bool:
+        """True when a quantity has been constructed here, or by the real pen."""
+        return super().has(quantity, of) or self.parent.has(quantity, of)
+
+    def the(self, quantity: str, of: str) -> int:
+        """The step that carries a quantity; one of the real pen's comes in as an input."""
+        if not super().has(quantity, of):
+            number = self.input_step()
+            self.inputs[number] = self.parent.the(quantity, of)
+            self.targets[quantity, of] = number
+        return super().the(quantity, of)

@@ -1,0 +1,280 @@
+"""The text of cycle: range, dead points, closures, limits of the followers, verdict on the loop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from graphkin.report.record import plain, settings_words
+from graphkin.report.table import labelled, listed
+from graphkin.scene.model import Closure, Side
+from graphkin.scene.quantity import SI
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+    from graphkin.motion.events import Singular
+    from graphkin.motion.limits import Follower, Limit
+    from graphkin.motion.loop import Loop
+    from graphkin.motion.pieces import Piece
+    from graphkin.motion.sweep import Sweep
+
+FLAT = 1e-10
+"""Difference that a row may have, over the cube of its flattest sine: beside singular places an
+acceleration is known no better, least of all where all of its kind are nought."""
+SAME = 1e-6
+"""Distance of two limits, in degrees, m or s, that are one."""
+NOTHING = 1e-12
+"""A length, in the scene's unit, that is rounding."""
+SHOWN = 6
+"""Places left out that are listed."""
+
+LETTER = {"turn": "φ", "slide": "s", "roll": "s", "time": "t"}
+
+
+def cycle_lines(cycle: Cycle) -> Iterator[str]:
+    """The whole report of a cycle, line by line."""
+    from graphkin.motion.limits import followers
+    from graphkin.motion.loop import loop_of
+
+    scene = cycle.scene
+    settings = settings_words({name: plain(scene.values.get(name)) for name in scene.parameters})
+    yield f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
+    yield ""
+    yield from labelled("sweep", list(sweep_words(cycle)))
+    yield from labelled("range", range_words(cycle))
+    yield from labelled("dead", [singular_words(cycle, s) for s in of_kind(cycle, "dead")])
+    yield from labelled("change", [singular_words(cycle, s) for s in of_kind(cycle, "change")])
+    if len(cycle.pieces) > 1:
+        yield from labelled("pieces", [piece_words(cycle, piece) for piece in cycle.pieces])
+    several = len(cycle.path.ranges) > 1
+    for i in range(len(cycle.path.ranges)):
+        found = [line for each in followers(cycle, i) for line in follower_words(cycle, each)]
+        yield from labelled("followers" + (f" {i + 1}" if several else ""), found)
+    loop = loop_of(cycle)
+    yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
+    yield from labelled("rows", [rows_words(cycle)])
+    yield from labelled("witness", [witness_words(cycle)])
+
+
+def of_kind(cycle: Cycle, kind: str) -> Iterable[Singular]:
+    """Dead points, or change points."""
+    return (each for each in cycle.singulars if each.kind == kind)
+
+
+def at_words(sweep: Sweep, at: float, name: bool = True) -> str:
+    """A place of the sweep, such as φ = 28.955°."""
+    head = f"{LETTER[sweep.what]} = " if name else ""
+    if sweep.what == "turn":
+        return f"{head}{at:.3f}°".replace("-0.000°", "0.000°")
+    if sweep.what == "time":
+        return f"{head}{short(at)} s"
+    return head + length_words(sweep, at)
+
+
+def length_words(sweep: Sweep, value: float) -> str:
+    """A length in the scene's unit."""
+    unit = sweep.original.units["length"]
+    size = value / float(SI[unit][0])
+    return f"{short(size if abs(size) > NOTHING else 0.0)} {unit}"
+
+
+def short(value: float) -> str:
+    """A number with at most six digits."""
+    return f"{value + 0.0:.6g}"
+
+
+def sweep_words(cycle: Cycle) -> Iterator[str]:
+    """What is moved, and how."""
+    sweep = cycle.sweep
+    if sweep.what == "time":
+        count = len(cycle.scene.drivers)
+        yield f"{'every driver' if count > 1 else 'the driver'} moves with the time"
+        return
+    driver = sweep.driver
+    assert driver is not None
+    what = {"turn": "turns", "slide": "slides", "roll": "rolls"}[sweep.what]
+    unit = "rad" if sweep.what == "turn" else "m"
+    yield (
+        f"link {driver.link} {what}; at each position its speed is "
+        f"{short(float(driver.speed.si(cycle.scene.values)))} {unit}/s, its acceleration "
+        f"{short(float(driver.acceleration.si(cycle.scene.values)))} {unit}/s²"
+    )
+    if len(cycle.scene.drivers) > 1:
+        yield "the other drivers stand still where the scene puts them"
+
+
+def range_words(cycle: Cycle) -> list[str]:
+    """Where the driver can go."""
+    sweep = cycle.sweep
+    if cycle.path.whole:
+        words = ["every angle of the driver: it turns fully"]
+        if not cycle.path.returns:
+            words.append("after one turn the mechanism stands in another closure")
+        return words
+    lines = []
+    for pieces in cycle.path.ranges:
+        low, high = pieces[0].low, pieces[-1].high
+        ends = [at_words(sweep, end.at, name=False) for end in (low, high)]
+        free = [w for end, w in ((low, "below"), (high, "above")) if end.kind == "window"]
+        line = f"{LETTER[sweep.what]} from {ends[0]} to {ends[1]}"
+        line += f" ({short(high.at - low.at)}° in all)" if sweep.what == "turn" else ""
+        if sweep.what in ("slide", "roll") and free:
+            line += f"; nothing stops it {' and '.join(free)}"
+        lines.append(line)
+    return lines
+
+
+def singular_words(cycle: Cycle, found: Singular) -> str:
+    """A dead point or a change point, in a sentence."""
+    where = f"{found.lines} at {at_words(cycle.sweep, found.at)}"
+    if found.kind == "dead":
+        return f"{where}: limit position of the driver, {found.pin} cannot be found beyond"
+    return f"{where}: change point, passed as the velocity leads"
+
+
+def piece_words(cycle: Cycle, piece: Piece) -> str:
+    """The signs of a piece."""
+    sweep = cycle.sweep
+    low, high = (at_words(sweep, end.at, name=False) for end in (piece.low, piece.high))
+    branches = []
+    for name, branch in piece.branches.items():
+        if isinstance(branch, Side):
+            side = "left" if branch.side > 0 else "right"
+            branches.append(f"{name} {side} of {branch.first}-{branch.second}")
+        elif isinstance(branch, Closure):
+            branches.append(f"{name} closure {branch.number}")
+        else:
+            branches.append(f"{name} {'forward' if branch.way > 0 else 'backward'}")
+    return f"{LETTER[sweep.what]} from {low} to {high}: {', '.join(branches) or 'nothing to pick'}"
+
+
+def follower_words(cycle: Cycle, found: Follower) -> list[str]:
+    """How far one follower goes, where it turns round, and the ratio of the times."""
+    what = f"block {found.name}" if found.line is None else f"link {found.name}"
+    line = "" if found.line is None else f" (line {'-'.join(found.line)})"
+    if found.full:
+        return [f"{what}{line} turns fully"]
+    verb = "goes" if found.line is None else "swings"
+    words = f"{what}{line} {verb} {value_words(cycle, found, found.extent)}: "
+    words += " to ".join(limit_words(cycle, found, end) for end in (found.low, found.high))
+    lines = [words]
+    ends = [end.at for end in (found.low, found.high)]
+    others = [each for each in found.limits if min(abs(each.at - at) for at in ends) > SAME]
+    if others:
+        also = listed(limit_words(cycle, found, each) for each in others)
+        lines.append(f"  it turns round also at {also}")
+    if found.time_ratio is not None:
+        lines.append(f"  time ratio of its two strokes {found.time_ratio:.4f}")
+    return lines
+
+
+def limit_words(cycle: Cycle, found: Follower, limit: Limit) -> str:
+    """One limit with the driver's place."""
+    return f"{value_words(cycle, found, limit.value)} (at {at_words(cycle.sweep, limit.at)})"
+
+
+def value_words(cycle: Cycle, found: Follower, value: float) -> str:
+    """An angle or a coordinate of a follower."""
+    return length_words(cycle.sweep, value) if found.line is None else f"{value:.3f}°"
+
+
+def loop_words(cycle: Cycle, loop: Loop) -> list[str]:
+    """The verdict on a single loop, by its lengths and by the ring or band."""
+    sweep = cycle.sweep
+    size = {name: length_words(sweep, value) for name, value in loop.lengths.items()}
+    pins = "-".join(pin for pin in loop.pins if pin)
+    lines = [
+        f"{loop.kind.replace('slider-driven', 'slider-crank')} {pins}: "
+        + ", ".join(f"{name} {value}" for name, value in size.items())
+    ]
+    lines += verdict(loop)
+    lines.append(reach_words(sweep, loop))
+    if loop.more:
+        lines.append("the groups that hang on this loop may narrow the range further")
+    return lines
+
+
+def verdict(loop: Loop) -> list[str]:
+    """What the lengths say, in the field's words."""
+    from graphkin.motion.loop import class_of
+
+    if loop.kind == "four-bar":
+        found = class_of(loop)
+        return [f"Grashof: {SUMS[found.partition(' ')[0]]}, so it is a {found}: {WORDS[found]}"]
+    if loop.kind == "slider-crank":
+        sign = "≤" if loop.turns else ">"
+        says = "the crank turns fully" if loop.turns else "the crank cannot turn fully"
+        return [f"crank + offset {sign} rod: {says}"]
+    r, d, c = (loop.lengths[key] for key in ("crank", "offset", "rod"))
+    says = "could turn fully as the driver" if r + d <= c else "could not turn fully as the driver"
+    return [f"the block drives between its dead points; the crank {says}"]
+
+
+SUMS = {
+    "change-point": "shortest + longest = sum of the other two",
+    "triple": "shortest + longest > sum of the other two",
+    "double": "shortest + longest < sum of the other two",
+    "crank-rocker": "shortest + longest < sum of the other two",
+    "rocker-crank": "shortest + longest < sum of the other two",
+}
+WORDS = {
+    "change-point parallelogram": "crank and follower turn alike or against one another",
+    "change-point kite": "all its links can lie in one line",
+    "change-point four-bar": "all its links can lie in one line",
+    "triple rocker": "no link turns fully against another",
+    "double crank": "the frame is the shortest, both links on it turn fully",
+    "crank-rocker": "the driver is the shortest and turns fully, the other rocks",
+    "rocker-crank": "the follower is the shortest and could turn fully, the driver rocks",
+    "double rocker": "the coupler is the shortest and turns fully, both links on the frame rock",
+}
+
+
+def reach_words(sweep: Sweep, loop: Loop) -> str:
+    """The path of the driven pin against what the rest can reach."""
+    from graphkin.motion.loop import Band, Ring
+
+    pin = loop.pins[1]
+    if isinstance(loop.reach, Band):
+        area = f"the band of {length_words(sweep, loop.reach.half)} on either side of the guide"
+    else:
+        inner, outer = loop.reach.inner, loop.reach.outer
+        area = f"the ring of radii {length_words(sweep, inner)} and {length_words(sweep, outer)}"
+        area += f" about {loop.pins[3]}"
+    path = "circle" if isinstance(loop.path, Ring) else "line"
+    lies = "lies wholly within" if loop.turns else "leaves"
+    return f"the {path} of {pin} {lies} {area}"
+
+
+def rows_words(cycle: Cycle) -> str:
+    """How many rows there are, and which positions have none."""
+    words = f"{len(cycle.at)} rows"
+    left = cycle.left_out
+    if not len(left):
+        return words
+    places = [at_words(cycle.sweep, float(at), name=False) for at in left]
+    which = listed(places) if len(left) <= SHOWN else f"{places[0]} … {places[-1]}"
+    return f"{words}; {len(left)} positions left out, they do not close or are singular: {which}"
+
+
+def witness_words(cycle: Cycle) -> str:
+    """What the independent route says of all rows."""
+    found = cycle.witnessed
+    if found.refused:
+        return f"could not judge: {found.refused}"
+    if not len(cycle.at):
+        return "nothing to judge"
+    largest = f"largest difference {found.largest:.1e}"
+    count = int(found.agrees.sum())
+    if count == len(cycle.at):
+        return f"agrees in every row: {largest}"
+    if agrees(cycle):
+        others = len(cycle.at) - count
+        return f"agrees, but for {others} rows beside singular places: {largest}"
+    return f"DOES NOT AGREE in {len(cycle.at) - count} rows: {largest}"
+
+
+def agrees(cycle: Cycle) -> bool:
+    """Whether the independent route agrees in every row that is not beside a singular place."""
+    found = cycle.witnessed
+    flat = found.difference <= FLAT / cycle.solution.margin**3
+    return bool(not found.refused and (found.agrees | flat).all())

@@ -1,0 +1,124 @@
+"""Wheels that roll without slip: contact points, turning, and the contact's image in the plans."""
+
+from __future__ import annotations
+
+from graphkin.arithmetic import Point, Real, phase, turn_by
+from graphkin.plane import Line, dot
+from graphkin.steps.vocabulary import action
+
+
+@action("contact-on-track")
+def contact_on_track(line: Line, centre: Point) -> Point:
+    """The foot of the perpendicular from a wheel's centre to its straight track."""
+    unit = line.along / abs(line.along)
+    return line.point + unit * dot(unit, centre - line.point)
+
+
+@action("contact-of-wheels")
+def contact_of_wheels(track_centre: Point, centre: Point, track: Real, wheel: Real) -> Point:
+    """The point of the line of centres where two wheels touch; a ring's radius is negative."""
+    return track_centre + (centre - track_centre) * (track / (track + wheel))
+
+
+@action("radius-along")
+def radius_along(line: Line, radius: Real) -> Line:
+    """The line on which the centre of a wheel moves that rolls to the left of its track."""
+    return Line(line.point + 1j * line.along * (radius / abs(line.along)), line.along)
+
+
+@action("rolled-on-track")
+def rolled_on_track(axis: Point, start: Point, coordinate: Real, radius: Real) -> Point:
+    """Axis of a wheel that rolled a way from its start; ``radius`` is negative on the right."""
+    return axis * start * turn_by(-coordinate / radius)
+
+
+@action("way-rolled")
+def way_rolled(turn: Real, start: Point, radius: Real) -> Real:
+    """How far along its track a wheel has rolled when it has turned to an angle."""
+    return -(turn - phase(start)) * radius
+
+
+@action("way-rolled")
+def way_of_turn(turn: Real, radius: Real) -> Real:
+    """How far along its track a wheel has rolled while it turned by an angle."""
+    return -turn * radius
+
+
+@action("rack-at")
+def rack_at(
+    centre: Point, axis: Point, here: Point, there: Point, point: Point, radius: Real, way: Real
+) -> Point:
+    """A point of a rack from the wheel that has rolled a way along its track (here to there)."""
+    line = there - here
+    along = axis * (line / abs(line))
+    return centre - along * (way + 1j * radius) + axis * (point - here)
+
+
+@action("opposite")
+def opposite(number: Real) -> Real:
+    """A number with the other sign."""
+    return -number
+
+
+@action("turned-since")
+def turned_since(axis: Point, start: Point) -> Real:
+    """The angle in radians, within half a turn, by which a link has turned since the start."""
+    return phase(axis * start.conjugate())
+
+
+@action("turned-to")
+def turned_to(before: Real, angle: Real, start: Point, here: Point, there: Point) -> Real:
+    """How far a driven link has turned since the start, from the angle of one of its lines."""
+    return before + angle - phase((there - here) * start)
+
+
+@action("rolled-on-wheel")
+def rolled_on_wheel(turn_arm: Real, turn_track: Real, track: Real, wheel: Real) -> Real:
+    """How far a wheel has turned that rolls on another, both on one arm (Willis)."""
+    return turn_arm - (turn_track - turn_arm) * (track / wheel)
+
+
+@action("arm-between")
+def arm_between(
+    turn: Real, other: Real, track: Real, other_track: Real, wheel: Real, other_wheel: Real
+) -> Real:
+    """How far an arm has turned whose planet rolls on two wheels that turned so far (Willis).
+
+    Radii of the two tracks and of the planet's wheel on each, a ring's negative. Equal ratios
+    leave the arm free: they raise ZeroDivisionError on a scalar.
+    """
+    first, second = track / wheel, other_track / other_wheel
+    return (turn * first - other * second) / (first - second)
+
+
+@action("axis")
+def axis_turned(turn: Real, start: Point) -> Point:
+    """Axis of a link that has turned by an angle since its start."""
+    return start * turn_by(turn)
+
+
+@action("between-tracks")
+def between_tracks(
+    own: Line, other: Line, starts: Point, radius: Real, other_radius: Real, way: int
+) -> Real:
+    """Where between two parallel tracks a roller stands on the first, from how it turned.
+
+    On both tracks the way rolled gives the same turning; ``starts`` is the lean of one start
+    against the other, way the sense of the second track against the first.
+    """
+    unit = own.along / abs(own.along)
+    shift = dot(unit, own.point - other.point)
+    return -(phase(starts) * other_radius + way * shift) / (way - other_radius / radius)
+
+
+@action("speed-rolled")
+def speed_rolled(rate: Real, radius: Real) -> Real:
+    """The speed at which a wheel's centre moves along its track when it turns at a rate."""
+    return -rate * radius
+
+
+@action("rolling-normal")
+def rolling_normal(centre: Point, contact: Point, omega: Real, omega_track: Real) -> Point:
+    """The acceleration of a wheel's point of contact against its straight track: to the centre."""
+    relative = omega - omega_track
+    return (centre - contact) * (relative * relative)

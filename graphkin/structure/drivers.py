@@ -1,0 +1,173 @@
+"""As many drivers as freedoms: what to say where there are too few or too many."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from graphkin.errors import Problem, StructureError
+from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
+from graphkin.structure.graph import contacts, pairs, sharers
+from graphkin.structure.groups import Group, Higher, Tie, Unresolved, decompose
+from graphkin.structure.mobility import count
+
+RANK = "the rank of the constraints"
+
+
+def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
+    """Raise StructureError where the structure alone shows that the drivers are wrong.
+
+    Too few by the count, which is never above the truth; too many where all links follow without
+    some of them; two on what one moves, and none on others. Else a count below the number of
+    drivers decides nothing, for a link may be idle: ask ``refuse_wrong_drivers`` with the rank.
+    """
+    freedoms, drivers = count(scene).mobility, len(scene.drivers)
+    if freedoms > drivers:
+        refuse_wrong_drivers(scene)
+    if freedoms < drivers and spare_drivers(scene):
+        refuse_wrong_drivers(scene, enough(scene), "the order of the groups")
+    ties = [group.link for group in groups if isinstance(group, Tie)]
+    loose = [link for group in groups if isinstance(group, Unresolved) for link in group.links]
+    if ties and loose:
+        raise StructureError(misplaced(drivers, ties, loose))
+
+
+def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) -> None:
+    """Raise StructureError unless there are as many drivers as freedoms.
+
+    ``true`` is the true mobility, told ``by`` the rank; without it the count decides.
+    """
+    problem = driver_problem(scene, true, by)
+    if problem is not None:
+        raise StructureError(problem)
+
+
+def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Problem | None:
+    """What is wrong with the number of drivers, None where it is that of the freedoms."""
+    counted = count(scene)
+    freedoms = counted.mobility if true is None else true
+    drivers = len(scene.drivers)
+    if freedoms == drivers:
+        return None
+    total, _, left = counted.words.replace("−", "-").partition(" = ")
+    leaves = f"the count {total} leaves {left}"
+    if freedoms != counted.mobility:
+        leaves = f"{by} leaves {freedoms} ({leaves})"
+    else:
+        leaves += " freedom" if freedoms == 1 else " freedoms"
+    if freedoms > drivers:
+        hint = too_few_hint(scene)
+    else:
+        hint = too_many_hint(scene, freedoms, certain=true is not None)
+    found = f"{drivers} given, but {leaves}"
+    return Problem("drivers", found, "as many drivers as freedoms", hint)
+
+
+def too_few_hint(scene: Scene) -> str:
+    """A driver to add, or what seems to be missing."""
+    loose = lone_points(scene)
+    if loose:
+        return f"add a driver, or a pin is missing: only one link has the points {', '.join(loose)}"
+    free = drivable(scene)
+    return f"add a driver, such as turn = {free[0]}" if free else "add a driver"
+
+
+def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
+    """The drivers of which some are to be taken away; the count alone is not certain of it."""
+    if freedoms <= 0:
+        return "nothing can move" + ("" if certain else ", unless a constraint is idle")
+    names = [driver_name(driver) for driver in spare_drivers(scene) or scene.drivers]
+    surplus = len(scene.drivers) - freedoms
+    if surplus == len(names) == 1:
+        return f"take {names[0]} away: its motion follows from the rest"
+    away = "one driver" if surplus == 1 else f"{surplus} drivers"
+    return f"take {away} away, of {', '.join(names)}: its motion follows from the rest"
+
+
+def spare_drivers(scene: Scene) -> list[Driver]:
+    """The drivers without each of which all links still follow, one dyad after the other.
+
+    Groups of higher class close by a link that may be idle, so that they prove nothing.
+    """
+    return [driver for driver in scene.drivers if follows(without(scene, driver))]
+
+
+def enough(scene: Scene) -> int:
+    """How many drivers are left when those from which nothing new follows are taken away."""
+    for driver in scene.drivers:
+        rest = without(scene, driver)
+        if follows(rest):
+            return enough(rest)
+    return len(scene.drivers)
+
+
+def without(scene: Scene, driver: Driver) -> Scene:
+    """The mechanism without one of its drivers."""
+    return replace(scene, drivers=tuple(each for each in scene.drivers if each is not driver))
+
+
+def follows(scene: Scene) -> bool:
+    """Whether every link follows from the drivers by dyads and wheels."""
+    return not any(isinstance(group, Higher | Unresolved) for group in decompose(scene))
+
+
+def misplaced(drivers: int, ties: Sequence[str], loose: Sequence[str]) -> Problem:
+    """A link closes what is driven already, and others are free."""
+    tie = f"link {ties[0]}" if len(ties) == 1 else f"links {', '.join(ties)}"
+    return Problem(
+        "drivers",
+        f"{drivers} given, but {tie} would join what is driven already, while "
+        f"{', '.join(loose)} hang on no driver",
+        "a driver for each freedom",
+        f"let a driver move link {loose[0]} instead, or add one if {tie} is idle",
+    )
+
+
+def drivable(scene: Scene) -> list[str]:
+    """Links that are pinned to the frame and that no driver turns."""
+    driven = {driver.link for driver in scene.drivers}
+    pinned = [
+        link
+        for point, links in sharers(scene).items()
+        if point in scene.frame.points
+        for link in links
+        if link != FRAME and link not in driven
+    ]
+    return list(dict.fromkeys(pinned))
+
+
+def lone_points(scene: Scene) -> list[str]:
+    """The points at which a pin may be missing, each with its link.
+
+    They are points of one link alone, of a link that has a single pair and no driver; then also
+    points of the frame that nothing uses.
+    """
+    joined = Counter(link for pair in (*pairs(scene), *contacts(scene)) for link in pair.links)
+    driven = {driver.link for driver in scene.drivers}
+    ends = {name for name in scene.links if joined[name] < 2 and name not in driven}
+    used = {name for link in scene.links.values() for name in points_used(link)}
+    if ends:
+        ends.add(FRAME)
+    return [
+        f"{point} ({'the frame' if links[0] == FRAME else links[0]})"
+        for point, links in sharers(scene).items()
+        if len(links) == 1 and links[0] in ends and point not in used
+    ]
+
+
+def points_used(link: Link) -> Iterator[str]:
+    """The points by which a link's guides and tracks are written, and the centres of its wheels."""
+    joints: tuple[Slide | Rolling, ...] = (*link.slides, *link.rolls)
+    for joint in joints:
+        if isinstance(joint.through, str):
+            yield joint.through
+        if isinstance(joint, Slide):
+            yield from joint.along or ()
+    for wheel in link.wheels:
+        yield wheel.centre
+
+
+def driver_name(driver: Driver) -> str:
+    """A driver in short, as it is written: turn = 1."""
+    return f"{driver.kind} = {driver.link}"

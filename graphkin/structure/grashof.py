@@ -1,0 +1,201 @@
+"""Which links of a single loop can turn all the way round: Grashof's rule and the slider-crank's.
+
+Both rules speak of the links against one another, whichever is fixed: the shortest bar turns
+fully against all the others, or no link against any.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal
+
+from graphkin.plane import cross
+from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.bodies import body, guide_line, metres
+from graphkin.structure.graph import Pin, Sliding
+from graphkin.structure.joints import Joint, Joints
+
+EVEN = 1e-9
+"""Share of the lengths below which two sums count as equal."""
+
+Kind = Literal[
+    "crank-rocker",
+    "double crank",
+    "double rocker",
+    "triple rocker",
+    "change point",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class FourBar:
+    """A loop of four links and four pins: each link with its length (m), the fixed one first."""
+
+    links: tuple[str, str, str, str]
+    lengths: tuple[float, float, float, float]
+
+    @property
+    def kind(self) -> Kind:
+        """Grashof's class."""
+        return grashof(*self.lengths)
+
+    @property
+    def slack(self) -> int:
+        """+1 where the shortest bar turns fully, 0 where it just does, -1 where nothing does."""
+        return {"triple rocker": -1, "change point": 0}.get(self.kind, 1)
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        """The links that turn fully against all others: the shortest, or none.
+
+        Several where several are the shortest, at a change point.
+        """
+        if self.slack < 0:
+            return ()
+        bars = zip(self.links, self.lengths, strict=True)
+        return tuple(name for name, long in bars if compare(long, min(self.lengths)) == 0)
+
+
+@dataclass(frozen=True, slots=True)
+class SliderCrank:
+    """A loop of four links with three pins and one slide.
+
+    ``guide`` carries the guide and ``block`` slides on it; ``crank`` is the bar that is pinned to
+    the guide's link and ``rod`` the one pinned to the block, lengths in m. ``offset`` is how far
+    the crank's pin on the guide's link lies from the line on which the block's pin moves.
+    """
+
+    guide: str
+    block: str
+    crank: tuple[str, float]
+    rod: tuple[str, float]
+    offset: float
+
+    @property
+    def links(self) -> tuple[str, str, str, str]:
+        """All four, in the order of the loop."""
+        return self.guide, self.crank[0], self.rod[0], self.block
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """The shorter and the longer bar."""
+        return min(self.crank[1], self.rod[1]), max(self.crank[1], self.rod[1])
+
+    @property
+    def slack(self) -> int:
+        """+1 where the shorter bar turns fully, 0 where it just does, -1 where nothing does.
+
+        Full turns iff r + |d| <= c, r the shorter bar, c the longer one, d the offset.
+        """
+        short, long = self.lengths
+        return compare(long, short + abs(self.offset))
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        """The links that turn fully against all others: the shorter bar, both, or none."""
+        if self.slack < 0:
+            return ()
+        bars = (self.crank, self.rod)
+        return tuple(name for name, long in bars if compare(long, self.lengths[0]) == 0)
+
+
+Loop = FourBar | SliderCrank
+
+
+def grashof(fixed: float, first: float, coupler: float, last: float) -> Kind:
+    """The class of a four-bar by its lengths in the order of the loop, the fixed link's first.
+
+    Grashof: with s the shortest, l the longest, p and q the others, the shortest link turns fully
+    against all others iff s + l <= p + q.
+    """
+    short, *middle, long = sorted((fixed, first, coupler, last))
+    sign = compare(sum(middle), short + long)
+    if sign == 0:
+        return "change point"
+    if sign < 0:
+        return "triple rocker"
+    if short == fixed:
+        return "double crank"
+    return "double rocker" if short == coupler else "crank-rocker"
+
+
+def compare(one: float, other: float) -> int:
+    """Sign of one length less another; 0 where they are equal but for rounding."""
+    gap = one - other
+    return 0 if abs(gap) <= EVEN * max(one, other) else 1 if gap > 0 else -1
+
+
+def single_loops(scene: Scene) -> tuple[Loop, ...]:
+    """The loops of four links with four pins, or three pins and a slide, the frame's first."""
+    found: list[Loop] = []
+    every = Joints(scene)
+    for links in four_cycles(every):
+        beside = zip(links, (*links[1:], links[0]), strict=True)
+        joined = [every.between(link, (other,)) for link, other in beside]
+        if all(len(pairs) == 1 for pairs in joined):
+            loop = loop_of(scene, links, [pairs[0] for pairs in joined])
+            found += [] if loop is None else [loop]
+    return tuple(sorted(found, key=lambda loop: FRAME not in loop.links))
+
+
+def four_cycles(every: Joints) -> Iterator[tuple[str, str, str, str]]:
+    """Each ring of four links joined one to the next, once, its first-written link first."""
+    order = every.order
+    near = {name: every.neighbours(name) for name in order}
+    for first in order:
+        later = [name for name in near[first] if order[name] > order[first]]
+        for second, last in combinations(later, 2):
+            for third in near[second]:
+                if order[third] > order[first] and third != last and third in near[last]:
+                    yield first, second, third, last
+
+
+def loop_of(scene: Scene, links: Sequence[str], joints: Sequence[Joint]) -> Loop | None:
+    """A ring of four links by its pairs: link i is joined to the next by joint i."""
+    pins = [joint.point for joint in joints if isinstance(joint, Pin)]
+    if len(set(pins)) == 4:
+        lengths = [bar(scene, link, pins[i - 1], pins[i]) for i, link in enumerate(links)]
+        a, b, c, d = links
+        return FourBar((a, b, c, d), (lengths[0], lengths[1], lengths[2], lengths[3]))
+    if len(pins) != 3 or len(set(pins)) != 3:
+        return None
+    turned, slide = next((i, joint) for i, joint in enumerate(joints) if not isinstance(joint, Pin))
+    if not isinstance(slide, Sliding):
+        return None
+    ring = [*links[turned + 1 :], *links[: turned + 1]]
+    points = [j.point for j in (*joints[turned + 1 :], *joints[:turned]) if isinstance(j, Pin)]
+    if ring[0] != slide.block:
+        ring, points = ring[::-1], points[::-1]
+    return slider_crank(scene, slide, ring, points)
+
+
+def slider_crank(
+    scene: Scene, slide: Sliding, ring: Sequence[str], points: Sequence[str]
+) -> SliderCrank | None:
+    """The loop from the block over the rod and the crank to the guide's link, and its pins.
+
+    None for a block whose own axes do not lie along this guide, so that no offset can be told.
+    """
+    block, rod, crank, guide = ring
+    at_block, middle, at_guide = points
+    line, own, base = guide_line(scene, slide.slide), body(scene, block), body(scene, guide)
+    across = own[at_block] - own[scene.links[block].points[0]]
+    if across and slide.slide != scene.links[block].slides[0]:
+        return None
+    height = metres(scene, slide.slide.offset) + across.imag
+    offset = height - cross(line.along, base[at_guide] - line.point)
+    return SliderCrank(
+        guide,
+        block,
+        (crank, bar(scene, crank, middle, at_guide)),
+        (rod, bar(scene, rod, at_block, middle)),
+        float(offset),
+    )
+
+
+def bar(scene: Scene, link: str, one: str, other: str) -> float:
+    """The distance of two points on a link (m)."""
+    points = body(scene, link)
+    return abs(points[one] - points[other])

@@ -1,0 +1,68 @@
+"""Which pairs each link has, and with whom: looked up once, asked often."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.graph import Contact, Pair, Pin, Sliding, contacts, sharers
+
+Joint = Pair | Contact
+"""A pair that joins two links: a pin, a slide or a rolling contact."""
+
+
+class Joints:
+    """The pairs of a scene, by link."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.owners = sharers(scene)
+        self.order = {name: i for i, name in enumerate((FRAME, *scene.links))}
+        self.others: dict[str, list[Sliding | Contact]] = {name: [] for name in self.order}
+        for link in scene.links.values():
+            for slide in link.slides:
+                self._put(Sliding(slide, (link.name, slide.on)))
+        for contact in contacts(scene):
+            self._put(contact)
+
+    def _put(self, pair: Sliding | Contact) -> None:
+        for link in pair.links:
+            self.others[link].append(pair)
+
+    def between(self, link: str, others: Collection[str]) -> tuple[Joint, ...]:
+        """The pairs that join a link to a set of others; a shared pin counts once."""
+        found: list[Joint] = []
+        for point in self.scene.link(link).points:
+            other = next((o for o in self.owners[point] if o != link and o in others), None)
+            if other is not None:
+                found.append(Pin(point, (link, other)))
+        found += [pair for pair in self.others[link] if partner(pair, link) in others]
+        return tuple(found)
+
+    def inner(self, first: str, second: str, known: Collection[str]) -> tuple[Joint, ...]:
+        """The pairs between two links, but for pins that stand already on known links."""
+        return tuple(
+            pair
+            for pair in self.between(first, (second,))
+            if not isinstance(pair, Pin) or not any(o in known for o in self.owners[pair.point])
+        )
+
+    def neighbours(self, link: str) -> list[str]:
+        """The links joined to a link by any pair, as written."""
+        found = {o for point in self.scene.link(link).points for o in self.owners[point]}
+        found |= {partner(pair, link) for pair in self.others[link]}
+        return sorted(found - {link}, key=self.order.__getitem__)
+
+    def unknown(self, known: Collection[str]) -> Iterator[str]:
+        """The links that are not known, as written."""
+        return (name for name in self.scene.links if name not in known)
+
+
+def partner(pair: Joint, link: str) -> str:
+    """The other link of a pair."""
+    return pair.links[1] if pair.links[0] == link else pair.links[0]
+
+
+def taken(pair: Joint) -> int:
+    """The freedoms that a pair takes: two, or one where other links keep the distance."""
+    return pair.taken if isinstance(pair, Contact) else 2

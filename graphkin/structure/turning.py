@@ -1,0 +1,110 @@
+"""Links that slide on one another turn together: which, at what angle, and which never turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from graphkin.plane import cross
+from graphkin.scene.model import FRAME, Scene, Slide
+from graphkin.structure.bodies import body, guide_line, metres
+
+LEVEL = 1e-9
+"""Sine of an angle below which two directions count as parallel."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """How a link stands against another on which it only slides one way.
+
+    ``lean`` is the direction of its x axis in the other's axes, ``height`` (m) how far its origin
+    lies to the left of the line through the other's origin along the common direction.
+    """
+
+    lean: complex
+    height: float
+
+
+def turns(scene: Scene, name: str) -> bool:
+    """False for a link that slides alone join to the frame, one after the other: it only shifts."""
+    return FRAME not in together(scene, name)
+
+
+def guides_under(scene: Scene, name: str) -> Iterator[str]:
+    """The link under a block, the one under that, and so on to one that does not slide."""
+    seen: set[str] = set()
+    while name != FRAME and name not in seen and scene.links[name].slides:
+        seen.add(name)
+        name = scene.links[name].slides[0].on
+        yield name
+
+
+def together(scene: Scene, name: str) -> frozenset[str]:
+    """All links that turn with a link, because slides alone lead from one to the other."""
+    found, waiting = {name}, [name]
+    while waiting:
+        here = waiting.pop()
+        for block, slide in every_slide(scene):
+            for one, other in ((block, slide.on), (slide.on, block)):
+                if one == here and other not in found:
+                    found.add(other)
+                    waiting.append(other)
+    return frozenset(found)
+
+
+def every_slide(scene: Scene) -> Iterator[tuple[str, Slide]]:
+    """Every block with each of its guides."""
+    for link in scene.links.values():
+        for slide in link.slides:
+            yield link.name, slide
+
+
+def stands(scene: Scene, base: str, way: complex) -> Mapping[str, Stand]:
+    """The links that move against ``base`` along ``way`` only, a unit vector in its axes.
+
+    Slides along that direction lead to them, so that each keeps its angle and its height. A
+    block's x axis lies along the guide that it names first.
+    """
+    found, waiting = {base: Stand(1 + 0j, 0.0)}, [base]
+    while waiting:
+        here = waiting.pop()
+        for link in scene.links.values():
+            for slide in link.slides[:1]:
+                reached, stand = link.name, None
+                if slide.on == here and link.name not in found:
+                    stand = block_stand(scene, link.name, slide, found[here], way)
+                elif link.name == here and slide.on not in found:
+                    reached = slide.on
+                    stand = carrier_stand(scene, link.name, slide, found[here], way)
+                if stand is not None:
+                    found[reached] = stand
+                    waiting.append(reached)
+    return found
+
+
+def block_stand(scene: Scene, block: str, slide: Slide, under: Stand, way: complex) -> Stand | None:
+    """How a block stands whose guide's link stands; None where the guide leads another way."""
+    line = guide_line(scene, slide)
+    lean = under.lean * line.along
+    if abs(cross(way, lean)) > LEVEL:
+        return None
+    return Stand(lean, under.height + lift(scene, block, slide, under.lean, way))
+
+
+def carrier_stand(
+    scene: Scene, block: str, slide: Slide, upon: Stand, way: complex
+) -> Stand | None:
+    """How a guide's link stands whose block stands; None where the guide leads another way."""
+    line = guide_line(scene, slide)
+    lean = upon.lean / line.along
+    if abs(cross(way, upon.lean)) > LEVEL:
+        return None
+    return Stand(lean, upon.height - lift(scene, block, slide, lean, way))
+
+
+def lift(scene: Scene, block: str, slide: Slide, lean: complex, way: complex) -> float:
+    """How much higher a block's origin stands than that of its guide's link, which has a lean."""
+    line, points = guide_line(scene, slide), body(scene, block)
+    foot = line.point + 1j * metres(scene, slide.offset) * line.along
+    first = points[scene.links[block].points[0]]
+    return float(cross(way, lean * foot) - cross(way, lean * line.along * first))

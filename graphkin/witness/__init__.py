@@ -1,0 +1,11 @@
+"""The witness: a solution held against vector loops that share nothing with its construction.
+
+Disagreement is the absolute difference over the largest magnitude of that quantity in the scene.
+A scale never falls below a thousandth of what the other quantities make of it (v ≈ ω·L and so on),
+so that the rounding of a quantity that is nought everywhere is not taken for a difference.
+"""
+
+from graphkin.witness.alone import by_loops
+from graphkin.witness.examine import compare, compare_batch, examine
+
+__all__ = ["by_loops", "compare", "compare_batch", "examine"]

@@ -1,0 +1,102 @@
+"""Every scene that is shipped: solved, proved by the second route, told by check, and drawn."""
+
+from __future__ import annotations
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.cli import app
+from graphkin.handout import hand_out
+from graphkin.paper.files import rendered
+from graphkin.scene.model import FRAME
+from graphkin.steps.solution import FAIR
+from tests.examples.scenes import FILES, is_rigid, mechanism, motion
+
+ROWS = {
+    "pump": 2,
+    "roller": 2,
+    "jumper": 1,
+    "crank-slot": 1,
+    "crank-fixed-slot": 1,
+    "eight-link": 2,
+    "centrodes": 4,
+    "oscillating-slide": 1,
+    "four-bar": 6,
+    "slider-crank": 2,
+    "lifter": 1,
+    "toggle-press": 1,
+    "rapid-return": 2,
+    "five-bar": 1,
+    "rod-and-wheel": 1,
+    "two-loops": 1,
+    "instant-centres": 1,
+    "gears": 5,
+    "excavator": 2,
+    "oldham": 1,
+    "trammel": 1,
+    "watt": 4,
+    "stephenson": 5,
+    "mobility": 5,
+}
+"""The mechanisms of the courses, each with the number of its scenes."""
+
+
+def ends(name: str) -> list[dict[str, object]]:
+    """Settings that put one parameter of a scene to the least or the most of its range."""
+    parameters = mechanism(name).scene.parameters.values()
+    ranges = [(each.name, bound) for each in parameters for bound in (each.minimum, each.maximum)]
+    return [{name: bound.number({})} for name, bound in ranges if bound is not None]
+
+
+RANGES = [(name, setting) for name in FILES for setting in ends(name)]
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_a_mechanism_of_the_courses_has_its_scenes(row: str) -> None:
+    found = [name for name in FILES if name == row or name.startswith(f"{row}-")]
+    assert len(found) == ROWS[row]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_scene_is_solved_and_the_witness_agrees(name: str) -> None:
+    assert motion(name).margin > 0.05  # no crossing that a ruler would miss
+
+
+@pytest.mark.parametrize(("name", "setting"), RANGES, ids=str)
+def test_a_scene_closes_at_the_ends_of_its_parameters(
+    name: str, setting: dict[str, object]
+) -> None:
+    assert motion(name, **setting).margin > FAIR
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_links_are_rigid(name: str) -> None:
+    found = motion(name)
+    for link in mechanism(name).scene.links.values():
+        is_rigid(found, link.points)
+    for point in mechanism(name).scene.link(FRAME).points:
+        assert found.points[point].velocity == found.points[point].acceleration == 0
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_check_tells_of_a_scene(name: str) -> None:
+    said = CliRunner().invoke(app, ["check", str(FILES[name])])
+    assert said.exit_code == 0, said.stderr
+    assert len(said.stdout.splitlines()) > 5
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_scene_gives_its_sheets(name: str) -> None:
+    parts = hand_out(mechanism(name), view="key")
+    files = {}
+    for part in parts:
+        files |= rendered(f"{name}-{part.kind}", part.kind, part.pages, ("svg",))
+    assert files
+    assert all(content.startswith(b"<") for content in files.values())
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_title_is_given_in_both_languages_or_in_one_for_both(name: str) -> None:
+    scene = mechanism(name).scene
+    assert scene.titles.keys() in (set(), {"en", "ro"})
+    assert scene.titles.get("en", scene.title) == scene.title

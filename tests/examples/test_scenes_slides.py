@@ -1,0 +1,395 @@
+"""What the courses state of mechanisms with blocks: on fixed and moving guides, one and several."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath
+import pytest
+
+from graphkin.errors import ClosureError
+from graphkin.structure.mobility import count
+from tests.examples.scenes import (
+    acceleration,
+    angle,
+    centre,
+    crossing,
+    degrees,
+    epsilon,
+    follows,
+    mechanism,
+    meeting,
+    motion,
+    omega,
+    place,
+    proved,
+    rates,
+    same,
+    unit,
+    varied,
+    velocity,
+)
+
+TURN = 2 * math.pi / 60
+"""Rad/s of one turn a minute."""
+
+
+# --- blocks on moving guides ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("q", [0, 50, 115, 240, 345])
+def test_the_bar_through_a_swivelling_block(q: int) -> None:
+    """b = sqrt(c² + d² + a² + 2a(d sinθ - c cosθ)), and its two derivatives."""
+    found = motion("crank-slot", angle=q)
+    drive = (degrees(q), 10, 0)
+
+    def length(q: mpmath.mpf) -> mpmath.mpf:
+        lean = 60 * mpmath.sin(q) - 200 * mpmath.cos(q)
+        return mpmath.sqrt(200**2 + 60**2 + 80**2 + 160 * lean)
+
+    def end(q: mpmath.mpf) -> mpmath.mpc:
+        crank = 80 * unit(q)
+        way = mpmath.mpc(200, -60) - crank
+        return crank + 340 * way / abs(way)
+
+    slide, b = found.slides["3"], rates(length, drive)
+    assert same(slide.position, b[0] / 1000)
+    assert same(slide.speed, b[1] / 1000, 1)
+    assert same(slide.acceleration, b[2] / 1000, 10)
+    follows(found, "E", end, drive)
+
+
+def test_coriolis_under_the_swivelling_block() -> None:
+    """The block's pin stands: v@ + v_rel = 0 and a@ + a_cor + a_rel = 0, a_cor = 2ω × v_rel."""
+    found = motion("crank-slot")
+    slide, along = found.slides["3"], unit_of(found, "B", "E")
+    assert same(slide.coriolis, 2j * omega(found, 2) * slide.speed * along)
+    assert abs(slide.coriolis) > 0.1
+    assert same(velocity(found, "C@2"), -slide.speed * along)
+    assert same(acceleration(found, "C@2"), -slide.coriolis - slide.acceleration * along)
+
+
+def unit_of(found, start: str, end: str) -> complex:
+    """The unit vector from one point to another."""
+    way = place(found, end) - place(found, start)
+    return way / abs(way)
+
+
+@pytest.mark.parametrize("beta", [0, 25, 40])
+@pytest.mark.parametrize("q", [0, 50, 200])
+def test_the_slot_of_constant_inclination(q: int, beta: int) -> None:
+    found = motion("crank-fixed-slot", angle=q, beta=beta)
+    theta, lean, w = math.radians(q), math.radians(beta), 10
+    slot, lift = found.slides["2"], found.slides["3"]
+    assert same(slot.position, (0.2 - 0.08 * math.cos(theta)) / math.cos(lean))
+    assert same(slot.speed, 0.08 * w * math.sin(theta) / math.cos(lean), 1)
+    assert same(slot.acceleration, 0.08 * w**2 * math.cos(theta) / math.cos(lean), 1)
+    height = 0.08 * math.sin(theta) + (0.2 - 0.08 * math.cos(theta)) * math.tan(lean)
+    assert same(lift.position, height, 0.1)
+    assert same(lift.speed, 0.08 * w * (math.cos(theta) + math.sin(theta) * math.tan(lean)), 1)
+    fall = 0.08 * w**2 * (math.cos(theta) * math.tan(lean) - math.sin(theta))
+    assert same(lift.acceleration, fall, 10)
+    assert same(place(found, "E"), 0.2 + 1j * height)
+
+
+def test_no_coriolis_where_nothing_that_guides_turns() -> None:
+    found = motion("crank-fixed-slot")
+    assert not any(slide.coriolis for slide in found.slides.values())
+    assert count(mechanism("crank-fixed-slot").scene).pairs == 4
+
+
+@pytest.mark.parametrize("w", [1, 2, 10])
+def test_eight_links_with_a_sliding_yoke(w: int) -> None:
+    found, length = motion("eight-link-1", omega=w), 0.045
+    assert same(velocity(found, "B@4"), 2j * w * length)
+    assert same(velocity(found, "D"), w * length)
+    for link, ratio in {5: -1 / 2, 7: 1 / 6, 8: 1 / 2}.items():
+        assert same(omega(found, link), ratio * w)
+    stands = {"B": 2 + 2j, "C": 3 + 2j, "D": 7 + 4j, "E": 10 + 4j, "F": 9 + 6j}
+    for point, where in stands.items():
+        assert same(place(found, point), where * length)
+
+
+def test_the_output_printed_on_the_slide_needs_another_pivot() -> None:
+    """F = E + (-2l, 4l) makes ω8 = ω/4."""
+    changes = (('F = ["9*l", "6*l"]', 'F = ["8*l", "8*l"]'), ('"l*sqrt(5)"', '"l*sqrt(20)"'))
+    assert same(omega(proved(varied("eight-link-1", *changes)), 8), 2 / 4)
+
+
+@pytest.mark.parametrize(("k", "share", "output"), [(6, 1 / 15, -1 / 30), (2, 1 / 5, -1 / 10)])
+def test_eight_links_with_a_swivelling_guide(k: int, share: float, output: float) -> None:
+    """k = 6 gives the slide's results; k = 2 is what it prints, with other results."""
+    found, length, v = motion("eight-link-2", k=k), 0.018, 0.27
+    assert same(omega(found, 3), v / (15 * length))
+    assert same(velocity(found, "B@3"), (0.8 + 0.4j) * v)
+    assert same(velocity(found, "D"), 1j * share * v)
+    assert same(velocity(found, "E"), 1j * share * v)
+    assert abs(omega(found, 7)) < 1e-12
+    assert abs(found.links["7"].instant_centre.size) < 1e-12
+    assert same(omega(found, 8), output * v / length)
+
+
+@pytest.mark.parametrize("q", [0, 20, 150, 270])
+def test_the_oscillating_slide_has_the_ratios_of_the_notes(q: int) -> None:
+    found = motion("oscillating-slide", angle=q)
+    slide, speed, lever = found.slides["2"], 90 * TURN, angle(found, "O", "E")
+    turn = math.radians(q)
+    assert same(slide.speed, -0.065 * speed * math.sin(turn - lever), 0.65)
+    assert same(omega(found, 3), 0.065 / slide.position * speed * math.cos(turn - lever), 1)
+
+    def end(q: mpmath.mpf) -> mpmath.mpc:
+        block = mpmath.mpc(0, 150) + 65 * unit(q)
+        return 280 * block / abs(block)
+
+    follows(found, "E", end, (degrees(q), 3 * mpmath.pi, 0))
+
+
+# --- slider-crank --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("q", [0, 55, 160, 300])
+def test_a_slider_crank_driven_by_its_crank(q: int) -> None:
+    found, speed = motion("slider-crank", angle=q), 120 * TURN
+    rod = math.asin((30 - 70 * math.sin(math.radians(q))) / 200)
+    expected = -70 * speed * math.cos(math.radians(q)) / (200 * math.cos(rod))
+    assert same(omega(found, 2), expected, 1)
+
+    def piston(q: mpmath.mpf) -> mpmath.mpc:
+        rise = 30 - 70 * mpmath.sin(q)
+        return 70 * mpmath.cos(q) + mpmath.sqrt(200**2 - rise**2) + 30j
+
+    follows(found, "B", piston, (degrees(q), 4 * mpmath.pi, 0))
+
+
+def test_a_slider_crank_turns_fully_iff_the_rod_reaches() -> None:
+    """r + |d| ≤ c; without, the dead point is where the rod stands square to the guide."""
+    for q in range(0, 360, 15):
+        assert motion("slider-crank", angle=q).margin > 0.05
+    short = ("A-B = 200", "A-B = 90")
+    dead = math.degrees(math.asin((30 - 90) / 70))
+    near = varied("slider-crank", short, ('angle = "angle"', f"angle = {dead + 1e-3}")).solve()
+    assert abs(math.cos(angle(near, "A", "B"))) < 0.02
+    with pytest.raises(ClosureError):
+        varied("slider-crank", short, ('angle = "angle"', f"angle = {dead - 1e-3}")).solve()
+
+
+@pytest.mark.parametrize("x", [170, 240, 270])
+def test_a_slider_crank_driven_by_its_slider(x: int) -> None:
+    found = motion("slider-crank-slider", x=x)
+    crank, rod = angle(found, "O", "A"), angle(found, "A", "B")
+    expected = 600 * math.cos(rod) / (80 * math.sin(crank - rod))
+    assert same(omega(found, 1), expected)
+
+    def pin(x: mpmath.mpf) -> mpmath.mpc:
+        return meeting(mpmath.mpc(0), 80, x + 40j, 220, 1)
+
+    follows(found, "A", pin, (x, -600, 1500))
+
+
+def test_the_slider_stops_where_crank_and_rod_are_in_line() -> None:
+    """θ2 = θ1 + kπ: x² + d² = (c ± r)²."""
+    for reach, inwards in ((300, -1), (140, 1)):
+        dead = math.sqrt(reach**2 - 40**2)
+        near = varied(
+            "slider-crank-slider", ('position = "x"', f"position = {dead + inwards * 1e-3}")
+        )
+        found = near.solve()
+        assert abs(math.sin(angle(found, "O", "A") - angle(found, "A", "B"))) < 0.02
+        with pytest.raises(ClosureError):
+            varied(
+                "slider-crank-slider", ('position = "x"', f"position = {dead - inwards * 1e-3}")
+            ).solve()
+
+
+# --- several loops -------------------------------------------------------------------------------
+
+
+def test_the_toggle_press_is_a_four_bar_with_a_slider_behind() -> None:
+    found = motion("toggle-press")
+    drive = (degrees(60), 2 * mpmath.pi, 0)
+
+    def knee(q: mpmath.mpf) -> mpmath.mpc:
+        return meeting(42 * unit(q), 166, mpmath.mpc(215, 125), 130, -1)
+
+    def slide(q: mpmath.mpf) -> mpmath.mpc:
+        pin = knee(q)
+        drop = mpmath.sqrt(148**2 - (215 - mpmath.re(pin)) ** 2)
+        return mpmath.mpc(215, mpmath.im(pin) - drop)
+
+    follows(found, "B", knee, drive)
+    follows(found, "C", slide, drive)
+    assert [group.title for group in mechanism("toggle-press").groups[1:]] == [
+        "dyad RRR",
+        "dyad RRP",
+    ]
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4])
+def test_the_rapid_return_closes_in_four_ways(number: int) -> None:
+    """Three slides at once: A on the lever PQ, P on the vertical, Q on its guide."""
+    found = proved(varied("rapid-return", ('"closure 2"', f'"closure {number}"')))
+    a, p, q = (place(found, point) for point in "APQ")
+    lean = math.radians(10)
+    assert abs(q - p) == pytest.approx(0.288, rel=1e-12)
+    assert abs(p.real) < 1e-12
+    assert abs(((q - 0.16j) * complex(math.cos(lean), -math.sin(lean))).imag) < 1e-12
+    assert abs(((a - p) * (q - p).conjugate()).imag) < 1e-12
+
+
+def test_the_closures_of_the_rapid_return_are_ordered_by_the_angle_of_its_block() -> None:
+    turns = []
+    for number in (1, 2, 3, 4):
+        found = proved(varied("rapid-return", ('"closure 2"', f'"closure {number}"')))
+        turns.append(math.degrees(angle(found, "P", "Q")) % 360)
+    assert turns == pytest.approx([46, 73, 165, 275], abs=1)
+
+
+def test_the_guides_normals_meet_in_the_centre_of_the_lever() -> None:
+    """It gives ω at once: the crank pin's velocity square to the lever, over its distance."""
+    found = motion("rapid-return")
+    a, p, q = (place(found, point) for point in "APQ")
+    lean = math.radians(10)
+    meet = crossing(p, p + 1, q, q + complex(-math.sin(lean), math.cos(lean)))
+    assert same(centre(found.links["3"].instant_centre), meet)
+    along = (q - p) / abs(q - p)
+    square = (velocity(found, "A") * along.conjugate()).imag
+    assert same(omega(found, 3), square / ((a - meet) * along.conjugate()).real)
+    assert mechanism("rapid-return").groups[1].title == "group of class III, order 3"
+
+
+def test_the_rapid_return_driven_by_an_end_is_of_class_two() -> None:
+    titles = [group.title for group in mechanism("rapid-return-slider").groups[1:]]
+    assert len(titles) == 2
+    assert all(title.startswith("dyad") for title in titles)
+    drive = (-112, 160, 400)
+    lean = unit(degrees(10))
+
+    def upper(y: mpmath.mpf) -> mpmath.mpc:
+        low = (1j * y - 160j) / lean
+        reach = mpmath.re(low) + mpmath.sqrt(288**2 - mpmath.im(low) ** 2)
+        return 160j + reach * lean
+
+    def pin(y: mpmath.mpf) -> mpmath.mpc:
+        along = (upper(y) - 1j * y) / 288
+        foot = -1j * y / along
+        reach = mpmath.re(foot) + mpmath.sqrt(48**2 - mpmath.im(foot) ** 2)
+        return 1j * y + reach * along
+
+    follows(motion("rapid-return-slider"), "Q", upper, drive)
+    follows(motion("rapid-return-slider"), "A", pin, drive)
+
+
+TWO_LOOPS = (40, 100, 50)
+
+
+def over(q: mpmath.mpf) -> mpmath.mpc:
+    """A stands over the middle of BO, at the distance 100 from both."""
+    b, o = mpmath.mpc(0, -q), mpmath.mpc(100)
+    height = mpmath.sqrt(100**2 - abs(o - b) ** 2 / 4)
+    return (b + o) / 2 + 1j * (o - b) / abs(o - b) * height
+
+
+def test_two_loops_by_their_closed_form() -> None:
+    found = motion("two-loops")
+    follows(found, "A", over, TWO_LOOPS)
+    follows(found, "C", lambda q: 100 + 2j * mpmath.im(over(q)), TWO_LOOPS)
+    theta = [angle(found, *ends) for ends in ("BA", "OA", "AC")]
+    left, right, rod = (omega(found, link) for link in (2, 3, 4))
+    sine = math.sin(theta[0] - theta[1])
+    assert same(left, -math.sin(theta[1]) / sine)
+    assert same(right, -math.sin(theta[0]) / sine)
+    assert same(rod, -right * math.sin(theta[1]) / math.sin(theta[2]))
+
+
+def test_two_loops_keep_c_on_o_in_the_other_closure() -> None:
+    found = proved(varied("two-loops", ('5 = "forward"', '5 = "backward"')))
+    assert same(place(found, "C"), place(found, "O"))
+    assert abs(velocity(found, "C")) < 1e-12
+    assert abs(acceleration(found, "C")) < 1e-11
+    assert omega(found, 4) == pytest.approx(omega(found, 3))
+
+
+def test_two_loops_are_singular_where_the_notes_say() -> None:
+    """θ1 = θ2 + π at q = ∓ l√3, the end of the range; θ3 = 0 at q = ±l."""
+    end = 100 * math.sqrt(3)
+    beyond = ('position = "q"', f"position = {end + 1e-3}")
+    with pytest.raises(ClosureError):
+        varied("two-loops", beyond).solve()
+    near = varied("two-loops", ('position = "q"', f"position = {end - 1e-3}")).solve()
+    assert abs(math.sin(angle(near, "B", "A") - angle(near, "O", "A"))) < 0.02
+    flat = varied("two-loops", ('position = "q"', f"position = {100 - 1e-3}")).solve()
+    assert abs(math.sin(angle(flat, "A", "C"))) < 0.02
+
+
+# --- double sliders ------------------------------------------------------------------------------
+
+
+def test_oldham_turns_alike_and_slides_by_the_offset() -> None:
+    w = 180 * TURN
+    for q in (0, 35, 90, 200):
+        found = motion("oldham", angle=q)
+        turn = math.radians(q)
+        assert same(omega(found, 3), w)
+        assert abs(epsilon(found, 3)) < 1e-9 * w**2
+        assert same(abs(found.slides["2"].speed), abs(0.06 * w * math.sin(turn)), 1)
+        assert same(abs(found.slides["3"].speed), abs(0.06 * w * math.cos(turn)), 1)
+    assert same(abs(motion("oldham", angle=90).slides["2"].speed), 0.06 * w)
+
+
+def test_the_cross_of_oldham_runs_around_the_circle_between_the_shafts() -> None:
+    follows(
+        motion("oldham"),
+        "M",
+        lambda q: 60 * mpmath.cos(q) * unit(q),
+        (degrees(35), 6 * mpmath.pi, 0),
+    )
+
+
+def test_the_trammel_draws_an_ellipse() -> None:
+    found = motion("trammel")
+    drive = (132, 176, 0)
+
+    def rise(x: mpmath.mpf) -> mpmath.mpf:
+        return mpmath.sqrt(220**2 - x**2)
+
+    follows(found, "B", lambda x: 1j * rise(x), drive)
+    follows(found, "M", lambda x: mpmath.mpc(132 * x, 88 * rise(x)) / 220, drive)
+    assert same(omega(found, 2), 0.176 / place(found, "B").imag)
+    assert same(centre(found.links["2"].instant_centre), 0.132 + 0.176j)
+
+
+def test_the_bar_of_a_trammel_turns_against_its_rod() -> None:
+    found = motion("mobility-trammel-bar")
+    assert same(omega(found, 4), -omega(found, 2))
+    assert abs(place(found, "M")) == pytest.approx(0.12, rel=1e-12)
+    follows(found, "B", lambda x: 1j * mpmath.sqrt(240**2 - x**2), (160, 200, 0))
+
+
+@pytest.mark.parametrize("alpha", [15, 45, 75])
+def test_the_centre_of_cardans_cross_lies_on_both_circles(alpha: int) -> None:
+    found = motion("centrodes-cardan", alpha=alpha)
+    lean = math.radians(alpha)
+    meet, foot = centre(found.links["2"].instant_centre), place(found, "B")
+    assert same(meet, 0.1 * complex(math.cos(lean), -math.sin(lean)))
+    own = (meet - foot) * complex(math.cos(lean), -math.sin(lean))
+    assert abs(meet) == pytest.approx(0.1, rel=1e-9)  # about O
+    assert abs(own - 0.05) == pytest.approx(0.05, rel=1e-9)  # about the rod's middle
+
+
+def test_the_centre_of_cardans_cross_at_45_degrees() -> None:
+    found = motion("centrodes-cardan")
+    meet, foot = centre(found.links["2"].instant_centre), place(found, "B")
+    assert (meet * 10).real == pytest.approx(0.707, abs=5e-4)
+    assert (meet * 10).imag == pytest.approx(-0.707, abs=5e-4)
+    own = (meet - foot) / unit_of(found, "B", "A")
+    assert same(own, 0.05 - 0.05j)
+
+
+# --- a cam and the mechanism in its place --------------------------------------------------------
+
+
+@pytest.mark.parametrize("q", [0, 40, 250])
+def test_a_flat_follower_rises_by_the_eccentric(q: int) -> None:
+    found = motion("mobility-cam", angle=q)
+    follows(found, "F", lambda q: 1j * (40 * mpmath.sin(q) + 70), (degrees(q), 3 * mpmath.pi, 0))
+    assert count(mechanism("mobility-cam").scene).mobility == 3 * 2 - 2 * 2 - 1

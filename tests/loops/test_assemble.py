@@ -1,0 +1,336 @@
+"""Mechanisms assembled from nothing, in the closure that the scene states."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+
+from graphkin.errors import StructureError, WitnessError
+from graphkin.freedom import true_mobility
+from graphkin.loops.assemble import assemble
+from graphkin.scene.model import Closure
+from graphkin.steps.solution import PointMotion, Solution
+from graphkin.witness import by_loops, compare, compare_batch
+
+FOUR_BAR = """
+[frame]
+A = [0, 0]
+D = [4, 0]
+[links.1]
+A-B = 1.5
+[links.2]
+B-C = 3.5
+[links.3]
+D-C = 3
+[[drivers]]
+turn = 1
+angle = 75
+speed = 2
+"""
+
+
+def unit(angle):
+    return mpmath.mpc(mpmath.cos(angle), mpmath.sin(angle))
+
+
+def central(place, values, speeds, accelerations):
+    """Velocity and acceleration of points by central differences in 50 digits."""
+    with mpmath.workdps(50):
+        h = mpmath.mpf(10) ** -15
+        laws = list(zip(values, speeds, accelerations, strict=True))
+        before, here, after = (
+            place(*(q + w * k * h + e * (k * h) ** 2 / 2 for q, w, e in laws)) for k in (-1, 0, 1)
+        )
+        return {
+            name: (
+                complex(z),
+                complex((after[name] - before[name]) / (2 * h)),
+                complex((after[name] - 2 * z + before[name]) / h**2),
+            )
+            for name, z in here.items()
+        }
+
+
+def agree(motion, expected, tolerance=1e-12):
+    for name, quantities in expected.items():
+        for found, exact in zip(motion.point(name), quantities, strict=True):
+            assert abs(found[0] - exact) <= tolerance * max(1, abs(exact)), name
+
+
+@pytest.mark.parametrize("name", ["pump", "pump-collinear"])
+def test_the_pump_without_a_position(name, sheet, solved, pump_start):
+    scene = sheet(name, n=7)
+    found, expected = assemble(scene), solved(scene, **pump_start)
+    for mine, its in zip(found.motion.points, expected.motion.points, strict=True):
+        assert abs(mine - its).max() < 1e-11 * max(1, abs(its).max())
+
+
+def test_a_batch_is_assembled_setting_by_setting(sheet):
+    n = np.array([1.0, 7.0, 30.0])
+    scene = sheet("pump")
+    batch = by_loops(scene, {"n": n})
+    for i, each in enumerate(n):
+        one = by_loops(sheet("pump", n=each))
+        assert batch.points["D"].velocity[i] == pytest.approx(one.points["D"].velocity)
+    differences, agrees = compare_batch(scene, batch, {"n": n})
+    assert agrees.all()
+    assert differences.max() < 1e-12
+
+
+def test_a_setting_that_does_not_close_is_masked(read):
+    text = FOUR_BAR.replace("B-C = 3.5", 'B-C = "c"') + '[branches]\nC = "left of B-D"\n'
+    found = assemble(read("[parameters]\nc = 3.5\n" + text), {"c": np.array([3.5, 20.0])})
+    assert found.report.good.tolist() == [True, False]
+
+
+@pytest.mark.parametrize(("words", "sign"), [("left", 1), ("right", -1)])
+def test_the_side_that_is_stated(words, sign, read):
+    motion = assemble(read(FOUR_BAR + f'[branches]\nC = "{words} of B-D"\n')).motion
+    b, c, d = (motion.point(name).place[0] for name in "BCD")
+    assert abs(c - b) == pytest.approx(3.5)
+    assert abs(c - d) == pytest.approx(3)
+    assert sign * ((d - b).conjugate() * (c - b)).imag > 0
+
+
+def test_two_closures_and_no_branch_are_told_with_both(read):
+    with pytest.raises(StructureError, match=r"links 2, 3 close in 2 ways") as caught:
+        assemble(read(FOUR_BAR))
+    assert 'C = "left of B-D"' in str(caught.value)
+    assert "closure 2: C (" in str(caught.value)
+
+
+def test_bars_that_do_not_reach_are_named(read):
+    with pytest.raises(WitnessError, match="links 2, 3: they do not close"):
+        assemble(read(FOUR_BAR.replace("B-C = 3.5", "B-C = 9")))
+
+
+def test_links_that_nothing_drives_are_named(read):
+    with pytest.raises(StructureError, match="nothing determines the motion of links 2, 3"):
+        assemble(read(FOUR_BAR.replace("D = [4, 0]\n", "")))
+
+
+def test_an_unknown_closure_number_is_told_with_those_that_are(read):
+    with pytest.raises(WitnessError, match="closure 2") as caught:
+        assemble(read(FOUR_BAR + '[branches]\n3 = "closure 5"\n'))
+    assert "of which 0 fit" in str(caught.value)
+
+
+CYLINDER = """
+[frame]
+A = [0, 0]
+D = [4, 0]
+[links.barrel]
+A = [0, 0]
+[links.rod]
+B-E = 3
+slides = { on = "barrel", through = "A", angle = 0 }
+[links.boom]
+D-B = 2
+B-C = 1
+D-C = 2.5
+C = "left of D-B"
+[[drivers]]
+slide = "rod"
+against = "barrel"
+position = 3.5
+speed = 0.8
+acceleration = -1.7
+[branches]
+rod = "closure NUMBER"
+"""
+
+
+@pytest.mark.parametrize(("number", "sign"), [(1, 1), (2, -1)])
+def test_a_rod_of_driven_length_between_two_moving_links(number, sign, read):
+    """The law of cosines; neither the barrel nor the rod is joined to anything driven."""
+
+    def place(q):
+        along = (q**2 + 16 - 4) / 8
+        b = mpmath.mpc(along, sign * mpmath.sqrt(q**2 - along**2))
+        near, far = mpmath.mpf("2.5"), mpmath.mpf(1)
+        x = (near**2 + 4 - far**2) / 4
+        c = 4 + mpmath.mpc(x, mpmath.sqrt(near**2 - x**2)) * (b - 4) / 2
+        return {"B": b, "C": c}
+
+    scene = read(CYLINDER.replace("NUMBER", str(number)))
+    motion = assemble(scene).motion
+    laws = [mpmath.mpf("3.5")], [mpmath.mpf("0.8")], [mpmath.mpf("-1.7")]
+    agree(motion, central(place, *laws))
+    assert true_mobility(scene) == 1
+    assert compare(scene, by_loops(scene)).agrees
+
+
+RELATIVE = """
+[frame]
+A = [0, 0]
+D = [4, 0]
+[links.1]
+A-B = 1.5
+[links.2]
+B-C = 3.5
+[links.3]
+D-C = 3
+[[drivers]]
+turn = 2
+against = 1
+angle = -50
+speed = 2
+acceleration = 1
+[branches]
+1 = "closure 1"
+"""
+
+
+def test_a_crank_driven_against_another_moving_link(read):
+    """The angle at B is driven: the two bars are one of length f, then the law of cosines."""
+    scene = read(RELATIVE)
+    motion = assemble(scene).motion
+
+    def place(bend):
+        base = mpmath.mpf(3) / 2 + mpmath.mpf(7) / 2 * unit(bend)
+        far = abs(base)
+        x = (far**2 + 16 - 9) / 8
+        best = None
+        for sign in (1, -1):
+            c = mpmath.mpc(x, sign * mpmath.sqrt(far**2 - x**2))
+            turned = mpmath.arg(c / base) % (2 * mpmath.pi)
+            if best is None or turned < best[0]:
+                best = turned, {"B": mpmath.mpf(3) / 2 * c / base, "C": c}
+        return best[1]
+
+    agree(motion, central(place, [-50 * mpmath.pi / 180], [2], [1]))
+
+
+def test_oldham_turns_alike_at_both_ends(read):
+    text = """
+[frame]
+A = [0, 0]
+B = [0.3, 0.1]
+[links.1]
+A = [0, 0]
+slides = { on = 3, through = "P", angle = 0 }
+[links.2]
+B = [0, 0]
+slides = { on = 3, through = "P", angle = 90 }
+[links.3]
+P = [0, 0]
+[[drivers]]
+turn = 1
+angle = 30
+speed = 5
+acceleration = 2
+"""
+    scene = read(text)
+    found = assemble(scene)
+    motion = found.motion
+    assert motion.omega[0, 1:].tolist() == pytest.approx([5, 5, 5])
+    assert motion.epsilon[0, 1:].tolist() == pytest.approx([2, 2, 2])
+    shift = math.hypot(0.3, 0.1)
+    speeds = [motion.slide(j).speed[0] for j in (0, 1)]
+    assert math.hypot(*speeds) == pytest.approx(5 * shift)
+    assert true_mobility(scene) == 1
+
+
+TRAMMEL = """
+[frame]
+O = [0, 0]
+[links.1]
+A-B = 2
+M = "on A-B"
+A-M = 0.7
+[links.2]
+A = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[[drivers]]
+turn = 1
+angle = 130
+speed = 3
+acceleration = 4
+"""
+
+
+def test_trammel_draws_an_ellipse(read):
+    scene = read(TRAMMEL)
+    motion = assemble(scene).motion
+
+    def place(q):
+        a, b = mpmath.mpf("1.3"), mpmath.mpf("0.7")
+        return {"M": mpmath.mpc(-a * mpmath.cos(q), b * mpmath.sin(q))}
+
+    agree(motion, central(place, [130 * mpmath.pi / 180], [3], [4]))
+
+
+def test_what_no_position_tells_is_assembled_and_said(read):
+    """A solution of the coupler's velocity alone is held against the stated closure."""
+    for words in ("left", "right"):
+        scene = read(FOUR_BAR + f'[branches]\nC = "{words} of B-D"\n')
+        whole = by_loops(scene)
+        speed = PointMotion(velocity=whole.points["C"].velocity)
+        verdict = compare(scene, Solution({"C": speed}, {}))
+        assert verdict.agrees
+        assert verdict.guessed == ("2", "3")
+        assert compare(scene, whole).guessed == ()
+        wrong = PointMotion(velocity=whole.points["C"].velocity * (1 + 1e-6))
+        assert not compare(scene, Solution({"C": wrong}, {})).agrees
+
+
+def test_a_batch_without_positions_is_assembled_too(read):
+    text = FOUR_BAR.replace("angle = 75", 'angle = "q"') + '[branches]\nC = "right of B-D"\n'
+    scene = read("[parameters]\nq = 75\n" + text)
+    q = {"q": np.array([10.0, 75.0, 200.0])}
+    whole = by_loops(scene, q)
+    bare = Solution({}, {name: whole.links[name] for name in "23"})
+    assert compare_batch(scene, bare, q)[1].all()
+
+
+RAPID_RETURN = """
+[parameters]
+q = 35
+[frame]
+O = [0, 0]
+G = [-2, 2]
+[links.1]
+O-A = 1
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "P-Q" }
+[links.3]
+P-Q = 6
+[links.4]
+P = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[links.5]
+Q = [0, 0]
+slides = { on = 0, through = "G", angle = 20 }
+[[drivers]]
+turn = 1
+angle = "q"
+speed = 3
+[branches]
+2 = "closure 1"
+"""
+
+
+def test_the_number_of_a_closure_is_held_in_a_batch(read):
+    scene = read(RAPID_RETURN)
+    q = {"q": np.linspace(30, 40, 5)}
+    solution = by_loops(scene, q)
+    assert compare_batch(scene, solution, q)[1].all()
+    other = replace(scene, branches={"2": Closure(2)})
+    assert not compare_batch(other, solution, q)[1].any()
+    angles = [
+        np.angle(
+            by_loops(replace(scene, branches={"2": Closure(n)})).points["Q"].position
+            - by_loops(replace(scene, branches={"2": Closure(n)})).points["P"].position
+        )
+        % (2 * np.pi)
+        for n in (1, 2)
+    ]
+    assert angles[0] < angles[1]

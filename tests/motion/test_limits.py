@@ -1,0 +1,126 @@
+"""How far followers go: closed forms for rockers and blocks."""
+
+from __future__ import annotations
+
+from math import acos, asin, degrees, sqrt
+
+import numpy as np
+import pytest
+
+from graphkin.mechanism import load
+from graphkin.motion import cycle
+from graphkin.motion.limits import followers
+from graphkin.motion.loop import class_of, loop_of
+from tests.motion.linkages import four_bar, slider_crank
+
+EXACT = 1e-9
+
+
+def cosine_rule(near: float, far: float, opposite: float) -> float:
+    """The angle (degrees) between two sides of a triangle, opposite the third."""
+    return degrees(acos((near**2 + far**2 - opposite**2) / (2 * near * far)))
+
+
+@pytest.mark.parametrize("lengths", [(40, 90, 70, 100), (1, 3, 2.5, 3.2), (0.2, 9, 4, 10)])
+def test_a_rocker_turns_round_where_crank_and_coupler_are_in_line(lengths):
+    crank, coupler, rocker, frame = lengths
+    found = cycle(four_bar(crank, coupler, rocker, frame, speed=7))
+    (only,) = followers(found)
+    out = cosine_rule(frame, coupler + crank, rocker)
+    back = 180 + cosine_rule(frame, coupler - crank, rocker)
+    assert [limit.at for limit in only.limits] == pytest.approx([out, back], abs=EXACT)
+    far = 180 - cosine_rule(frame, rocker, coupler + crank)
+    near = 180 - cosine_rule(frame, rocker, coupler - crank)
+    assert only.low.value == pytest.approx(far, abs=EXACT)
+    assert only.high.value == pytest.approx(near, abs=EXACT)
+    assert only.extent == pytest.approx(near - far, abs=EXACT)
+    turned = back - out
+    ratio = max(turned, 360 - turned) / min(turned, 360 - turned)
+    assert only.time_ratio == pytest.approx(ratio, rel=1e-9)
+    assert only.line == ("O2", "B")
+
+
+@pytest.mark.parametrize(("r", "c", "d"), [(60, 200, 20), (2, 5, 0), (1, 4, -2.5)])
+def test_stroke_and_time_ratio_of_an_offset_slider_crank(r, c, d):
+    found = cycle(slider_crank(r, c, d))
+    (block,) = followers(found)
+    far, near = sqrt((c + r) ** 2 - d**2), sqrt((c - r) ** 2 - d**2)
+    assert block.high.value == pytest.approx(far, rel=1e-12)
+    assert block.low.value == pytest.approx(near, rel=1e-12)
+    assert block.what == "stroke"
+    out, back = degrees(asin(d / (c + r))) % 360, 180 + degrees(asin(d / (c - r)))
+    assert [limit.at % 360 for limit in block.limits] == pytest.approx(
+        sorted([out % 360, back]), abs=EXACT
+    )
+    turned = abs(back - out)
+    ratio = max(turned, 360 - turned) / min(turned, 360 - turned)
+    assert block.time_ratio == pytest.approx(ratio, rel=1e-9)
+
+
+def test_a_link_that_turns_round_has_no_limits():
+    (follower,) = followers(cycle(four_bar(4, 3.5, 4.5, 2)))
+    assert follower.full
+    assert follower.time_ratio is None
+
+
+def test_the_extremes_of_a_range_lie_at_its_dead_points_where_nothing_turns_round():
+    found = cycle(four_bar(3, 2, 2.5, 4, angle=20))
+    (rocker,) = followers(found)
+    ends = {found.ranges[0][0], found.ranges[0][1]}
+    assert {rocker.low.at, rocker.high.at} & ends
+    # stretched: A, B, O2 in line, so the rocker stands in the line from O2 to A
+    ((_, high),) = found.ranges
+    stretched = next(each for each in (rocker.low, rocker.high) if each.at in ends)
+    a = 3 * np.exp(1j * np.radians(stretched.at))
+    assert degrees(np.angle((a - 4) * np.exp(-1j * np.radians(stretched.value)))) == pytest.approx(
+        0, abs=1e-5
+    )
+    assert high == found.ranges[0][1]
+
+
+def test_limits_do_not_hang_on_the_speed_that_the_scene_states():
+    slow, fast = (followers(cycle(four_bar(40, 90, 70, 100, speed=s)))[0] for s in (0, -1e4))
+    assert slow == fast
+
+
+def test_the_second_rocker_of_the_six_bar_turns_round_four_times():
+    rocker = followers(cycle(load("examples/scenes/six-bar.toml")))[1]
+    assert len(rocker.limits) == 4
+    assert rocker.time_ratio is None
+    first, third = rocker.limits[0], rocker.limits[2]
+    bell = followers(cycle(load("examples/scenes/six-bar.toml")))[0]
+    # wherever the bell crank stands still, so does the rocker that it moves
+    assert [first.at, third.at] == pytest.approx([limit.at for limit in bell.limits], abs=EXACT)
+
+
+@pytest.mark.parametrize(
+    ("lengths", "name", "turns"),
+    [
+        ((40, 90, 70, 100), "crank-rocker", True),
+        ((70, 90, 40, 100), "rocker-crank", False),
+        ((4, 3.5, 4.5, 2), "double crank", True),
+        ((4, 2, 4.5, 5), "double rocker", False),
+        ((3, 2, 2.5, 4.5), "triple rocker", False),
+        ((2, 4, 2, 4), "change-point parallelogram", True),
+        ((3, 2, 2, 3), "change-point kite", False),
+        ((1, 4, 3, 2), "change-point four-bar", True),
+    ],
+)
+def test_the_verdict_on_a_four_bar_and_its_range_agree(lengths, name, turns):
+    crank, coupler, rocker, frame = lengths
+    found = cycle(four_bar(crank, coupler, rocker, frame, angle=50))
+    loop = loop_of(found)
+    assert loop is not None
+    assert class_of(loop) == name
+    assert loop.turns == turns == found.path.whole
+    full = [each.full for each in followers(found) if each.name == "3"]
+    assert full[0] == (name in ("double crank", "change-point parallelogram"))
+
+
+@pytest.mark.parametrize(("r", "c", "d"), [(2, 5, 3), (2, 5, 3.1), (2, 5, -2), (3, 2, 0.4)])
+def test_the_band_of_a_slider_crank_and_its_range_agree(r, c, d):
+    found = cycle(slider_crank(r, c, d, angle=0))
+    loop = loop_of(found)
+    assert loop is not None
+    assert loop.lengths == pytest.approx({"crank": r, "rod": c, "offset": abs(d)})
+    assert loop.turns == found.path.whole == (r + abs(d) <= c)

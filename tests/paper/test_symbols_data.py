@@ -1,0 +1,181 @@
+"""The data of a sheet state slides, wheels, drivers of every kind and the starts of rolling."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.paper.data import given
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.richtext import plain
+from graphkin.text import LANGUAGES, words
+from tests.paper.made_up import made_up
+
+SCENES = {
+    "slides on moving links": (
+        """
+[frame]
+O = [0, 0]
+Q = [0, -100]
+[links.1]
+O-A = 40
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "Q-B", offset = -5 }
+[links.3]
+Q-B = 200
+[links.4]
+C = [0, 0]
+slides = { on = 3, through = [20, 10], angle = 30, pin = true }
+[[drivers]]
+turn = 1
+angle = 30
+speed = 2
+[branches]
+2 = "forward"
+3 = "closure 2"
+""",
+        {"O": 0j, "Q": -100j, "A": 40 + 0j, "B": 100j, "C": 30j},
+    ),
+    "drivers of every kind": (
+        """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 40
+[links.2]
+A-B = 30
+[links.3]
+C = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.4]
+D = [0, 0]
+wheel = { centre = "D", radius = 20 }
+rolls = { on = 0, through = "O", angle = 10, side = "right", start = { 4 = 45 } }
+[[drivers]]
+turn = 1
+angle = 30
+speed = 2
+[[drivers]]
+turn = 2
+against = 1
+angle = 40
+speed = -3
+acceleration = 7
+[[drivers]]
+slide = 3
+position = 25
+speed = 60
+acceleration = -80
+[[drivers]]
+roll = 4
+position = 12
+speed = 50
+acceleration = 5
+""",
+        {"O": 0j, "A": 40 + 0j, "B": 40 + 30j, "C": 25 + 0j, "D": 20j},
+    ),
+    "gears": (
+        """
+module = 4
+[frame]
+O = [0, 0]
+wheel = { centre = "O", teeth = 60, inside = true }
+[links.arm]
+O-P = 80
+[links.planet]
+P = [0, 0]
+wheel = { centre = "P", teeth = 20 }
+rolls = { on = 0, start = { planet = 90 } }
+[links.sun]
+O = [0, 0]
+wheel = { centre = "O", teeth = 20 }
+rolls = { on = "planet" }
+[links.rack]
+B = [0, 0]
+slides = { on = 0, through = [0, -40], angle = 0 }
+[links.pinion]
+O = [0, 0]
+wheel = { centre = "O", radius = 40 }
+rolls = [{ on = "rack", through = "B", angle = 0 }, { on = "planet" }]
+[[drivers]]
+turn = "arm"
+angle = 0
+speed = 2
+""",
+        {"O": 0j, "P": 80 + 0j, "B": -40j},
+    ),
+}
+
+
+def said(name: str, language: str = "en") -> list[str]:
+    """The data of a scene as plain text."""
+    drawing = made_up(*SCENES[name])
+    spoken = Drawing(
+        drawing.kind,
+        drawing.scene,
+        drawing.trace,
+        drawing.scales,
+        drawing.verdict,
+        words(language),
+    )
+    return [plain(piece) for piece in given(spoken)]
+
+
+def test_a_guide_on_a_moving_link_is_told_in_the_axes_of_that_link():
+    found = said("slides on moving links")
+    assert (
+        "A slides along QB, 5 mm to the right of that line, the farther of the two places along it"
+        in found
+    )
+    assert (
+        "pin C slides in a slot along a line of link 3 through (20; 10) mm, at 30° to its axis"
+        in (found)
+    )
+    assert "link 3 in closure 2 of its group" in found
+
+
+def test_every_driver_has_its_position_speed_and_acceleration_with_units():
+    found = said("drivers of every kind")
+    for piece in (
+        "φ1 = 30°",
+        "φ2/1 = 40°",
+        "ω2/1 = 3 rad/s, turning clockwise",
+        "ε2/1 = 7 rad/s², turning counter-clockwise",
+        "s3 = 25 mm",
+        "v3 = 60 mm/s",
+        "a3 = −80 mm/s²",
+        "s4 = 12 mm",
+        "v4 = 50 mm/s",
+        "a4 = 5 mm/s²",
+    ):
+        assert piece in found, (piece, found)
+
+
+def test_rolling_states_its_start_and_that_nothing_slips():
+    found = said("drivers of every kind")
+    assert "wheel 4: centre D, r = 20 mm" in found
+    rolls = "wheel 4 rolls on a line through O, at 10° to the x axis, on its right-hand side"
+    assert f"{rolls}, touching it at O when φ4 = 45°" in found
+    assert found.count("no slip is assumed: the position depends on the start") == 1
+
+
+def test_gears_state_teeth_and_module_and_what_they_mesh_with():
+    found = said("gears")
+    assert "inner gear of the frame: centre O, z = 60, m = 4 mm" in found
+    assert "gear planet: centre P, z = 20, m = 4 mm" in found
+    meshes = "gear planet meshes with the fixed gear, angles counted from φplanet = 90°"
+    assert meshes in found
+    assert "gear sun meshes with gear planet" in found
+    rack = "wheel pinion rolls on a line of link rack through B, at 0° to its axis"
+    assert any(piece.startswith(rack) for piece in found)
+
+
+def test_a_mechanism_without_wheels_does_not_speak_of_slip():
+    assert not [piece for piece in said("slides on moving links") if "slip" in piece]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", SCENES)
+def test_the_data_can_be_said_in_every_language(name, language):
+    found = said(name, language)
+    assert len(found) == len(said(name)) and not [piece for piece in found if "{" in piece]

@@ -1,0 +1,117 @@
+"""Too few and too many drivers: the words that help."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.errors import StructureError
+from graphkin.structure.drivers import driver_problem, refuse_drivers, refuse_wrong_drivers
+from graphkin.structure.groups import Unresolved, decompose
+from tests.mechanisms import scene_of
+from tests.structure.test_groups import DRIVEN, FIVE_BAR, FOUR_BAR, PARALLEL, SLIDER_CRANK
+
+OTHER = DRIVEN.replace("turn = 1", "turn = 4")
+
+
+def words(text: str, true: int | None = None) -> str:
+    """What is said of the drivers of a scene."""
+    return str(driver_problem(scene_of(text), true) or "")
+
+
+def test_too_few_are_told_with_the_count_and_a_link_that_could_be_driven():
+    assert words(FIVE_BAR + DRIVEN) == (
+        "drivers: 1 given, but the count 3·4 - 2·5 leaves 2 freedoms; "
+        "expected as many drivers as freedoms; add a driver, such as turn = 4"
+    )
+    assert words(FIVE_BAR + DRIVEN + OTHER) == ""
+
+
+def test_a_missing_pin_is_suspected_where_links_hang_by_one_pair():
+    """Link 4's end is misspelt; what is a coupler point of a link on two pairs is not suspected."""
+    loose = FIVE_BAR.replace("Q-C", "Q-X").replace("A-B = 4", 'A-B = 4\nA-M = 1\nM = "on A-B"')
+    assert words(loose + DRIVEN).endswith(
+        "add a driver, or a pin is missing: only one link has the points C (3), X (4)"
+    )
+
+
+def test_points_of_the_frame_are_suspected_too_but_for_those_that_guides_pass():
+    text = SLIDER_CRANK.replace("O = [0, 0]", "O = [0, 0]\nG = [0, 0]\nH = [3, 0]", 1)
+    text = text.replace("A-B = 3", "A-C = 3").replace('through = "O"', 'through = "G"')
+    assert words(text + DRIVEN).endswith("only one link has the points H (the frame), C (2), B (3)")
+
+
+def test_too_many_are_told_with_the_drivers_to_choose_from():
+    """The rod is driven beside the crank: it alone can be spared and leaves a chain of dyads."""
+    second = DRIVEN.replace("turn = 1", "turn = 2")
+    assert words(SLIDER_CRANK + DRIVEN + second) == (
+        "drivers: 2 given, but the count 3·3 - 2·4 leaves 1 freedom; "
+        "expected as many drivers as freedoms; "
+        "take turn = 2 away: its motion follows from the rest"
+    )
+
+
+def test_the_truth_goes_before_the_count():
+    """The third parallel crank: by the count one driver is too many, in truth it is right."""
+    assert words(PARALLEL + DRIVEN, true=1) == ""
+    assert words(PARALLEL + DRIVEN) == (
+        "drivers: 1 given, but the count 3·4 - 2·6 leaves 0 freedoms; "
+        "expected as many drivers as freedoms; nothing can move, unless a constraint is idle"
+    )
+    assert words(PARALLEL + DRIVEN + OTHER, true=1) == (
+        "drivers: 2 given, but the rank of the constraints leaves 1 "
+        "(the count 3·4 - 2·6 leaves 0); expected as many drivers as freedoms; "
+        "take one driver away, of turn = 1, turn = 4: its motion follows from the rest"
+    )
+
+
+def refused(text: str) -> str:
+    """The words in which the structure alone refuses the drivers of a scene, empty for none."""
+    scene = scene_of(text)
+    try:
+        refuse_drivers(scene, decompose(scene))
+    except StructureError as error:
+        return str(error)
+    return ""
+
+
+def test_a_count_below_the_drivers_is_left_to_the_rank_where_a_link_may_be_idle():
+    """The count is never above the truth: it refuses too few drivers, too many not always."""
+    assert refused(PARALLEL + DRIVEN) == ""
+    apart = PARALLEL.replace("[links.1]", "X = [0, 9]\n[links.1]") + "[links.5]\nX-Y = 1\n"
+    assert refused(apart + DRIVEN + DRIVEN.replace("turn = 1", "turn = 5")) == ""
+    assert "add a driver" in refused(FIVE_BAR + DRIVEN)
+    with pytest.raises(StructureError, match="nothing can move"):
+        refuse_wrong_drivers(scene_of(PARALLEL + DRIVEN))
+
+
+def test_drivers_without_which_the_groups_are_complete_are_too_many():
+    """A four-bar with two of its links driven, and a second four-bar that has its own driver."""
+    second = """[links.5]
+X-Y = 1
+[links.6]
+Y-Z = 4
+[links.7]
+W-Z = 2
+"""
+    two = FOUR_BAR.replace("Q = [4, 0]", "Q = [4, 0]\nX = [0, 9]\nW = [4, 9]")
+    two += "[links.3]\nQ-B = 2\n" + second
+    third, fifth = (DRIVEN.replace("turn = 1", f"turn = {n}") for n in (3, 5))
+    assert refused(two + DRIVEN + fifth) == ""
+    assert refused(two + DRIVEN + third + fifth).endswith(
+        "take one driver away, of turn = 1, turn = 3: its motion follows from the rest"
+    )
+    assert refused(PARALLEL + DRIVEN + OTHER) == (
+        "drivers: 2 given, but the order of the groups leaves 1 (the count 3·4 - 2·6 leaves 0); "
+        "expected as many drivers as freedoms; "
+        "take one driver away, of turn = 1, turn = 4: its motion follows from the rest"
+    )
+    assert refused(two + DRIVEN + third) == (
+        "drivers: 2 given, but link 2 would join what is driven already, while 5, 6, 7 hang on no "
+        "driver; expected a driver for each freedom; "
+        "let a driver move link 5 instead, or add one if link 2 is idle"
+    )
+
+
+def test_links_for_which_no_group_is_found_are_no_fault_of_the_drivers():
+    """One driver for one freedom, whatever the groups may be."""
+    refuse_drivers(scene_of(SLIDER_CRANK + DRIVEN), (Unresolved(("2", "3")),))
