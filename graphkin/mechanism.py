@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from graphkin import labs
-from graphkin.arithmetic import FLOAT, batch_kind
+from graphkin.arithmetic import FLOAT
 from graphkin.errors import Problem, SceneError
 from graphkin.plans.compile import write
 from graphkin.scene.model import Scene
 from graphkin.scene.read import read_scene
-from graphkin.steps.batch import run_blocks
+from graphkin.steps.fast import Press
 from graphkin.steps.gather import gathered
 from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, Trace, run
@@ -48,6 +48,11 @@ class Mechanism:
     def program(self) -> Program:
         """The construction, step by step, of everything that can be asked."""
         return write(self.scene, self.groups)
+
+    @cached_property
+    def press(self) -> Press:
+        """What runs the program on many variants at once."""
+        return Press(self.program)
 
     def asked(self) -> tuple[Target, ...]:
         """What the scene asks for, as targets of the program; everything when it asks nothing."""
@@ -121,7 +126,7 @@ class Mechanism:
         needed = self.program.needed(targets)
         keep = [self.program.targets[target] for target in targets]
         with np.errstate(all="ignore"):
-            trace = run_blocks(self.program, needed, values, batch_kind(), keep, margins=margins)
+            trace = self.press.run(needed, values, keep, margins=margins)
         return gathered(trace, self.scene.links)
 
 

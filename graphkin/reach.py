@@ -10,7 +10,8 @@ from graphkin.errors import ClosureError, Problem
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import shortest
 from graphkin.steps.batch import run_batch
-from graphkin.steps.program import Part, Program
+from graphkin.steps.closing import ClosingError
+from graphkin.steps.program import Part, Program, Step
 from graphkin.steps.run import StepFailed, miss
 
 HALVINGS = 20
@@ -28,23 +29,76 @@ def does_not_close(
     letters = "-".join(step.says[key] for key in ("p", "q") if key in step.says)
     what = " of ".join(part for part in (step.part.value, step.name or letters) if part)
     early = step.part in (Part.SHAPE, Part.POSITION)
+    if isinstance(failed.__cause__, ClosingError):
+        return ClosureError(no_such_closure(scene, program, needed, failed.__cause__, step))
     return ClosureError(
         Problem(
             what,
-            f"{step.name or 'a value'} cannot be found: {why(failed)}",
+            f"{step.name or 'a value'} cannot be found: {why(program, failed)}",
             "loci that cross",
             where_it_closes(scene, program, needed) if early else DEAD,
         )
     )
 
 
-def why(failed: StepFailed) -> str:
+def no_such_closure(
+    scene: Scene, program: Program, needed: Sequence[int], error: ClosingError, step: Step
+) -> Problem:
+    """The problem of a group of higher class that does not close, or not in so many ways."""
+    links = step.says["list"]
+    if not error.ways:
+        found = f"links {links} do not close"
+        return Problem("position", found, "loci that cross", where_it_closes(scene, program, needed))
+    ways = "1 way" if error.ways == 1 else f"{error.ways} ways"
+    return Problem(
+        "branches",
+        f"links {links} close in {ways} here, closure {error.asked} is asked",
+        '"closure 1"' if error.ways == 1 else f'"closure 1" to "closure {error.ways}"',
+        "graphkin check lists them, with where each puts the links",
+    )
+
+
+def why(program: Program, failed: StepFailed) -> str:
     """Words for what hinders a step: loci that miss each other, or parallel lines."""
-    missed = miss(failed.step, failed.args_found)
+    step = failed.step
+    key = step.action.key if step.action else ""
+    if key == "swing-through":
+        return f"{step.says['q']} falls on {step.says['p']}, so that any direction would do"
+    if key == "swing":
+        return f"{step.says['q']} stands nearer to {step.says['p']} than the guide passes it"
+    missed = miss(step, failed.args_found)
     if missed is None:
-        return "its two lines are parallel"
-    loci = "the arcs miss each other" if "q" in failed.step.says else "the arc misses the guide"
+        return parallel(program, step)
+    loci = "the arcs miss each other" if "q" in step.says else "the arc misses the guide"
     return f"{loci} by {shortest(float(f'{1e3 * missed:.4g}'))} mm"
+
+
+def parallel(program: Program, step: Step) -> str:
+    """Which lines of the mechanism are parallel, or square to one another, when a crossing fails.
+
+    Perpendiculars to two bars are parallel when the bars are.
+    """
+    lines = [program.steps[arg] for arg in step.args]
+    if len(lines) != 2 or any(line.action is None for line in lines):
+        return "its two lines are parallel"
+    (first, square), (second, other) = (line_words(line) for line in lines)
+    if not first or not second:
+        return "its two lines are parallel"
+    how = "parallel" if square == other else "perpendicular to each other"
+    return f"{first} and {second} are {how}"
+
+
+def line_words(line: Step) -> tuple[str, bool]:
+    """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
+    key = line.action.key if line.action else ""
+    says = line.says
+    if key == "square-to":
+        return f"{says['p']}{says['q']}", True
+    if key == "along-bar" and "q" in says:
+        return f"{says['p']}{says['q']}", False
+    if "g" in says:
+        return f"the guide of {says['g']}", False
+    return "", False
 
 
 def where_it_closes(scene: Scene, program: Program, needed: Sequence[int]) -> str:

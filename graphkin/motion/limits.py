@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
-from graphkin.motion.pieces import Range
+from graphkin.motion.pieces import ALIKE, Range
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.motion.sweep import TURN
 from graphkin.scene.model import Link, Scene
@@ -129,9 +129,11 @@ def follower(
     """The limits of one follower in one range; None for one that stands still throughout."""
     pieces = cycle.path.ranges[number]
     at = samples(pieces)
+    past = at[-1] + APART * np.arange(2, 4) if whole(cycle, number) else at[:0]
+    turns = refined(np.append(at, past), speed)
     if whole(cycle, number):
-        at = np.append(at, at[-1] + APART * np.arange(2, 4))
-    turns = refined(at, speed)
+        over = turns >= ends(pieces)[1] - ALIKE
+        turns = np.sort(np.where(over, np.maximum(turns - TURN, pieces[0].low.at), turns))
     every = np.unique(np.concatenate([ends(pieces), at, turns]))
     where = place(every)
     known = np.isfinite(where)
@@ -142,10 +144,7 @@ def follower(
         turned = TURN * np.floor((where.min() + TURN / 2) / TURN)
         where = where - turned
     low, high = (extreme(every, where, turns, sign) for sign in (-1, 1))
-    if whole(cycle, number):
-        low, high = (Limit(each.at % TURN, each.value) for each in (low, high))
     limits = tuple(Limit(float(u), float(where[np.searchsorted(every, u)])) for u in turns)
-    limits = once(limits) if whole(cycle, number) else limits
     around = abs(float(where[-1] - where[0])) > TURN / 2
     full = line is not None and whole(cycle, number) and around
     return Follower(
@@ -170,13 +169,6 @@ def extreme(at: Reals, where: Reals, turns: Reals, sign: int) -> Limit:
             best = k
             break
     return Limit(float(at[best]), float(where[best]))
-
-
-def once(limits: tuple[Limit, ...]) -> tuple[Limit, ...]:
-    """Limits of a whole turn in order from 0 to 360 degrees, that at its end not twice."""
-    turned = {round(limit.at % TURN, 8) % TURN: limit for limit in reversed(limits)}
-    turned = {at: Limit(limit.at % TURN, limit.value) for at, limit in turned.items()}
-    return tuple(turned[at] for at in sorted(turned))
 
 
 def whole(cycle: Cycle, number: int) -> bool:

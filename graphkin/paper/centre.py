@@ -81,6 +81,9 @@ def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
     way = value.shift / value.size if value.size else value.shift
     if way == 0:
         return
+    if step.action is not None and step.action.key == "inflection-pole":
+        desk.board.notes.append(far_words(desk, step, 0.0 if endless else abs(way), way))
+        return
     start, (u, v) = desk.field(value.start), desk.field.way(way)
     part = clipped(start, (start[0] + FAR * u, start[1] + FAR * v), above_foot(desk.field.rect))
     if part is None:

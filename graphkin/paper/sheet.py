@@ -18,6 +18,7 @@ from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
 from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.sentences import sentences
+from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.tables import tables
 
@@ -216,7 +217,7 @@ def asked(drawing: Drawing) -> list[str]:
     return [
         words(
             f"ask.{what}" + ("_many" if len(names) > 1 else ""),
-            list=words("list_mark").join(symbol(name.replace("@", "")) for name in names),
+            list=words("list_mark").join(symbol(lettered(name)) for name in names),
         )
         for what, names in groups.items()
         if names

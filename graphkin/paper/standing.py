@@ -13,6 +13,7 @@ from typing import NamedTuple
 from graphkin.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Apart, At, Link, Polar, Rolling, Scene, Slide, Wheel
 from graphkin.scene.quantity import Quantity
+from graphkin.steps.program import CONTACT
 from graphkin.steps.run import Trace
 
 CLEAR = 1.6
@@ -93,32 +94,37 @@ class Standing:
         """Where each point that a link owns stands."""
         links = (self.scene.frame, *self.scene.links.values())
         owned = {point for link in links for point in link.points}
-        return {name: place for name, place in self.places.items() if name in owned}
+        return {name: place for name, place in self.known.items() if name in owned}
 
     @cached_property
-    def places(self) -> Mapping[str, complex]:
-        """Where every point of the drawing stands: A3 is the point of link 3 under A.
-
-        Points of the construction that no link owns are written with a ~ in the program.
-        """
+    def known(self) -> Mapping[str, complex]:
+        """Where every point of the program stands that the trace has placed."""
         return {
-            of.replace("@", "").lstrip("~"): complex(self.trace.values[number])
+            of: complex(self.trace.values[number])
             for (quantity, of), number in self.trace.program.targets.items()
             if quantity == "position" and number in self.trace.values
         }
 
-    def spot(self, name: str) -> complex:
-        """Where a point of the drawing stands; A3, the point of link 3 under A, stands at A."""
-        if name in self.places:
-            return self.places[name]
-        links = (FRAME, *self.scene.links)
-        return next(self.places[p] for p in self.places for k in links if p + k == name)
+    @cached_property
+    def places(self) -> Mapping[str, complex]:
+        """Where every point of the drawing stands, by its letters: A, A3 under it, a contact."""
+        found = dict(self.positions)
+        for point, place in self.known.items():
+            found.setdefault(lettered(point), place)
+            if "@" not in point:
+                for link in (FRAME, *self.scene.links):
+                    found.setdefault(lettered(f"{point}@{link}"), place)
+        return found
+
+    def spot(self, letters: str) -> complex:
+        """Where a point of the drawing stands."""
+        return self.places[letters]
 
     def name_at(self, place: complex) -> str:
         """The name of a point of the drawing that no link owns, where it stands; else nothing."""
         near = APART * self.size
-        found = (n for n, p in self.places.items() if n not in self.positions)
-        return next((n for n in found if abs(self.places[n] - place) <= near), "")
+        found = (n for n in self.known if n.startswith(CONTACT) and "@" not in n)
+        return next((lettered(n) for n in found if abs(self.known[n] - place) <= near), "")
 
     @cached_property
     def size(self) -> float:
@@ -294,6 +300,16 @@ class Standing:
             return None
         way = -apart / abs(apart) if other.wheel.inside else apart / abs(apart)
         return Touch(rolling, one, one.centre + one.radius * way, 1j * way, None, other)
+
+
+def lettered(point: str) -> str:
+    """The letters of a point on the drawing: A3 for A@3, the point of link 3 under A.
+
+    A comma keeps the link apart where the point's own name ends in digits or the link has a word.
+    """
+    name, _, link = point.removeprefix(CONTACT).partition("@")
+    apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
+    return name + apart + link
 
 
 def written_places(standing: Standing, link: Link) -> dict[str, complex]:

@@ -51,6 +51,7 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False)
     ends = pen.the("position", pivot), pen.the("position", tip)
     start = pen.the("acceleration", pivot)
     says: Says = {"p": pivot, "q": tip, "s": named(pen, start), "i": about(pen, tip, pivot)}
+    says["k"] = link
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         name = second_image(tip) if steady else ""
         found = pen.draw(centripetal, start, *ends, pen.the("omega", link), name=name, **says)

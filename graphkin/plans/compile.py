@@ -7,6 +7,7 @@ from graphkin.plans import (
     acceleration,
     carried,
     centres,
+    cylinder,
     higher,
     position,
     rolling,
@@ -20,7 +21,17 @@ from graphkin.plans.shape import Shapes
 from graphkin.scene.model import Scene
 from graphkin.steps.program import Part, Plane, Program
 from graphkin.steps.vocabulary import coordinate
-from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Group, Higher, Tie, Train
+from graphkin.structure.groups import (
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Stretched,
+    Tie,
+    Train,
+)
 
 Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
@@ -76,6 +87,8 @@ def place(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> No
             position.driven(pen, shapes, group)
         case Dyad():
             position.dyad(pen, shapes, group)
+        case Stretched():
+            cylinder.place(pen, shapes, group)
         case Geared():
             rolling.geared(pen, shapes, group)
         case Train():
@@ -124,6 +137,8 @@ def move(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> Non
             velocity.driven(pen, shapes, group)
         case Dyad():
             velocity.dyad(pen, shapes, group)
+        case Stretched():
+            cylinder.move(pen, shapes, group)
         case Geared():
             wheels.geared(pen, group)
         case Train():
@@ -159,6 +174,8 @@ def accelerate(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) 
             acceleration.driven(pen, shapes, group)
         case Dyad():
             acceleration.dyad(pen, shapes, group)
+        case Stretched():
+            cylinder.accelerate(pen, shapes, group)
         case Geared():
             wheels.second_geared(pen, shapes, group)
         case Train():

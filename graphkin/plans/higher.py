@@ -60,6 +60,7 @@ def position(pen: Pen, shapes: Shapes, group: Higher, each: Each) -> None:
     trying, inputs = trial_of(pen, group, each)
     number = closure_of(pen.scene, group)
     says: Says = {"k": group.trial.link, "n": str(number), "list": ", ".join(group.links)}
+    says |= cut_at(group.last)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         closing = pen.draw(trying.action(number), *inputs, **says)
         tried = pen.draw(part, closing, extra=(0,), **says)
@@ -68,6 +69,18 @@ def position(pen: Pen, shapes: Shapes, group: Higher, each: Each) -> None:
             assert isinstance(dyad, Dyad)
             pen.chosen[dyad.links] = pen.draw(part, closing, extra=(k,))
     build(pen, shapes, group, each, tried)
+
+
+def cut_at(last: Tie | Driver) -> Says:
+    """Where a group is cut: a bar or a guide with the pin beside it, or a driver that waits."""
+    match last:
+        case Tie(_, Pin(point=p), Pin(point=q)):
+            return {"p": p, "q": q}
+        case Tie(_, Pin(point=p), Sliding(links=(block, _))):
+            return {"q": p, "g": block}
+        case Driver(link=link):
+            return {"d": link}
+    raise AssertionError(last)
 
 
 def chooses(group: Group) -> bool:
@@ -254,7 +267,8 @@ def two_trials(pen: Pen, shapes: Shapes, group: Higher, each: Each, kind: Kind) 
             misses.append(missed(pen, shapes, group, kind))
         layers.append(layer)
     with pen.on(kind.part, Plane.NUMBERS):
-        divided = pen.draw(share, *misses, list=", ".join(group.links))
+        says: Says = {"k": group.trial.link, **cut_at(group.last)}
+        divided = pen.draw(share, *misses, **says)
     settle(pen, group, kind, layers, divided)
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))

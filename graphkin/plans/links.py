@@ -15,6 +15,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Stretched,
     Tie,
     Train,
     Trial,
@@ -76,6 +77,11 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             return (led_base(scene, link, led_point(scene, link, pair), pair),)
         case Dyad():
             return dyad_bases(scene, group)
+        case Stretched(near=near, pin=pin, dyad=dyad):
+            far = dyad.links[0]
+            first, second = dyad_bases(scene, dyad)
+            rod = Base(far, first.end or "", first.start, first.others)
+            return rod, base_of(scene, near, pin.point, None), second
         case Geared():
             return (geared_base(scene, group),)
         case Train(arm, wheel, Pin(point=pivot), Pin(point=centre), (contact, _)):
@@ -96,6 +102,8 @@ def leads_of(group: Group) -> dict[str, str]:
     match group:
         case Driven(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
+        case Stretched(near=near, dyad=dyad):
+            return {near: dyad.links[0], **leads_of(dyad)}
         case Geared(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
         case Tie(link=link, second=Sliding() as pair):
@@ -221,13 +229,13 @@ def choosing(groups: tuple[Group, ...]) -> list[str]:
     """The names under which the scene may state a branch: pins, blocks, links of higher groups."""
     names: list[str] = []
     for group in groups:
-        match group:
+        match group.dyad if isinstance(group, Stretched) else group:
             case Dyad(inner=Pin(point=pin), type="RRR"):
                 names.append(pin)
-            case Dyad() if has_two_ways(group):
-                names.append(block_of(group))
-            case Higher():
-                names += group.links
+            case Dyad() as dyad if has_two_ways(dyad):
+                names.append(block_of(dyad))
+            case Higher(links=links):
+                names += links
     return names
 
 
@@ -238,6 +246,8 @@ def refuse_unstated(scene: Scene, group: Group) -> None:
             side_of(scene, group)
         case Dyad() if has_two_ways(group):
             way_of(scene, group)
+        case Stretched(dyad=dyad):
+            refuse_unstated(scene, dyad)
         case Higher():
             closure_of(scene, group)
 
@@ -273,7 +283,7 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
     """The stated side of a dyad's inner pin: +1 left of the way from one known pin to the other."""
     assert isinstance(dyad.inner, Pin) and isinstance(dyad.left, Pin)
     assert isinstance(dyad.right, Pin)
-    ends = (dyad.left.point, dyad.right.point)
+    ends = (dyad.left.point.partition("@")[0], dyad.right.point)
     branch = scene.branches.get(dyad.inner.point)
     if isinstance(branch, Side) and (branch.first, branch.second) == ends:
         return branch.side

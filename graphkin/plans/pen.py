@@ -254,8 +254,13 @@ def second_image(point: str) -> str:
 
 
 def letter(point: str) -> str:
-    """A point as the index of a symbol: A, and A3 for the point of link 3 under A."""
-    return point.removeprefix(CONTACT).replace("@", "")
+    """A point as the index of a symbol: A, and A3 for the point of link 3 under A.
+
+    A comma keeps the link apart where the point's own name ends in digits or the link has a word.
+    """
+    name, _, link = point.removeprefix(CONTACT).partition("@")
+    apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
+    return name + apart + link
 
 
 def about(pen: Pen, pin: str, pivot: str) -> str:

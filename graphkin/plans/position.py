@@ -156,10 +156,8 @@ def set_on_guide(pen: Pen, shapes: Shapes, pair: Sliding, link: str, where: int)
 def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
     """What two links and three pairs leave free: one crossing of two loci."""
     match group.left, group.inner, group.right:
-        case Pin(), Pin(), Pin():
-            two_bars(pen, shapes, group)
         case Pin(), Pin(), _:
-            bar_and_guide(pen, shapes, group)
+            dyad_on(pen, shapes, group, first_arc(pen, shapes, group))
         case Pin(), Sliding(), Pin():
             swivelling(pen, shapes, group)
         case _, Pin(point=pin), _:
@@ -173,29 +171,45 @@ def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
             two_guides(pen, shapes, led, (inner, right), (second, second))
 
 
-def two_bars(pen: Pen, shapes: Shapes, group: Dyad) -> None:
+def dyad_on(pen: Pen, shapes: Shapes, group: Dyad, near: int) -> None:
+    """The inner pin of a dyad whose first bar keeps it on an arc that is drawn already."""
+    if isinstance(group.right, Pin):
+        two_bars(pen, shapes, group, near)
+    else:
+        bar_and_guide(pen, shapes, group, near)
+
+
+def two_bars(pen: Pen, shapes: Shapes, group: Dyad, near: int) -> None:
     """The inner pin of a dyad RRR: two arcs."""
     assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
     assert isinstance(group.inner, Pin)
     left, pin, right = group.left.point, group.inner.point, group.right.point
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        near = arc(pen, shapes, group.links[0], left, pin)
         far = arc(pen, shapes, group.links[1], right, pin)
         side, extra = pen.choice(group)
-        found = pen.draw(arcs_meet, near, far, *side, name=pin, extra=extra, p=left, q=right)
+        says: Says = {"p": left.partition("@")[0], "q": right}
+        found = pen.draw(arcs_meet, near, far, *side, name=pin, extra=extra, **says)
     pen.want("position", pin, found)
 
 
-def bar_and_guide(pen: Pen, shapes: Shapes, group: Dyad) -> None:
+def bar_and_guide(pen: Pen, shapes: Shapes, group: Dyad, near: int) -> None:
     """The inner pin of a dyad RRP: the arc of the bar cuts the line that the guide leads it on."""
     assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
-    left, pin, link = group.left.point, group.inner.point, group.links[1]
+    left, pin, link = group.left.point.partition("@")[0], group.inner.point, group.links[1]
     path = led_path(pen, shapes, group.right, link, pin)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        near = arc(pen, shapes, group.links[0], left, pin)
         way, extra = pen.choice(group)
         found = pen.draw(arc_cuts_line, path, near, *way, name=pin, extra=extra, p=left)
     pen.want("position", pin, found)
+    if isinstance(group.right, Contact):
+        rolling.touch_and_turn(pen, shapes, group.right)
+
+
+def first_arc(pen: Pen, shapes: Shapes, group: Dyad) -> int:
+    """The arc on which the first bar of a dyad keeps its inner pin."""
+    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        return arc(pen, shapes, group.links[0], group.left.point, group.inner.point)
 
 
 def led_path(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str) -> int:

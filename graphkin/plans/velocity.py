@@ -69,7 +69,7 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str) -> None:
     """Image of a point of a link whose angular velocity is known, from that of its pivot."""
     ends = pen.the("position", pivot), pen.the("position", tip)
     start = pen.the("velocity", pivot)
-    says: Says = {"p": pivot, "q": tip, "s": named(pen, start)}
+    says: Says = {"p": pivot, "q": tip, "s": named(pen, start), "k": link}
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
         rate = pen.the("omega", link)
         found = pen.draw(turned_velocity, start, *ends, rate, name=image(tip), **says)
@@ -96,7 +96,8 @@ def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, speed
         says: Says = {"q": point, "g": pair.links[0], "s": named(pen, start)}
         found = pen.draw(driven_slide, start, line, speed, name=image(point), extra=(way,), **says)
     pen.want("velocity", point, found)
-    arrow_to(pen, point, relative_to(pen, known, point))
+    arrow_to(pen, point, None)
+    slide_arrow(pen, pair, link, point)
     if isinstance(pair, Contact):
         wheels.touch(pen, pair)
 
@@ -137,24 +138,18 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
         found = pen.draw(meet, *lines, name=image(name), q=name)
     pen.want("velocity", name, found)
     for pair, link in sides:
-        arrow_to(pen, name, source(pen, pair, link, name))
+        arrow_to(pen, name, source(pair, name))
+        if isinstance(pair, Sliding) and "@" not in name:
+            slide_arrow(pen, pair, link, name)
         if isinstance(pair, Contact):
             wheels.touch(pen, pair)
 
 
-def source(pen: Pen, pair: Joint, link: str, point: str) -> str | None:
-    """The point against which a pair leaves a point free; None where that stands still."""
+def source(pair: Joint, point: str) -> str | None:
+    """The point about which a pair leaves a point free, or the pin over the point of a guide."""
     if isinstance(pair, Pin):
         return pair.point
-    if "@" in point:
-        return point.partition("@")[0]
-    return relative_to(pen, partner(pair, link), point)
-
-
-def relative_to(pen: Pen, link: str, point: str) -> str | None:
-    """The point of a moving link under another, where the plan has its image."""
-    name = under(point, link)
-    return name if pen.has("velocity", name) else None
+    return point.partition("@")[0] if "@" in point else None
 
 
 def ray(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str) -> int:
@@ -244,16 +239,32 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
 
 def arrow_to(pen: Pen, pin: str, pivot: str | None) -> None:
     """The arrows of a plan to an image: the absolute velocity, and the one relative to a pivot."""
-    o = pen.pole(Plane.VELOCITIES)
-    tip = pen.the("velocity", pin)
-    starts = {o: (f"v_{letter(pin)}", "")}
-    if pivot is not None and pen.the("velocity", pivot) not in (o, tip):
-        starts[pen.the("velocity", pivot)] = (f"v_{letter(pin)}{letter(pivot)}", letter(pivot))
-    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        for start, (symbol, about) in starts.items():
-            name = named(pen, start) + image(pin)
-            if name not in pen.arrows:
-                pen.arrow(join, start, tip, name=name, symbol=symbol, q=letter(pin), p=about)
+    o, tip = pen.pole(Plane.VELOCITIES), pen.the("velocity", pin)
+    arrow_between(pen, o, tip, pin, "")
+    if pivot is None or pen.the("velocity", pivot) in (o, tip):
+        return
+    start = pen.the("velocity", pivot)
+    if pivot == pin.partition("@")[0]:
+        arrow_between(pen, tip, start, pivot, letter(pin))
+    else:
+        arrow_between(pen, start, tip, pin, letter(pivot))
+
+
+def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
+    """The arrow of a relative velocity along a guide that moves."""
+    known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
+    start, tip = image_under(pen, known, point), pen.the("velocity", point)
+    if start not in (o, tip):
+        arrow_between(pen, start, tip, point, letter(under(point, known)))
+
+
+def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
+    """The arrow of the velocity of a point, against another if that is named; drawn once."""
+    name = named(pen, tail) + named(pen, tip)
+    if name not in pen.arrows:
+        with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+            symbol = f"v_{letter(pin)}{about}"
+            pen.arrow(join, tail, tip, name=name, symbol=symbol, q=letter(pin), p=about)
 
 
 def set_on_mechanism(pen: Pen, point: str) -> None:

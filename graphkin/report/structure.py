@@ -10,7 +10,7 @@ from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.quantity import SI
 from graphkin.structure.graph import Contact, Pair, Pin, contacts, pairs, sharers
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
-from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Group, Higher, Tie
+from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Group, Higher, Tie, Train
 from graphkin.structure.joints import partner
 from graphkin.structure.mobility import count
 
@@ -207,6 +207,9 @@ def group_words(group: Group) -> str:
         case Geared(link, pair, contact):
             other = link_words(partner(contact, link))
             return f"link {link} on {pair_name(pair)}, moved by its contact with {other}"
+        case Train(arm, wheel, pivot, _, rolled):
+            others = listed(link_words(partner(contact, wheel)) for contact in rolled)
+            return f"arm {arm} on {pair_name(pivot)} with wheel {wheel}, which rolls on {others}"
         case Tie(link, first, second):
             held = listed(map(pair_name, (first, second)))
             return f"link {link} between {held}, which stand already: it must be idle"

@@ -24,7 +24,7 @@ FINER = 24
 ROUNDS = 60
 """Rounds of closing in on a fit; each at least halves the interval."""
 CLOSE = 1e-6
-"""Misfit of a fit, in parts of the misfit of its interval: rounding leaves far less, a pole more."""
+"""Misfit of a fit, in parts of that of its interval: rounding leaves far less, a pole more."""
 MOST = 400_000
 """Trial positions run at once."""
 SAME = 1e-7

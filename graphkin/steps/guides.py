@@ -137,6 +137,32 @@ def from_foot(foot: Point, pin: Point, way: int) -> Point:
     return line / abs(line)
 
 
+@action("stretch")
+def stretch(
+    pin: Point, first: Point, offset: Real, end: Point, here: Point, there: Point, where: Real
+) -> Point:
+    """From a pin of the link with the guide to one of the block, in the axes of the guide.
+
+    ``pin`` and ``first`` are the block's, ``end`` is the other link's, whose guide runs from
+    ``here`` towards ``there``; ``where`` is the block's coordinate.
+    """
+    along = there - here
+    return where + 1j * offset + (pin - first) - (end - here) * (along.conjugate() / abs(along))
+
+
+@action("length")
+def length_of(way: Point) -> Real:
+    """The length of a way."""
+    return abs(way)
+
+
+@action("axis")
+def axis_stretched(from_pin: Point, to_pin: Point, way: Point) -> Point:
+    """Direction of a guide from two pins and the way between them in the guide's axes."""
+    turn = (to_pin - from_pin) / way
+    return turn / abs(turn)
+
+
 # --- a driven slide ------------------------------------------------------------------------------
 
 

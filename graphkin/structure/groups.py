@@ -81,6 +81,33 @@ class Dyad:
 
 
 @dataclass(frozen=True, slots=True)
+class Stretched:
+    """A dyad of which one bar is a cylinder: a block on a known pin and a rod driven in it.
+
+    ``near`` is the link on the known pin, ``dyad`` the rest with the far link as its first; the
+    bar's left end there is the far link's point under that pin.
+    """
+
+    driver: Driver
+    near: str
+    slide: Sliding
+    pin: Pin
+    dyad: Dyad
+
+    @property
+    def links(self) -> tuple[str, str, str]:
+        """Both links of the cylinder and the other of the dyad."""
+        return (self.near, *self.dyad.links)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return (
+            f"{self.dyad.title} with a driven cylinder of links {self.near}, {self.dyad.links[0]}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
 class Geared:
     """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
 
@@ -197,7 +224,7 @@ class Unresolved:
         return "a group for which no construction was found"
 
 
-Group = Crank | Driven | Dyad | Geared | Train | Tie | Higher | Unresolved
+Group = Crank | Driven | Dyad | Stretched | Geared | Train | Tie | Higher | Unresolved
 
 
 def other_of(driver: Driver, link: str) -> str:
@@ -217,6 +244,7 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
         group = (
             next_driven(joints, known, waiting)
             or next_group(joints, known)
+            or next_stretched(joints, known, waiting)
             or next_tie(joints, known)
             or next_higher(joints, known, waiting)
             or Unresolved(tuple(joints.unknown(known)))
@@ -234,7 +262,7 @@ def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
             settle(each, known, waiting)
         if isinstance(group.last, Driver):
             waiting.remove(group.last)
-    elif isinstance(group, Crank | Driven):
+    elif isinstance(group, Crank | Driven | Stretched):
         waiting.remove(group.driver)
 
 
@@ -298,10 +326,10 @@ def train_with(
 
 
 def geared_of(link: str, joined: tuple[Joint, ...]) -> Geared | None:
-    """A link with one pair and one contact that takes a single freedom."""
+    """A link with one pair and a contact that takes a single freedom; more of these are idle."""
     ones = [pair for pair in joined if isinstance(pair, Contact) and pair.taken == 1]
     twos = [pair for pair in joined if taken(pair) == 2]
-    return Geared(link, twos[0], ones[0]) if len(ones) == len(twos) == 1 else None
+    return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
 
 
 def dyad_with(
@@ -346,6 +374,40 @@ def in_order(dyad: Dyad) -> Dyad:
     if both and FRAME in dyad.left.links and FRAME not in dyad.right.links:
         return turned
     return dyad
+
+
+def next_stretched(
+    joints: Joints, known: Collection[str], waiting: list[Driver]
+) -> Stretched | None:
+    """The first dyad, as its driver is written, with a driven cylinder for a bar."""
+    for driver in waiting:
+        if driver.kind != "slide" or driver.link in known or driver.against in known:
+            continue
+        for near, far in ((driver.link, driver.against), (driver.against, driver.link)):
+            left = joints.between(near, known)
+            slides = joints.inner(near, far, known)
+            if len(left) == len(slides) == 1 and isinstance(left[0], Pin):
+                slide = slides[0]
+                if isinstance(slide, Sliding) and not joints.between(far, known):
+                    dyad = stretched_dyad(joints, known, near, far, left[0])
+                    if dyad is not None:
+                        return Stretched(driver, near, slide, left[0], dyad)
+    return None
+
+
+def stretched_dyad(
+    joints: Joints, known: Collection[str], near: str, far: str, pin: Pin
+) -> Dyad | None:
+    """The dyad of a cylinder's far link with its neighbour: three pins, or two and a slide."""
+    foot = Pin(f"{pin.point}@{far}", (far, pin.links[1]))
+    for other in joints.neighbours(far):
+        if other in known or other == near or joints.between(near, (other,)):
+            continue
+        inner, right = joints.inner(far, other, known), joints.between(other, known)
+        alone = len(inner) == len(right) == 1
+        if alone and isinstance(inner[0], Pin) and isinstance(right[0], Pin | Sliding):
+            return Dyad((far, other), foot, inner[0], right[0])
+    return None
 
 
 def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:

@@ -17,6 +17,7 @@ from graphkin.structure.groups import (
     Trial,
     next_driven,
     next_group,
+    next_stretched,
     next_tie,
     settle,
 )
@@ -53,7 +54,11 @@ def tried(
         last = over_given(joints, known, grown, left) or next_tie(joints, grown)
         if last is not None:
             break
-        group = next_driven(joints, grown, left) or next_group(joints, grown)
+        group = (
+            next_driven(joints, grown, left)
+            or next_group(joints, grown)
+            or next_stretched(joints, grown, left)
+        )
         if group is None:
             return
         chain.append(group)

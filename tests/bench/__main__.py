@@ -1,6 +1,7 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
+``python -m tests.bench.motion`` and ``python -m tests.bench.chain`` print their parts alone.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.text import words
+from tests.bench import chain, motion
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files
 
@@ -74,7 +76,7 @@ SAME = (
 
 
 def same_quantities(mechanism: Mechanism, n: np.ndarray) -> Trace:
-    """The program, run for just what the plain formulas give."""
+    """The program, run step by step for just what the plain formulas give."""
     program = mechanism.program
     keep = [program.targets[target] for target in SAME]
     with np.errstate(all="ignore"):
@@ -91,12 +93,12 @@ def batch() -> list[tuple[str, float, float]]:
         ("a variant: plain numpy in blocks of 2048", plain, plain),
         ("a variant: plain numpy at once", whole, plain),
         (
-            "a variant: the program, the same quantities",
+            "a variant: step by step, the same quantities",
             best(lambda: same_quantities(mechanism, n)) / VARIANTS,
             plain,
         ),
         (
-            "a variant: the program, all quantities",
+            "a variant: emitted, all quantities",
             best(lambda: mechanism.batch(n=n)) / VARIANTS,
             plain,
         ),
@@ -171,7 +173,7 @@ def table() -> str:
             f"{name:46} {in_words(seconds):>10} {seconds / plain:8.2f} ×"
             for name, seconds, plain in rows
         ]
-    return "\n".join(lines)
+    return "\n".join([*lines, "", motion.table(), "", chain.table()])
 
 
 if __name__ == "__main__":

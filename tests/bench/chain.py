@@ -55,9 +55,9 @@ def scene(dyads: int) -> str:
 
 
 def timed(work: Callable[[], Any]) -> float:
-    """Shortest of a few calls in seconds, fewer of slow ones."""
+    """Shortest of some calls in seconds, fewer of slow ones."""
     first = timeit.timeit(work, number=1)
-    return min([first, *timeit.repeat(work, number=1, repeat=2 if first > 0.3 else 5)])
+    return min([first, *timeit.repeat(work, number=1, repeat=max(3, min(20, int(1 / first))))])
 
 
 def costs(dyads: int) -> dict[str, float]:

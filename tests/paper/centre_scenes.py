@@ -108,6 +108,28 @@ acceleration = ["P"]
 inflection = [1]
 """
 
+LEVER = """
+[frame]
+O = [0, 0]
+Q = [0, 150]
+[links.1]
+Q-A = 65
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "O-E" }
+[links.3]
+O-E = 280
+[[drivers]]
+turn = 1
+angle = 20
+speed = 9
+[branches]
+2 = "forward"
+[ask]
+velocity = ["E"]
+centres = [2, "0-2"]
+"""
+
 
 def four_bar(ask: str, speed: float = 12, shape: tuple[int, int, int] = (150, 130, 120)) -> str:
     """A four-bar; its shape is ground, coupler and rocker."""
@@ -131,6 +153,7 @@ ASKING = {
     ),
     "trammel with all its centres": TRAMMEL,
     "five-bar with all its centres": FIVE_BAR,
+    "block on a lever with its centre": LEVER,
     "gears with their centre": GEARS,
     "roller with its inflection circle": ROLLER,
 }

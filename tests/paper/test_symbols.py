@@ -89,6 +89,10 @@ def test_a_pin_in_a_slot_has_two_parallel_sides_with_round_ends_and_no_block():
     across = [abs((px - x) * -v + (py - y) * u) for px, py in slot.points]
     assert max(across) == pytest.approx(SLOT, abs=NEAR)
     assert area(slot).exterior.distance(pin) == pytest.approx(SLOT, abs=NEAR)
+    along = [(px - x) * u + (py - y) * v for px, py in slot.points]
+    straight = area(slot).area - pi * SLOT**2
+    assert area(slot).is_valid and straight > 0
+    assert (max(along) - min(along) - 2 * SLOT) * 2 * SLOT == pytest.approx(straight, rel=0.02)
 
 
 def test_a_slot_ends_before_the_pins_of_its_lever():
@@ -345,21 +349,23 @@ def test_gears_mesh_at_the_pitch_point_tooth_in_gap(place):
     assert max(radii) == pytest.approx(44) and min(radii) == pytest.approx(35)
 
 
-def test_a_planet_meshes_with_its_ring_from_inside():
+@pytest.mark.parametrize("teeth", [16, 20, 40])
+def test_a_planet_meshes_with_its_ring_from_inside(teeth):
+    arm = 120 - 2 * teeth
     drawing = made_up(
-        """
+        f"""
 module = 4
 [frame]
 O = [0, 0]
-wheel = { centre = "O", teeth = 60, inside = true }
+wheel = {{ centre = "O", teeth = 60, inside = true }}
 [links.arm]
-O-P = 80
+O-P = {arm}
 [links.planet]
 P = [0, 0]
-wheel = { centre = "P", teeth = 20 }
-rolls = { on = 0 }
+wheel = {{ centre = "P", teeth = {teeth} }}
+rolls = {{ on = 0 }}
 """,
-        {"O": 0j, "P": rect(80, 1.0)},
+        {"O": 0j, "P": rect(arm, 1.0)},
         {"planet": 1j},
     )
     board, field = board_of(drawing)
@@ -397,6 +403,31 @@ slides = { on = 0, through = [0, -40], angle = 0 }
     assert pinion.intersection(rack).area < 0.03 * pi * 4**2
     below = field(-0.04j)[1]
     assert min(y for _, y in rack.exterior.coords) == pytest.approx(below - 4)
+
+
+def test_the_guide_of_a_plate_is_drawn_clear_of_the_wheel_on_it():
+    drawing = made_up(
+        """
+[frame]
+O = [0, 0]
+[links.1]
+C = [0, 0]
+wheel = { centre = "C", radius = 40 }
+rolls = { on = 2, through = "B", angle = 0 }
+[links.2]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+""",
+        {"O": 0j, "B": 0j, "C": 10 + 40j},
+        {"1": 1 + 0j, "2": 1 + 0j},
+    )
+    board, field = board_of(drawing)
+    round_ = shapely.Point(field(0.01 + 0.04j)).buffer(40)
+    (block,) = of_kind(board, "slider")
+    (plate,) = of_kind(board, "guide-bar", "2")
+    assert area(block).distance(round_) > 1 and line(plate).intersects(area(block))
+    rails = [line(m) for m in of_kind(board, "guide") if line(m).length > 12]
+    assert rails and not any(rail.intersects(round_) for rail in rails)
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

@@ -139,6 +139,14 @@ def test_wheels_are_told_by_what_moves_them():
     )
 
 
+def test_an_arm_that_its_planet_moves_is_told():
+    sun = DRIVEN.replace("turn = 1", 'turn = "sun"')
+    assert groups(train() + sun) == [
+        "1. crank sun about O (class I)",
+        "2. arm 1 on pin O with wheel 2, which rolls on the frame and link sun",
+    ]
+
+
 def test_a_driver_against_a_moving_link_is_told():
     text = "[frame]\nO = [0, 0]\n[links.1]\nO-A = 2\n[links.2]\nA-B = 1\n"
     second = "[[drivers]]\nturn = 2\nagainst = 1\nangle = 10\nspeed = 1\n"

@@ -30,7 +30,7 @@ against = "barrel"
 position = "sqrt(5 - 4*cos(30))"
 speed = 0.5
 [branches]
-window = "closure 1"
+B = "left of O-A"
 """
 
 

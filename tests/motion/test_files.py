@@ -1,0 +1,150 @@
+"""The command and its files: whole, the same bytes every time, never over other files."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from graphkin.curves.files import picture_files
+from graphkin.mechanism import load
+from graphkin.motion import cycle
+from graphkin.report.cycle import cycle_lines
+from graphkin.report.cycle_table import cycle_table
+from tests.cli.conftest import Run, run  # noqa: F401
+from tests.motion.linkages import five_bar, four_bar, slider_crank
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+PICTURES = {"positions", "velocities", "accelerations", "turning", "slides", "paths", "reach"}
+
+
+def rows_of(text: str) -> tuple[list[str], np.ndarray]:
+    """Heads and numbers of a table; empty cells are NaN."""
+    heads, *rows = csv.reader(io.StringIO(text))
+    return heads, np.array([[float(cell or "nan") for cell in row] for row in rows])
+
+
+@pytest.mark.parametrize("name", ["pump", "examples/scenes/six-bar.toml"])
+def test_the_table_read_again_is_what_was_computed(name):
+    found = cycle(load(name), steps=72)
+    heads, table = rows_of(cycle_table(found))
+    assert len(set(heads)) == len(heads)
+    columns = dict(zip(heads, table.T, strict=True))
+    assert np.array_equal(columns["phi [deg]"], found.at)
+    assert np.allclose(columns["phi [rad]"], np.radians(found.at))
+    for point, motion in found.solution.points.items():
+        if point not in found.scene.frame.points:
+            assert np.array_equal(columns[f"x_{point} [m]"], motion.position.real)
+            assert np.array_equal(columns[f"vy_{point} [m/s]"], motion.velocity.imag)
+            assert np.array_equal(columns[f"ax_{point} [m/s^2]"], motion.acceleration.real)
+    for link, motion in found.solution.links.items():
+        assert np.allclose(columns[f"omega_{link} [rad/s]"], motion.omega, rtol=0, atol=0)
+    assert not any(head.endswith("O1 [m]") for head in heads)
+
+
+def test_a_centre_at_infinity_leaves_its_cell_empty():
+    # at 90 degrees without offset the rod of a slider-crank is in translation
+    heads, table = rows_of(cycle_table(cycle(slider_crank(2, 5), steps=4)))
+    row = table[list(table[:, 0]).index(90.0)]
+    columns = dict(zip(heads, row, strict=True))
+    assert abs(columns["omega_2 [rad/s]"]) < 1e-15
+    place = columns["Ix_2 [m]"]
+    assert np.isnan(place) or abs(place) > 1e12 or abs(columns["Iy_2 [m]"]) > 1e12
+
+
+def test_pictures_are_the_same_bytes_every_time():
+    first, second = (
+        picture_files(cycle(load("pump", n=7), steps=24), "pump", ["svg", "png"]) for _ in "12"
+    )
+    assert first == second
+    names = {name.partition("-")[2].rpartition(".")[0] for name in first}
+    assert names >= PICTURES
+    assert {"centrodes-3", "centrodes-4"} <= names
+    for name, data in first.items():
+        head = b"<?xml" if name.endswith("svg") else b"\x89PNG"
+        assert data.startswith(head)
+        assert b"Matplotlib v" not in data
+    assert b"dc:date" not in first["pump-reach.svg"]
+
+
+def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_path: Path):  # noqa: F811
+    result = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--steps", 36)
+    assert result.exit_code == 0, result.stderr
+    names = {path.name for path in tmp_path.iterdir()}
+    assert "pump-n7-cycle.csv" in names
+    assert {f"pump-n7-{name}.svg" for name in PICTURES} <= names
+    assert not any(name.endswith((".png", ".part")) for name in names)
+    for words in (
+        "φ from -32.618° to 186.944°",
+        "C-D square to the guide of 5 at φ = 186.944°: limit position of the driver",
+        "block 5 goes 52.9547 cm",
+        "triple rocker",
+        "agrees in every row",
+    ):
+        assert words in result.stdout
+    again = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg")
+    assert again.exit_code == 2
+    assert "--force replaces it" in again.stderr
+    forced = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--force")
+    assert forced.exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (("--format", "pdf"), "pdf is not svg, png or svg,png"),
+        (("--driver", "2"), "there is no driver 2"),
+        (("--steps", "1"), "--steps"),
+        (("--from", "50", "--to", "40"), "a window that grows"),
+    ],
+)
+def test_what_the_command_cannot_do_it_says(run: Run, tmp_path: Path, args, words):  # noqa: F811
+    result = run("cycle", "pump", "-o", tmp_path, *args)
+    assert result.exit_code == 2
+    assert words in result.stderr
+    assert "Traceback" not in result.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_mechanism_that_never_closes_is_a_message(run: Run, tmp_path: Path):  # noqa: F811
+    scene = (SCENES / "crank-rocker.toml").read_text().replace("O1-A = 40", "O1-A = 4000")
+    path = tmp_path / "never.toml"
+    path.write_text(scene)
+    result = run("cycle", path, "-o", tmp_path / "out")
+    assert result.exit_code == 2
+    assert "closes for no position of the driver" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "said"),
+    [
+        (
+            four_bar(40, 90, 70, 100),
+            [
+                "every angle of the driver: it turns fully",
+                "it is a crank-rocker",
+                "link 3 (line O2-B) swings 70.553°: 81.787° (at φ = 32.204°)",
+                "time ratio of its two strokes 1.0971",
+            ],
+        ),
+        (
+            four_bar(2, 4, 2, 4),
+            [
+                "A, B and O2 in line at φ = 180.000°: change point",
+                "φ from 180.000° to 360.000°: B right of A-O2",
+                "2 positions left out",
+                "parallelogram",
+            ],
+        ),
+        (slider_crank(2, 5, 1), ["crank + offset ≤ rod: the crank turns fully", "block 3 goes"]),
+        (five_bar(), ["every driver moves with the time", "range      t from 0 s to "]),
+    ],
+)
+def test_the_words_of_a_cycle(mechanism, said):
+    text = "\n".join(cycle_lines(cycle(mechanism)))
+    for words in said:
+        assert words in text
+    assert "DOES NOT AGREE" not in text
