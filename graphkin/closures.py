@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 
 from graphkin.arithmetic import FLOAT
-from graphkin.plans.links import has_two_ways
+from graphkin.plans.branches import has_two_ways
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.steps.closing import Closer
 from graphkin.steps.program import Part, Program, Step

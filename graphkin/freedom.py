@@ -19,6 +19,10 @@ SHARE = 1e-8
 """Share of the largest singular value below which a direction is not constrained."""
 
 
+FIRM = 1e-4
+"""Share of the largest singular value below which a direction may be rounding near a dead point."""
+
+
 class Idle(NamedTuple):
     """What could be taken away without setting anything free.
 
@@ -39,14 +43,21 @@ def true_mobility(scene: Scene, positions: Mapping[str, Point] | None = None) ->
     is this number. Raises StructureError as ``equations`` does, WitnessError where nothing closes.
     """
     loops = equations(scene)
-    return loops.unknown_count - ranks(loops, position_of(scene, loops, positions))[0]
+    unknowns = position_of(scene, loops, positions)
+    return loops.unknown_count - rank(undriven_rows(loops, unknowns)[0])
 
 
-def ranks(loops: Equations, unknowns: Reals) -> list[int]:
-    """The rank of the loop equations without the drivers at each of some positions (M, K + m)."""
+def undriven_rows(loops: Equations, unknowns: Reals) -> Reals:
+    """Jacobian of the loop equations without the drivers, in bars, at positions (M, K + m)."""
     jacobian = loops.jacobian(loops.chains.at(unknowns), driven=False)
-    metres = jacobian * loops.columns[:, None, :] / loops.size[:, None, None]
-    return [rank(rows) for rows in metres]
+    return np.asarray(jacobian * loops.columns[:, None, :] / loops.size[:, None, None])
+
+
+def firmness(rows: Reals) -> tuple[int, float]:
+    """The rank, and the least singular value that it counts, over the largest."""
+    values = np.linalg.svd(rows, compute_uv=False)
+    count = rank(rows)
+    return count, float(values[count - 1] / values[0]) if count else 0.0
 
 
 def idle(scene: Scene, positions: Mapping[str, Point] | None = None) -> Idle:
@@ -87,9 +98,14 @@ def rank(rows: Reals) -> int:
 
 
 def position_of(scene: Scene, loops: Equations, positions: Mapping[str, Point] | None) -> Reals:
-    """The unknowns (1, K + m) at given positions, or at the least free of some closed ones."""
+    """The unknowns (1, K + m) at given positions, or at the least free of some closed ones.
+
+    Of several such positions the one farthest from a singular one is taken.
+    """
     if positions is None:
         found = anywhere(loops)
-        best = int(np.argmax(ranks(loops, found)))
+        firm = [firmness(rows) for rows in undriven_rows(loops, found)]
+        order = [(share > FIRM, count, share) for count, share in firm]
+        best = max(range(len(found)), key=order.__getitem__)
         return found[best : best + 1]
     return completed(scene, loops, start_values(loops, positions, {}))

@@ -134,7 +134,7 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     needs = []
     asked = {kind: targets_of(mechanism, kind) for kind in WANTED}
     if not any(asked.values()):
-        asked = {kind: mechanism.program.answers for kind in WANTED}
+        asked = dict.fromkeys(WANTED, mechanism.program.answers)
     curves = curves_of(mechanism) if curves is None else curves
     for kind, found in asked.items():
         if found:

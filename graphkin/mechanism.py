@@ -14,13 +14,14 @@ from graphkin.errors import Problem, SceneError
 from graphkin.plans.compile import write
 from graphkin.scene.model import Scene
 from graphkin.scene.read import read_scene
-from graphkin.steps.fast import Press
 from graphkin.steps.gather import gathered
+from graphkin.steps.press import Press
 from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, Trace, run
 from graphkin.steps.solution import Solution, Verdict
 from graphkin.structure.drivers import refuse_drivers
-from graphkin.structure.groups import Group, decompose
+from graphkin.structure.groups import Group
+from graphkin.structure.order import decompose
 
 
 def load(name: str | Path, /, **settings: object) -> Mechanism:

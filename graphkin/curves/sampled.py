@@ -80,11 +80,11 @@ def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
         parts = []
         for piece in pieces:
             low, high = piece.low.at, piece.high.at
-            if piece.low.kind == piece.high.kind == "window":
+            if {piece.low.kind, piece.high.kind} <= {"window", "number"}:
                 parts.append(np.linspace(low, high, fine + 1))
                 continue
-            share = np.linspace(END if piece.low.kind != "window" else 0, 1, fine + 1)
-            share = share * (1 - END) if piece.high.kind != "window" else share
+            share = np.linspace(END if piece.low.kind in ("dead", "change") else 0, 1, fine + 1)
+            share = share * (1 - END) if piece.high.kind in ("dead", "change") else share
             ease = 0.5 - 0.5 * np.cos(np.pi * share)
             parts.append(low + (high - low) * ease)
         found = np.concatenate(parts)

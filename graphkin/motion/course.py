@@ -18,7 +18,8 @@ from graphkin.scene.model import Branch, Scene
 from graphkin.steps.batch import BLOCK, run_batch, run_blocks
 from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, Trace, evaluate
-from graphkin.structure.groups import Group, decompose
+from graphkin.structure.groups import Group
+from graphkin.structure.order import decompose
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 Flags = np.ndarray[Any, np.dtype[np.bool_]]

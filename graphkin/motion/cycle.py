@@ -218,8 +218,10 @@ def assigned(sweep: Sweep, path: Path, at: Reals, near: float) -> tuple[Any, Rea
             place = at + turn
             inside = (which == 0) & piece.holds(place)
             for end in (piece.low, piece.high):
-                if end.kind != "window":
+                if end.kind in ("dead", "change"):
                     inside &= np.abs(place - end.at) >= near
+                elif end.kind == "number":
+                    inside &= np.abs(place - end.at) >= BESIDE / 10
             which[inside], within[inside] = number, place[inside]
     return which, within
 

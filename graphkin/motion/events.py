@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from graphkin.motion.course import Course
+from graphkin.motion.numbered import numbered
 from graphkin.motion.pieces import ALIKE, Event, Path
 from graphkin.motion.sweep import TURN
 from graphkin.plane import Circle, Line
@@ -13,6 +16,8 @@ from graphkin.steps.program import Program
 
 COINCIDE = 1e-6
 """Distance of two centres, in radii, at which they fall on one another."""
+FLAT = 0.02
+"""Sine of a crossing that counts as flat beside a dead point."""
 INSIDE = 1e-7
 """How far before a dead point its loci are looked at, as a share of a step of the grid."""
 
@@ -56,18 +61,28 @@ def ends(low: Event, high: Event) -> list[tuple[Event, float]]:
     """The ends of a piece that are singular, each with a place inside the piece."""
     way = high.at - low.at
     pairs = [(low, low.at + INSIDE * way), (high, high.at - INSIDE * way)]
-    return [(event, inside) for event, inside in pairs if event.kind != "window"]
+    return [(event, inside) for event, inside in pairs if event.kind in ("dead", "change")]
 
 
 def named(course: Course, event: Event, inside: float) -> Singular:
     """An event with its words."""
     kind: Literal["dead", "change"] = "dead" if event.kind == "dead" else "change"
     if not event.steps:
-        return Singular(kind, event.at, "a position", "two loci touch")
+        return Singular(kind, event.at, *flattest(course, inside))
     told = [words(course, number, inside) for number in event.steps]
     pins = dict.fromkeys(pin for pin, _ in told)
     lines = dict.fromkeys(line for _, line in told)
     return Singular(kind, event.at, ", ".join(pins), "; ".join(lines))
+
+
+def flattest(course: Course, inside: float) -> tuple[str, str]:
+    """What closes no further where a group of higher class is followed: its flattest crossing."""
+    group = numbered(course)
+    sines = course.margins(np.array([inside]))[:-1, 0]
+    if len(sines) and np.nanmin(sines, initial=1.0) < FLAT:
+        return words(course, course.crossings[int(np.nanargmin(sines))], inside)
+    link = "" if group is None else f" of link {group.link}"
+    return f"the group{link}", f"two closures of the group{link} meet"
 
 
 def words(course: Course, number: int, inside: float) -> tuple[str, str]:

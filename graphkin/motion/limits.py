@@ -13,11 +13,13 @@ from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.pieces import ALIKE, Range
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.motion.sweep import TURN
-from graphkin.scene.model import Link, Scene
+from graphkin.scene.model import Closure, Link, Scene
 from graphkin.steps.program import Target
 
 FINE = 3600
 """Places in each piece at which the sense of a follower is looked at."""
+FEWER = 360
+"""The same for groups of higher class, each place of which is a search."""
 NOTHING = 1e-9
 """Share of the largest speed below which a follower stands still."""
 APART = 1e-4
@@ -184,7 +186,9 @@ def samples(pieces: Range) -> Reals:
         low += 0.0 if piece.low.kind == "window" else APART
         high -= 0.0 if piece.high.kind == "window" else APART
         if low < high:
-            parts.append(np.linspace(low, high, FINE + 1))
+            closures = piece.branches.values()
+            fine = FEWER if any(isinstance(each, Closure) for each in closures) else FINE
+            parts.append(np.linspace(low, high, fine + 1))
     return np.concatenate(parts) if parts else np.array([pieces[0].low.at])
 
 

@@ -17,12 +17,20 @@ import numpy as np
 
 from graphkin.errors import ClosureError, GraphkinError, Problem
 from graphkin.motion.course import Branches, Course, Reals
+from graphkin.motion.numbered import (
+    Node,
+    Numbered,
+    changes,
+    nodes,
+    numbered,
+    same_place,
+)
 from graphkin.motion.refine import AROUND, TOUCH, last_closing, least_square, touching
 from graphkin.motion.sweep import GRID, TURN, Sweep
 from graphkin.plane import Line
 from graphkin.scene.model import Branch, Closure, Side
 
-End = Literal["dead", "change", "window"]
+End = Literal["dead", "change", "number", "window"]
 MOST_CLOSURES = 8
 """Closures of one group of higher class that are tried beyond a change point."""
 ALIKE = 1e-8
@@ -42,7 +50,8 @@ NARROW = 2
 class Event:
     """Where a piece ends: a dead point or a change point with the steps whose loci touch there.
 
-    ``beyond`` is a u at which nothing closes, for a dead point.
+    At a ``number`` the closure goes on smoothly under another number. ``beyond`` is a u at which
+    nothing closes, for a dead point.
     """
 
     kind: End
@@ -94,6 +103,8 @@ def followed(sweep: Sweep, branches: Branches | None = None) -> Path:
     """
     course = Course(sweep, sweep.original.branches if branches is None else branches)
     ranges: list[Range] = []
+    if (group := numbered(course)) is not None and course.closes(np.array([sweep.start]))[0]:
+        return numbered_path(group, sweep.start)
     grid = sweep.low + (np.arange(GRID) + 0.5) * sweep.grid_step
     free = course.closes(grid)
     whole = returns = False
@@ -117,6 +128,36 @@ def followed(sweep: Sweep, branches: Branches | None = None) -> Path:
             )
         )
     return Path(tuple(ranges), whole, returns)
+
+
+def numbered_path(group: Numbered, start: float) -> Path:
+    """The range of a group of higher class through one position, followed by its motion."""
+    sweep = group.course.sweep
+    far = (start + TURN, start - TURN) if sweep.whole else (sweep.high, sweep.low)
+    ahead, end = nodes(group, start, max(far[0], start))
+    high = Event("dead" if end.dead else "window", end.at, (), end.beyond if end.dead else None)
+    upward = cut(group, ahead, Event("window", start), high)
+    if sweep.whole and not end.dead:
+        returns = same_place(ahead[0], ahead[-1])
+        return Path((counted_from_nought(upward) if returns else upward,), True, returns)
+    behind, end = nodes(group, start, min(far[1], start))
+    low = Event("dead" if end.dead else "window", end.at, (), end.beyond if end.dead else None)
+    downward = tuple(reversed(cut(group, behind, Event("window", start), low)))
+    turned = tuple(replace(piece, low=piece.high, high=piece.low) for piece in downward)
+    joined = replace(upward[0], low=turned[-1].low)
+    return Path(((*turned[:-1], joined, *upward[1:]),), False, False)
+
+
+def cut(group: Numbered, found: list[Node], start: Event, end: Event) -> Range:
+    """The pieces of one number each, on the way from the first node to the last."""
+    marks = changes(group, found)
+    numbers = [found[0].number, *(number for _, _, number in marks)]
+    firsts = [start, *(Event("number", at) for _, at, _ in marks)]
+    lasts = [*(Event("number", at) for at, _, _ in marks), end]
+    return tuple(
+        Piece(first, last, group.with_number(number, (first.at + last.at) / 2))
+        for number, first, last in zip(numbers, firsts, lasts, strict=True)
+    )
 
 
 def beside_touch(course: Course, start: float) -> float | None:

@@ -18,8 +18,8 @@ from graphkin.steps.program import Part, Step
 
 LAST = 20.0
 """How much of a ray to a far centre its name belongs to, in mm."""
-NAMED = 1.6
-"""Distance of a centre's name from the middle of its pin, in mm."""
+RING = 1.9
+"""Radius of the ring around a pin that is a centre, in mm."""
 STRAIGHT = 1e6
 """Radius in mm of a circle that is a straight line, or none at all, on any page."""
 FAR = 2000.0
@@ -48,8 +48,10 @@ def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 
 def put_named_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """The name of a centre beside its pin, which has a mark already."""
-    name_point(desk, number, step, desk.field(value.start), NAMED)
+    """A centre in a pin: a ring around it, and its name beside it."""
+    at = desk.field(value.start)
+    desk.board.marks.append(Circle(*at, RING, f"centre {desk.colour}", step.name, number))
+    name_point(desk, number, step, at, RING)
 
 
 def put_circle_point(desk: Desk, number: int, step: Step, value: Any) -> None:

@@ -21,6 +21,8 @@ METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
 """The units in which a scene may write lengths."""
 ENDLESS = 1e9
 """A centre so many mechanisms away counts as at infinity."""
+TAGS = "¹²"
+"""What the points of two trial plans bear behind their names."""
 NOISE = 1e-9
 """A quantity this small beside the largest of its kind is rounding and shown as nought."""
 
@@ -148,6 +150,41 @@ class Drawing:
             for number in self.trace.values
             if (hand := steps[number].by_hand) is not None
         }
+
+    def number_of(self, step: Step) -> int:
+        """The number of a step in its program."""
+        return self.numbers[id(step)]
+
+    @cached_property
+    def numbers(self) -> Mapping[int, int]:
+        """The number of each step by its identity."""
+        return {id(step): number for number, step in enumerate(self.trace.program.steps)}
+
+    @cached_property
+    def joins(self) -> Mapping[tuple[int, int], Step]:
+        """The arrows of the plans by the points that they join, whether or not they were run."""
+        return {
+            (step.args[0], step.args[1]): step
+            for step in self.trace.program.steps
+            if step.arrow and step.action is not None and step.action.key == "join"
+        }
+
+    @cached_property
+    def tags(self) -> Mapping[int, str]:
+        """The tag ¹ or ² of each step of the plan that only a trial plan uses."""
+        found: dict[int, str] = {}
+        steps = self.trace.program.steps
+        own = [number for number, _, _ in self.steps(self.plane)]
+        for number in reversed(own):
+            if steps[number].name:
+                tag = steps[number].name[-1]
+                found |= {number: tag} if tag in TAGS else {}
+                continue
+            users = [child for child in self.children.get(number, ()) if child in own]
+            tags = {found.get(child, "") for child in users}
+            if len(tags) == 1 and tags != {""}:
+                found[number] = tags.pop()
+        return found
 
     def settled(self, value: float) -> float:
         """A magnitude of the plan, or nought where it is only rounding beside the largest."""

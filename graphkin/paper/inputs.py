@@ -6,14 +6,15 @@ from cmath import phase
 from collections.abc import Iterator
 from math import degrees, hypot
 
-from graphkin.paper.data import angle_symbol, driver_index, written
+from graphkin.paper.amounts import written
+from graphkin.paper.data import angle_symbol, driver_index
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Arc, Line, Mark
 from graphkin.paper.slides import seat, within
 from graphkin.paper.symbols import BLOCK, across, arrow, head, turned_arrow
-from graphkin.plane import cross
+from graphkin.plane import cross, dot
 from graphkin.scene.model import FRAME, Driver, Slide
 
 ANGLE = 11.0
@@ -26,6 +27,8 @@ BESIDE = 7.5
 """How far the arrow of a driver's speed stands from its guide, in mm."""
 LEAST = 9.0
 """The shortest distance that is dimensioned, in mm."""
+ENOUGH = 4.0
+"""How far points stay from a dimension line, in mm."""
 HALF = 5.5
 """Half the length of the arrow of a driver's speed, in mm."""
 
@@ -64,10 +67,8 @@ def draw_crank(board: Board, drawing: Drawing, field: Field, driver: Driver, rad
     if abs(swept) > 0.5:
         board.marks.append(Arc(*centre, radius, zero, end, "angle", name))
     middle = Arc(*centre, radius, 0, 1, "angle").at(zero + swept / 2)
-    value = drawing.words.decimal(driver.position.written(drawing.scene.values))
-    text = f"{angle_symbol(drawing.scene, driver)} = {value}°"
-    if driver.position.unit == "rad":
-        text = f"{angle_symbol(drawing.scene, driver)} = {value} rad"
+    text = f"{angle_symbol(drawing.scene, driver)} = "
+    text += written(drawing.scene, drawing.words, driver.position)
     board.labels.append(Label(text, "", middle, 2.5, name, away=unit(centre, middle)))
     draw_sense(board, drawing, centre, end, driver, radius - 3)
 
@@ -148,7 +149,8 @@ def draw_way(
     ``lengths`` are the zero, the place and the direction; the arrow stands beside ``drawn``.
     """
     zero, here, along = lengths
-    way, side = field.way(along), outer_side(drawing, here, along)
+    way, aside = field.way(along), free_side(drawing, field, zero, here, along)
+    side = 1 if aside > 0 else -1
     start, end = field(zero), field(here)
     name = f"s {driver.link}"
     text = f"{angle_symbol(drawing.scene, driver)} = "
@@ -156,7 +158,7 @@ def draw_way(
     apart = hypot(end[0] - start[0], end[1] - start[1])
     shown = field.holds(zero, 1) and apart >= LEAST
     if shown:
-        low, high = across(start, way, 0, side * ASIDE), across(end, way, 0, side * ASIDE)
+        low, high = across(start, way, 0, aside), across(end, way, 0, aside)
         board.marks += within(dimension(start, end, low, high, name), field.rect)
         board.labels.append(Label(text, "", (low, high), 2.5, name))
     else:
@@ -172,11 +174,24 @@ def draw_way(
         board.labels.append(label)
 
 
-def outer_side(drawing: Drawing, here: complex, along: complex) -> int:
-    """The side of a line, as a factor to its right, that leads away from the mechanism."""
+def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way: complex) -> float:
+    """How far to the right of a line (mm) a dimension has room: the nearest place that is free.
+
+    Both sides are tried, first the one that leads away from the mechanism; the nearest place on
+    that side where none is free.
+    """
     places = list(drawing.positions.values())
+    low, high = sorted(dot(place - start, way) * field.mm for place in (start, end))
     middle = sum(places) / len(places)
-    return 1 if cross(along, middle - here) >= 0 else -1
+    outer = 1 if cross(way, middle - end) >= 0 else -1
+    right = [
+        -cross(way, place - start) * field.mm
+        for place in places
+        if low - ASIDE < dot(place - start, way) * field.mm < high + ASIDE
+    ]
+    tries = [side * far for far in (ASIDE, 1.6 * ASIDE, 2.2 * ASIDE) for side in (outer, -outer)]
+    free = (far for far in tries if all(abs(far - place) > ENOUGH for place in right))
+    return next(free, outer * ASIDE)
 
 
 def dimension(start: XY, end: XY, low: XY, high: XY, name: str) -> Iterator[Mark]:

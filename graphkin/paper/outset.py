@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from graphkin.paper.data import angle_symbol, written
+from graphkin.paper.amounts import written
+from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.richtext import escape

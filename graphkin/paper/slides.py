@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from graphkin.paper.areas import Rect
+from graphkin.paper.bodies import Guideway
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board
 from graphkin.paper.marks import Line, Mark
-from graphkin.paper.standing import Guideway
 from graphkin.paper.symbols import (
     BLOCK,
     PIVOT,

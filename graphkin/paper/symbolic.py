@@ -7,24 +7,28 @@ import re
 from graphkin.paper.richtext import escape
 
 NAME = re.compile(
-    r"^(?P<letter>[^\W\d_]+)(?P<index>\d*)(?P<prime>[′″‴⁗]?)(?:_(?P<sub>[\w,]+))?"
-    r"(?:\^(?P<sup>\w))?$"
+    r"^(?P<times>\d*)(?P<letter>[^\W\d_¹²]+)(?P<index>\d*(?:,\w+?)?)(?P<prime>[′″‴⁗]?)"
+    r"(?:_(?P<sub>[^\W¹²]+(?:,\w+)?[^\W¹²]*))?(?P<tag>[¹²]?)(?:\^(?P<sup>\w))?$"
 )
 FOURTH = "⁗"
+TAGS = {"¹": "^1", "²": "^2"}
+"""The tags of two trial plans as markup."""
 
 
 def symbol(name: str) -> str:
-    """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts."""
+    """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ its tag."""
     found = NAME.match(name)
     if name.isdigit():
         return name
     if not found:
         return f"*{escape(name)}*"
-    letter, index, prime, sub, sup = found.group("letter", "index", "prime", "sub", "sup")
-    scripts = "".join(part for part in (index, sub) if part)
+    times, letter, index, prime = found.group("times", "letter", "index", "prime")
+    sub, sup, tag = found.group("sub", "sup", "tag")
+    apart = "," if index and sub and sub[0].isdigit() else ""
+    scripts = f"{index}{apart}{sub or ''}"
     low = f"_{{{escape(scripts)}}}" if scripts else ""
-    high = f"^{{{sup}}}" if sup else "^{IV}" if prime == FOURTH else ""
-    return f"*{letter}*{'' if prime == FOURTH else prime}{low}{high}"
+    high = f"^{{{sup}}}" if sup else "^{IV}" if prime == FOURTH else TAGS.get(tag, "")
+    return f"{times}*{letter}*{'' if prime == FOURTH else prime}{low}{high}"
 
 
 def bar(p: str, q: str) -> str:

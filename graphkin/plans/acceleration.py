@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from graphkin.plans import wheels
-from graphkin.plans.carried import coriolis_of, image_under, omega_of, second_image_under
+from graphkin.plans.carried import image_under, omega_of, second_image_under
+from graphkin.plans.coriolis import (
+    coriolis_of,
+    lay_off_coriolis,
+    slide_arrow,
+    slide_coriolis,
+)
 from graphkin.plans.guides import known_guide
-from graphkin.plans.links import Base, crank_tip, under
+from graphkin.plans.links import Base, crank_tip
 from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
 from graphkin.plans.pen import PRIME, Pen, Says, about, letter, named, second_image
-from graphkin.plans.position import crosses_well
+from graphkin.plans.plates import crosses_well
 from graphkin.plans.shape import Shapes
 from graphkin.plans.velocity import driven_rate, line_of
 from graphkin.scene.model import FRAME
-from graphkin.steps.guides import driven_slide, lay_back, lay_off_turned
+from graphkin.steps.guides import driven_slide, lay_off_turned
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
@@ -147,75 +153,6 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
     for pair, _ in sides:
         if isinstance(pair, Contact):
             wheels.second_touch(pen, pair)
-
-
-# --- sliding: Coriolis, and the line along the guide ----------------------------------------------
-
-
-def slide_coriolis(pen: Pen, pair: Joint, link: str, name: str, point: str) -> int | None:
-    """The Coriolis component of a slide; None where what guides does not turn.
-
-    Where the point of a guide's link under a pin is sought (name A@3, point A), the pin's relative
-    velocity counts, else that of the point against what it slides on.
-    """
-    known = partner(pair, link)
-    if "@" in name:
-        tail, tip = pen.the("velocity", name), pen.the("velocity", point)
-        return coriolis_of(pen, link, tail, tip, point, pair.links[0])
-    if not pen.turns(known):
-        return None
-    tail, tip = image_under(pen, known, point), pen.the("velocity", point)
-    return coriolis_of(pen, known, tail, tip, point, pair.links[0])
-
-
-def lay_off_coriolis(
-    pen: Pen, pair: Joint, link: str, name: str, point: str, vector: int | None
-) -> int:
-    """The end of the Coriolis component, laid off from the point under the sliding one.
-
-    Where that is the one that is sought, it is laid off backwards from the sliding one.
-    """
-    if "@" in name:
-        assert vector is not None
-        tip = pen.the("acceleration", point)
-        says = coriolis_says(pen, link, point, named(pen, tip))
-        corner = pen.draw(lay_back, tip, vector, **says)
-        coriolis_arrow(pen, corner, tip, says)
-        return corner
-    start = second_image_under(pen, partner(pair, link), point)
-    if vector is None:
-        return start
-    says = coriolis_says(pen, partner(pair, link), point, named(pen, start))
-    corner = pen.draw(lay_off_turned, start, vector, **says)
-    coriolis_arrow(pen, start, corner, says)
-    return corner
-
-
-def guide_corner(pen: Pen, pair: Joint, link: str, point: str) -> int:
-    """Where the known part of a sliding point's acceleration ends: the point under it, Coriolis."""
-    vector = slide_coriolis(pen, pair, link, point, point)
-    return lay_off_coriolis(pen, pair, link, point, point, vector)
-
-
-def coriolis_says(pen: Pen, link: str, point: str, start: str) -> Says:
-    """The names for a Coriolis component."""
-    return {"i": letter(point) + letter(under(point, link)), "k": link, "q": point, "s": start}
-
-
-def coriolis_arrow(pen: Pen, tail: int, tip: int, says: Says) -> None:
-    """The arrow of a Coriolis component."""
-    symbol = f"a_{says['i']}^c"
-    if symbol not in pen.arrows:
-        pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind="c", q=says["q"], p="")
-
-
-def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:
-    """The arrow of a relative acceleration along a guide that moves."""
-    if link == FRAME:
-        return
-    symbol = f"a_{letter(point)}{letter(under(point, link))}^r"
-    if symbol not in pen.arrows:
-        pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind="r", q=point, p="")
 
 
 def along(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str, corner: int) -> int:

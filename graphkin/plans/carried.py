@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 from graphkin.plans.links import under
-from graphkin.plans.pen import PRIME, Pen, Says, image, letter, second_image
+from graphkin.plans.pen import Pen, Says, image, letter, second_image
 from graphkin.scene.model import FRAME
-from graphkin.steps.guides import (
-    coriolis,
-    coriolis_base,
-    coriolis_by_hand,
-    coriolis_ray,
-)
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     centripetal,
     driven_tangential,
     epsilon,
     in_proportion,
-    meet,
     omega,
-    set_velocity,
     similar_point,
-    square_at,
     turned_velocity,
 )
 
@@ -116,57 +107,3 @@ def found_by_turning(pen: Pen, link: str, point: str, quantity: str) -> int:
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = pen.draw(centripetal, start, *ends, turning, **says)
         return pen.draw(driven_tangential, corner, *ends, rate, name=second_image(name), **says)
-
-
-# --- Coriolis ------------------------------------------------------------------------------------
-
-
-def coriolis_of(pen: Pen, link: str, tail: int, tip: int, point: str, block: str) -> int:
-    """Coriolis acceleration of a relative velocity (tail to tip in the plan) on a turning link.
-
-    ``point`` is where it slides, ``block`` what slides. By hand from two similar triangles: as the
-    guide turns with its pivot, so does twice the relative velocity.
-    """
-    key = ("coriolis", link, tail, tip)
-    if key not in pen.shared:
-        says: Says = {
-            "k": link,
-            "q": point,
-            "i": letter(point) + letter(under(point, link)),
-            "g": block,
-        }
-        by_hand = coriolis_triangle(pen, link, tail, tip, point, says)
-        with pen.on(Part.NORMAL, Plane.NUMBERS):
-            name = f"a_{says['i']}^c"
-            rate = omega_of(pen, link)
-            pen.shared[key] = pen.draw(
-                coriolis, rate, tail, tip, name=name, by_hand=by_hand, **says
-            )
-    return pen.shared[key]
-
-
-def coriolis_triangle(
-    pen: Pen, link: str, tail: int, tip: int, point: str, says: Says
-) -> int | None:
-    """The hand's way: on the guide's pivot twice the relative velocity, and the like triangle."""
-    owner = pen.turner(link)
-    if owner is None or pen.bases[owner].end is None:
-        return None
-    base = pen.bases[owner]
-    assert base.end is not None
-    pivot, pin = (pen.the("position", name) for name in (base.start, base.end))
-    images = pen.the("velocity", base.start), pen.the("velocity", base.end)
-    seconds = pen.seconds()
-    small, index = letter(point).lower(), says["i"]
-    says = {**says, "p": letter(base.start), "q": letter(base.end)}
-    with pen.hands_way():
-        with pen.on(Part.NORMAL, Plane.MECHANISM):
-            end = pen.draw(
-                set_velocity, pin, *images, seconds, name=f"{small}{PRIME}_c{index}", **says
-            )
-            foot = pen.draw(coriolis_base, pivot, tail, tip, seconds, name=f"e_{index}", **says)
-            edge = pen.draw(square_at, foot, pivot, **says, tip=f"e_{index}")
-            lean = pen.draw(coriolis_ray, foot, pivot, pin, end, **says)
-            top = pen.draw(meet, edge, lean, name=f"f_{index}", **says)
-        with pen.on(Part.NORMAL, Plane.NUMBERS):
-            return pen.draw(coriolis_by_hand, foot, top, seconds, **says)

@@ -9,13 +9,16 @@ from graphkin.plans import (
     centres,
     cylinder,
     higher,
+    plates,
     position,
     rolling,
+    trials,
     velocity,
     wheels,
 )
+from graphkin.plans.branches import refuse_unstated, unused_branches
 from graphkin.plans.guides import axis, standing_guide
-from graphkin.plans.links import Base, bases, crank_tip, leads_of, refuse_unstated, unused_branches
+from graphkin.plans.links import Base, bases, crank_tip, leads_of
 from graphkin.plans.pen import Pen
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import Scene
@@ -99,7 +102,7 @@ def place(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> No
             higher.position(pen, shapes, group, place)
             return
     for base in found:
-        position.plate_points(pen, shapes, base)
+        plates.plate_points(pen, shapes, base)
 
 
 def write_turning(pen: Pen, shapes: Shapes) -> None:
@@ -144,7 +147,7 @@ def move(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> Non
         case Train():
             wheels.train(pen, group)
         case Higher():
-            higher.velocity(pen, shapes, group, move)
+            trials.velocity(pen, shapes, group, move)
             return
     for base in found:
         velocity.plate_points(pen, shapes, base)
@@ -181,7 +184,7 @@ def accelerate(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) 
         case Train():
             wheels.second_train(pen, group)
         case Higher():
-            higher.acceleration(pen, shapes, group, accelerate)
+            trials.acceleration(pen, shapes, group, accelerate)
             return
     for base in found:
         acceleration.plate_points(pen, shapes, base)

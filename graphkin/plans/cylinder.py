@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.plans import acceleration, position, velocity
-from graphkin.plans.carried import coriolis_of
+from graphkin.plans.coriolis import coriolis_arrow, coriolis_of, slide_arrow
 from graphkin.plans.guides import local_line
 from graphkin.plans.links import under
 from graphkin.plans.pen import Pen, Says, image, letter, named, second_image
@@ -86,10 +86,10 @@ def accelerate(pen: Pen, shapes: Shapes, group: Stretched) -> None:
     index: Says = {"i": letter(point) + letter(foot), "k": far, "q": point, "s": named(pen, start)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = pen.draw(lay_off_turned, start, vector, **index)
-        acceleration.coriolis_arrow(pen, start, corner, index)
+        coriolis_arrow(pen, start, corner, index)
         name = second_image(foot)
         found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)
-        acceleration.slide_arrow(pen, corner, found, far, point)
+        slide_arrow(pen, corner, found, far, point)
     pen.want("acceleration", foot, found)
     acceleration.dyad(pen, shapes, group.dyad)
 

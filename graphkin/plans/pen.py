@@ -8,7 +8,8 @@ from typing import Any
 
 from graphkin.arithmetic import FLOAT
 from graphkin.errors import ClosureError
-from graphkin.plans.links import Base, block_of, side_of, way_of
+from graphkin.plans.branches import block_of, side_of, way_of
+from graphkin.plans.links import Base
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.steps.program import CONTACT, Drive, Given, Part, Plane, Program, Step, Target
 from graphkin.steps.run import StepFailed, evaluate

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from graphkin.errors import Problem, StructureError
-from graphkin.plane import Line, crossing_sine
 from graphkin.plans import rolling
 from graphkin.plans.guides import (
     axis,
@@ -14,8 +13,9 @@ from graphkin.plans.guides import (
     path_of,
     turned_with,
 )
-from graphkin.plans.links import Base, crank_tip, led_point
+from graphkin.plans.links import crank_tip, led_point
 from graphkin.plans.pen import Pen, Says
+from graphkin.plans.plates import arc, plate_points
 from graphkin.plans.shape import Shapes, place
 from graphkin.scene.model import Apart, Link
 from graphkin.steps.guides import (
@@ -24,7 +24,6 @@ from graphkin.steps.guides import (
     from_foot,
     half,
     middle,
-    placed,
     set_at,
     set_back,
     size,
@@ -42,23 +41,13 @@ from graphkin.steps.vocabulary import (
     mark_off,
     meet,
     ray,
-    similar_point,
-    step_along,
 )
 from graphkin.structure.graph import Contact, Pin, Sliding
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie
 from graphkin.structure.joints import Joint
 
-CLEAR_CROSSING = 0.342
-"""Sine of 20 degrees: below it a plate point is found by similarity, not by two flat lines."""
-
-
 FITS = 1e-6
 """Misfit of an idle link, in parts of its length, that printed lengths may leave."""
-
-
-IN_LINE = 1e-9
-"""How far beside its line, in parts of its distance, a plate point still counts as on it."""
 
 
 def frame(pen: Pen) -> None:
@@ -295,84 +284,3 @@ def refuse_misfit(pen: Pen, shapes: Shapes, group: Tie) -> None:
             "or take a driver away, if the link is to move the rest",
         )
     )
-
-
-def arc(pen: Pen, shapes: Shapes, link: str, centre: str, point: str) -> int:
-    """The arc on which a point of a bar lies about its other end."""
-    length = shapes.length(link, centre, point)
-    return pen.draw(compass, pen.the("position", centre), length, p=centre, q=point)
-
-
-# --- the other points of a link ------------------------------------------------------------------
-
-
-def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
-    """The other points of a link: by hand two arcs, in value the figure similar to the link."""
-    for point in base.others:
-        if pen.has("position", point):
-            continue
-        if base.end is None or "@" in base.end:
-            found = set_by_axis(pen, shapes, base, point)
-        else:
-            ends = pen.the("position", base.start), pen.the("position", base.end)
-            ratio = shapes.ratio(base.link, base.start, base.end, point)
-            by_hand = hands_way(pen, shapes, base, point)
-            with pen.on(Part.POSITION, Plane.MECHANISM):
-                says: Says = {"p": base.start, "q": base.end, "r": point}
-                found = pen.draw(similar_point, *ends, ratio, name=point, by_hand=by_hand, **says)
-        pen.want("position", point, found)
-
-
-def set_by_axis(pen: Pen, shapes: Shapes, base: Base, point: str) -> int:
-    """A point of a link that is turned to its axis already; on its own guide it is laid off."""
-    line = pen.shared.get(("swing", base.link))
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        if line is not None and runs_along(pen, base, point):
-            length = shapes.length(base.link, base.start, point)
-            return pen.draw(mark_off, line, length, name=point, p=base.start, q=point)
-        here = (pen.the("position", base.start), axis(pen, shapes, base.link))
-        ends = shapes.local(base.link, base.start), shapes.local(base.link, point)
-        return pen.draw(placed, *here, *ends, name=point, p=base.start, g=base.link, q=point)
-
-
-def runs_along(pen: Pen, base: Base, point: str) -> bool:
-    """Whether a guide is written along the way from a link's pivot to one of its points."""
-    for link in pen.scene.links.values():
-        for slide in link.slides:
-            if slide.on == base.link and slide.along == (base.start, point):
-                return True
-    return False
-
-
-def hands_way(pen: Pen, shapes: Shapes, base: Base, point: str) -> int | None:
-    """An arc about each end of the base; on its own line the distance is laid off."""
-    assert base.end is not None
-    ratio = pen.peek(shapes.ratio(base.link, base.start, base.end, point))
-    if ratio is None or ratio == 0:
-        return None
-    if abs(ratio.imag) > IN_LINE * abs(ratio):
-        return two_arcs(pen, shapes, base, point)
-    start, end = pen.the("position", base.start), pen.the("position", base.end)
-    length = shapes.length(base.link, base.start, point)
-    sense = 1 if ratio.real > 0 else -1
-    with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
-        says: Says = {"p": base.start, "q": base.end, "r": point}
-        return pen.draw(step_along, start, start, end, length, extra=(sense,), **says)
-
-
-def two_arcs(pen: Pen, shapes: Shapes, base: Base, point: str) -> int:
-    """The hand's way to a plate point: an arc about each end of the base."""
-    assert base.end is not None
-    side = 1 if pen.peek(shapes.ratio(base.link, base.start, base.end, point)).imag > 0 else -1
-    with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
-        near = arc(pen, shapes, base.link, base.start, point)
-        far = arc(pen, shapes, base.link, base.end, point)
-        return pen.draw(arcs_meet, near, far, extra=(side,), p=base.start, q=base.end)
-
-
-def crosses_well(pen: Pen, ratio: int) -> bool:
-    """True when the two bars to a plate point cross at an angle that a hand can draw."""
-    value = pen.peek(ratio)
-    if value in (None, 0, 1):
-        return False
-    return bool(crossing_sine(Line(0j, value), Line(1 + 0j, value - 1)) >= CLEAR_CROSSING)

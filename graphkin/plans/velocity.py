@@ -7,7 +7,8 @@ from graphkin.plans.carried import image_under, omega_of
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import Base, crank_tip, under
 from graphkin.plans.pen import Pen, Says, image, letter, named
-from graphkin.plans.position import crosses_well, led_path
+from graphkin.plans.plates import crosses_well
+from graphkin.plans.position import led_path
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import FRAME
 from graphkin.steps.guides import driven_slide

@@ -17,7 +17,7 @@ from graphkin.scene.model import Scene
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.structure.drivers import driver_problem
-from graphkin.structure.groups import decompose
+from graphkin.structure.order import decompose
 
 WORST = 3
 """Flattest crossings shown."""

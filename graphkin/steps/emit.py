@@ -96,7 +96,7 @@ def numpy_source(graph: Graph, outputs: Sequence[int]) -> tuple[str, int]:
     body = [line for number in order for line in rooms.written(number)]
     opening = [f"t{room} = t[{room}]" for room in range(rooms.count)]
     opening += [f"y{place} = y[{place}]" for place in range(len(outputs))]
-    lines = ["def block(x, y, t):", *(f"    {line}" for line in (*opening, *body))]
+    lines = ["def block(x, y, t):", *(f"    {line}" for line in (*opening, *body, "return"))]
     return "\n".join(lines) + "\n", rooms.count
 
 

@@ -9,8 +9,9 @@ from dataclasses import replace
 from graphkin.errors import Problem, StructureError
 from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
 from graphkin.structure.graph import contacts, pairs, sharers
-from graphkin.structure.groups import Group, Higher, Tie, Unresolved, decompose
+from graphkin.structure.groups import Group, Higher, Tie, Unresolved
 from graphkin.structure.mobility import count
+from graphkin.structure.order import decompose
 
 RANK = "the rank of the constraints"
 

@@ -10,18 +10,15 @@ from dataclasses import replace
 
 from graphkin.scene.model import Driver
 from graphkin.structure.graph import Contact, Pin
-from graphkin.structure.groups import (
-    Group,
-    Higher,
-    Tie,
-    Trial,
+from graphkin.structure.groups import Group, Higher, Tie, Trial
+from graphkin.structure.joints import Joint, Joints, partner, taken
+from graphkin.structure.order import (
     next_driven,
     next_group,
     next_stretched,
     next_tie,
     settle,
 )
-from graphkin.structure.joints import Joint, Joints, partner, taken
 
 
 def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Higher | None:

@@ -21,8 +21,8 @@ from graphkin.mechanism import Mechanism
 from graphkin.plans.compile import write
 from graphkin.scene.read import read_scene
 from graphkin.steps.batch import run_blocks
-from graphkin.steps.fast import Press
-from graphkin.structure.groups import decompose
+from graphkin.steps.press import Press
+from graphkin.structure.order import decompose
 
 DYADS = (2, 5, 10, 20, 50, 100, 200)
 FITTED = 20
@@ -80,7 +80,7 @@ def costs(dyads: int) -> dict[str, float]:
     with np.errstate(all="ignore"):
         run = partial(run_blocks, program, needed, values, batch_kind(), keep)
         found[f"{POSITIONS} positions, step by step"] = timed(run)
-        emit = partial(press.run, needed, values, keep, compiled=False)
+        emit = partial(press.run, needed, values, keep, way="numpy")
         found["tracing and writing source"] = timed(lambda: emitted_anew(press, emit))
         found[f"{POSITIONS} positions, emitted"] = timed(emit)
     return found

@@ -16,7 +16,7 @@ import numpy as np
 from graphkin.arithmetic import batch_kind
 from graphkin.mechanism import Mechanism, load
 from graphkin.steps.batch import run_blocks
-from graphkin.steps.fast import Press
+from graphkin.steps.press import Press, Way
 from graphkin.steps.run import Trace
 from tests.bench.four_bar_in_c import compiled
 from tests.bench.linkages import PINS, SCENES, peer
@@ -42,10 +42,10 @@ class Turn:
         with np.errstate(all="ignore"):
             return run_blocks(program, self.needed, values, batch_kind(), self.keep)
 
-    def emitted(self, *, compiled: bool) -> Trace:
+    def emitted(self, way: Way) -> Trace:
         """The emitted source."""
         with np.errstate(all="ignore"):
-            return self.press.run(self.needed, {"phi": self.degrees}, self.keep, compiled=compiled)
+            return self.press.run(self.needed, {"phi": self.degrees}, self.keep, way=way)
 
 
 def mechanism_of(text: str) -> Mechanism:
@@ -88,9 +88,9 @@ def rows(name: str, size: int) -> list[tuple[str, float]]:
     if find_spec("pylinkage") and find_spec("numba"):
         ways["pylinkage, its numba path"] = peer(name, size)[0]
     ways["ours, step by step on arrays"] = turn.plain
-    ways["ours, emitted numpy"] = partial(turn.emitted, compiled=False)
+    ways["ours, emitted numpy"] = partial(turn.emitted, "numpy")
     if find_spec("numba"):
-        ways["ours, emitted and compiled"] = partial(turn.emitted, compiled=True)
+        ways["ours, emitted and compiled"] = partial(turn.emitted, "numba")
     with tempfile.TemporaryDirectory() as folder:
         loop = compiled(Path(folder)) if name == "four-bar" else None
         if loop is not None:
@@ -106,12 +106,13 @@ def settle() -> None:
 def before(name: str) -> list[tuple[str, float]]:
     """What is spent once, before the first position: tracing, writing source, compiling."""
     found = []
-    for way, compile_it in (("emitted numpy", False), ("compiled", True)):
-        if compile_it and not find_spec("numba"):
+    ways: tuple[tuple[str, Way], ...] = (("emitted numpy", "numpy"), ("compiled", "numba"))
+    for words, way in ways:
+        if way == "numba" and not find_spec("numba"):
             continue
         turn = turn_of(name, 1)
-        turn_of("slider-crank", 1).emitted(compiled=compile_it)
-        found.append((way, once(partial(turn.emitted, compiled=compile_it))))
+        turn_of("slider-crank", 1).emitted(way)
+        found.append((words, once(partial(turn.emitted, way))))
     return found
 
 

@@ -53,7 +53,7 @@ def peers() -> list[str]:
 
 def by_rows(turn: Turn) -> np.ndarray:
     """Pins by six by positions, as the formulas give them."""
-    found = turn.emitted(compiled=False).values
+    found = turn.emitted("numpy").values
     values = iter([found[number] for number in turn.keep])
     pins = zip(values, values, values, strict=True)
     return np.array([[part for v in pin for part in (v.real, v.imag)] for pin in pins])

@@ -88,7 +88,7 @@ def test_a_law_of_time_is_named(four_bar: Callable[..., Path]) -> None:
 def test_a_scene_that_asks_nothing_is_asked_everything(four_bar: Callable[..., Path]) -> None:
     path = four_bar(ask="")
     mechanism = load(path)
-    everything = len(mechanism.program.needed(mechanism.program.targets))
+    everything = len(mechanism.program.needed(mechanism.program.answers))
     assert sum(e.steps for e in of(path).values() if e.name != "by-hand marks") == everything
 
 

@@ -244,6 +244,8 @@ def test_the_centrodes_of_cardans_cross_are_circles_of_radius_l_and_of_diameter_
     about = [abs(z - middle) for run in moving.runs for z in run]
     assert out == pytest.approx([0.1] * len(out), rel=1e-9)
     assert about == pytest.approx([0.05] * len(about), rel=1e-9)
+    ends = [min(run[0].imag, run[-1].imag, key=abs) for run in fixed.runs]
+    assert all(abs(y) < 1e-3 for y in ends)
     assert fixed.now == pytest.approx((0.1 - 0.1j) / 2**0.5, rel=1e-9)
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from cmath import exp
+from collections import Counter
+from dataclasses import replace
 from itertools import combinations
 from math import hypot, pi
 
@@ -16,7 +18,7 @@ from graphkin.report.centres import place_of
 from graphkin.scene.read import read_text
 from graphkin.steps.program import Part
 from graphkin.steps.solution import Solution
-from tests.mechanisms import HEAD, LAW, mechanism_of, mechanisms
+from tests.mechanisms import HEAD, LAW, mechanism_of, mechanisms, shipped
 
 FOUR_BAR = """
 [frame]
@@ -62,6 +64,31 @@ speed = 12
 3 = "forward"
 [ask]
 {ask}
+"""
+FIVE_BAR = """
+[frame]
+O1 = [0, 0]
+O2 = [1.6, 0]
+[links.1]
+O1-A = 0.7
+[links.2]
+A-C = 1.2
+[links.3]
+B-C = 1.1
+[links.4]
+O2-B = 0.6
+[[drivers]]
+turn = 1
+angle = 110
+speed = 10
+[[drivers]]
+turn = 4
+angle = 60
+speed = -4
+[branches]
+C = "left of A-B"
+[ask]
+centres = "all"
 """
 ALL = 'centres = "all"'
 NEAR = 1e-9
@@ -187,6 +214,39 @@ def test_all_six_centres_of_a_four_bar_are_found_by_hand():
         (s.says["m"], s.says["n"]) for s in steps if s.action and s.action.key == "kennedy-line"
     ]
     assert lines == [("I01", "I12"), ("I03", "I23"), ("I01", "I03"), ("I12", "I23")]
+
+
+def test_all_centres_of_the_pump_are_found_by_two_lines_or_at_once():
+    """Six links have fifteen centres: six pins, a guide, and eight by Kennedy."""
+    scene = shipped("pump", 7).scene
+    pairs = tuple("-".join(pair) for pair in combinations(("0", *scene.links), 2))
+    mechanism = Mechanism(replace(scene, ask=scene.ask._replace(pairs=pairs)))
+    trace = mechanism.trace([("centre", pair) for pair in pairs], by_hand=True)
+    keys = Counter(
+        step.action.key
+        for step in (mechanism.program.steps[number] for number in trace.values)
+        if step.part is Part.CENTRE and step.action
+    )
+    assert (keys["pin-centre"], keys["guide-centre"]) == (6, 1)
+    assert keys["relative-centre"] == keys["kennedy-meet"] == 8
+    assert keys["kennedy-line"] == 16
+
+
+def test_where_the_circle_diagram_stops_the_velocity_plan_gives_a_centre():
+    """A five-bar has no two triangles that share a missing side; one centre comes by normals."""
+    mechanism = mechanism_of(FIVE_BAR)
+    trace = mechanism.trace([("centre", f"0-{k}") for k in (2, 3)], by_hand=True)
+    hands = [
+        mechanism.program.steps[step.by_hand].action.key
+        for step in (mechanism.program.steps[number] for number in trace.values)
+        if step.action and step.action.key == "relative-centre" and step.by_hand in trace.values
+    ]
+    assert sorted(hands) == ["kennedy-meet", "normals-meet"]
+    for number, value in trace.values.items():
+        step = mechanism.program.steps[number]
+        if step.by_hand in trace.values and step.part is Part.CENTRE:
+            drawn = place_of(trace.values[step.by_hand], 1.0)
+            assert drawn == pytest.approx(place_of(value, 1.0), rel=1e-9)
 
 
 def test_the_velocity_ratio_is_that_of_the_distances_to_the_relative_centre():

@@ -15,22 +15,25 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.plane import Line, Ratio
 from graphkin.steps.batch import run_batch, run_blocks
 from graphkin.steps.emit import loop_source, numpy_source
-from graphkin.steps.fast import EMITTED_FROM, Press, loop_names, sin45
+from graphkin.steps.emitted import BLOCK, loop_names, sin45
 from graphkin.steps.gather import smallest_margin
 from graphkin.steps.graph import COMMUTING, Graph
+from graphkin.steps.press import COMPILED_FROM, EMITTED_FROM, Press, best_way
 from graphkin.steps.program import Part, Plane, Program, Step
-from graphkin.steps.tracer import Number, UntraceableError, traced_kind
+from graphkin.steps.traced import Number, UntraceableError
+from graphkin.steps.tracer import traced_kind
 from graphkin.steps.vocabulary import action
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
 WAYS = [
-    False,
-    pytest.param(True, marks=pytest.mark.skipif(not HAS_NUMBA, reason="numba is an extra")),
+    "numpy",
+    pytest.param("numba", marks=pytest.mark.skipif(not HAS_NUMBA, reason="numba is an extra")),
 ]
 TOLERANCE = 1e-13
-SIZE = 3 * EMITTED_FROM + 17
+SIZE = BLOCK + 17
 """More than a strip and a block, and a whole number of neither."""
+POSITIONS = 500
 
 
 def swept(tmp_path: Path, name: str, driver: str, span: tuple[float, float]) -> Mechanism:
@@ -63,16 +66,16 @@ def both(
     mechanism: Mechanism,
     arrays: dict[str, np.ndarray],
     *,
-    compiled: bool,
+    way: str,
     margins: bool = False,
 ) -> tuple[list[tuple[int, np.ndarray]], list[tuple[int, np.ndarray]]]:
     """All values, and margins, of the emitted run and of the plain one, as real columns."""
     program, values = mechanism.program, {**mechanism.scene.values, **arrays}
-    targets = mechanism.asked() if compiled else program.answers
+    targets = mechanism.asked() if way == "numba" else program.answers
     needed, keep = program.needed(targets), [program.targets[target] for target in targets]
     press = Press(program)
     with np.errstate(all="ignore"):
-        ours = press.run(needed, values, keep, margins=margins, compiled=compiled)
+        ours = press.run(needed, values, keep, margins=margins, way=way)
         plain = run_blocks(program, needed, values, batch_kind(), keep, margins=margins)
     assert list(press.kept.values()) != [None], "the program was not traced at all"
     assert ours.values.keys() == plain.values.keys()
@@ -109,13 +112,13 @@ def assert_same(ours, plain, steps) -> None:
         assert away <= TOLERANCE * largest, step
 
 
-@pytest.mark.parametrize("compiled", WAYS)
+@pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize(
     "name", ["pump", "pump-collinear", "six-bar", "engine", "crank-rocker", "offset-slider-crank"]
 )
-def test_emitted_source_gives_the_values_of_the_batch_run(tmp_path, name, compiled):
+def test_emitted_source_gives_the_values_of_the_batch_run(tmp_path, name, way):
     mechanism, arrays = case(tmp_path, name)
-    assert_same(*both(mechanism, arrays, compiled=compiled), mechanism.program.steps)
+    assert_same(*both(mechanism, arrays, way=way), mechanism.program.steps)
 
 
 CLEAR = 0.1
@@ -124,7 +127,7 @@ CLEAR = 0.1
 
 def driven(mechanism: Mechanism) -> dict[int, np.ndarray]:
     """Arrays for the given positions of all drivers, from where the scene has them."""
-    trace, way = mechanism.trace(), np.linspace(0, 1, EMITTED_FROM)
+    trace, way = mechanism.trace(), np.linspace(0, 1, POSITIONS)
     found: dict[int, np.ndarray] = {}
     for drive in mechanism.program.drives:
         here = trace.values.get(drive.position)
@@ -152,13 +155,13 @@ def test_every_scene_that_can_be_followed_runs_the_same_by_source(path):
     arrays = {number: array for number, array in arrays.items() if number in needed}
     values, press = mechanism.scene.values, Press(program)
     with np.errstate(all="ignore"):
-        ours = press.run(needed, values, keep, margins=True, overrides=arrays)
+        ours = press.run(needed, values, keep, margins=True, overrides=arrays, way="numpy")
         plain = run_batch(
             program, needed, values, batch_kind(), keep, margins=True, overrides=arrays
         )
     closes = any(step.action and step.action.key == "part" for step in program.steps)
     assert closes or None not in press.kept.values(), "not followed"
-    clear = np.broadcast_to(smallest_margin(plain) > CLEAR, EMITTED_FROM)
+    clear = np.broadcast_to(smallest_margin(plain) > CLEAR, POSITIONS)
     turning = max((peak(plain.value(*t), clear) for t in targets if t[0] == "omega"), default=0)
     least = {"omega": turning, "epsilon": turning**2}
     for what in {what for what, _ in targets} - {"centre", "pole"}:
@@ -168,20 +171,20 @@ def test_every_scene_that_can_be_followed_runs_the_same_by_source(path):
             assert peak(mine - theirs, clear) <= 1e-12 * largest, target
 
 
-@pytest.mark.parametrize("compiled", WAYS)
-def test_margins_come_with_the_values(tmp_path, compiled):
+@pytest.mark.parametrize("way", WAYS)
+def test_margins_come_with_the_values(tmp_path, way):
     mechanism, arrays = case(tmp_path, "pump")
-    ours, plain = both(mechanism, arrays, compiled=compiled, margins=True)
-    assert len(plain) > len(mechanism.program.answers if not compiled else mechanism.asked())
+    ours, plain = both(mechanism, arrays, way=way, margins=True)
+    assert len(plain) > len(mechanism.program.answers if way == "numpy" else mechanism.asked())
     assert_same(ours, plain, mechanism.program.steps)
 
 
-@pytest.mark.parametrize("compiled", WAYS)
-def test_what_cannot_be_drawn_is_nan_in_both(tmp_path, compiled):
+@pytest.mark.parametrize("way", WAYS)
+def test_what_cannot_be_drawn_is_nan_in_both(tmp_path, way):
     """A coupler too short to reach round: the linkage closes only on a part of the turn."""
     mechanism, arrays = case(tmp_path, "crank-rocker")
     arrays |= {"L": np.linspace(20, 100, SIZE)}
-    ours, plain = both(mechanism, arrays, compiled=compiled)
+    ours, plain = both(mechanism, arrays, way=way)
     lost = [np.isnan(values).mean() for _, values in plain if np.ndim(values)]
     assert 0.05 < max(lost) < 0.95
     masks, others = nowhere(ours), nowhere(plain)
@@ -190,8 +193,8 @@ def test_what_cannot_be_drawn_is_nan_in_both(tmp_path, compiled):
         assert np.all(same), mechanism.program.steps[number]
 
 
-@pytest.mark.parametrize("compiled", WAYS)
-def test_a_value_given_as_an_array_takes_the_place_of_a_step(compiled):
+@pytest.mark.parametrize("way", WAYS)
+def test_a_value_given_as_an_array_takes_the_place_of_a_step(way):
     mechanism = load("pump")
     program = mechanism.program
     turn = next(n for n, s in enumerate(program.steps) if s.given and s.given.form == "direction")
@@ -199,7 +202,7 @@ def test_a_value_given_as_an_array_takes_the_place_of_a_step(compiled):
     needed, keep = program.needed(targets), [program.targets[target] for target in targets]
     ways = {turn: np.exp(1j * np.linspace(0.5, 1.5, SIZE))}
     values = mechanism.scene.values
-    ours = Press(program).run(needed, values, keep, overrides=ways, compiled=compiled)
+    ours = Press(program).run(needed, values, keep, overrides=ways, way=way)
     plain = run_batch(program, needed, values, batch_kind(), keep, overrides=ways)
     assert_same(flat(ours), flat(plain), program.steps)
 
@@ -307,7 +310,7 @@ def test_what_is_not_asked_is_not_emitted():
 
     def lines(*targets):
         press, keep = Press(program), [program.targets[target] for target in targets]
-        press.run(program.needed(targets), arrays, keep, compiled=False)
+        press.run(program.needed(targets), arrays, keep, way="numpy")
         (emitted,) = press.kept.values()
         return numpy_source(emitted.graph, emitted.outputs)[0].count("\n")
 
@@ -347,9 +350,40 @@ def test_a_program_that_cannot_be_followed_runs_as_before():
     first = next(n for n, s in enumerate(given) if s.given and "n" in s.given.uses())
     steps = (given[first], Step(stubborn, (0,), Part.SHAPE, Plane.NUMBERS))
     press = Press(Program(steps, {("twice", "n"): 1}))
-    found = press.run((0, 1), {"n": np.linspace(1, 30, SIZE)}, (0, 1))
+    found = press.run((0, 1), {"n": np.linspace(1, 30, SIZE)}, (0, 1), way="numpy")
     assert list(press.kept.values()) == [None]
     np.testing.assert_array_equal(found.values[1], 2 * found.values[0])
+
+
+@pytest.mark.parametrize("way", ["steps", "numpy"])
+def test_where_a_block_ends_does_not_show(way):
+    program = load("pump").program
+    keep = [program.targets["acceleration", "D"]]
+    needed = program.needed([("acceleration", "D")])
+    press, n = Press(program), np.linspace(1, 30, SIZE)
+
+    def found(part: np.ndarray) -> np.ndarray:
+        return press.run(needed, {"n": part}, keep, way=way).values[keep[0]]
+
+    np.testing.assert_array_equal(found(n), np.concatenate([found(n[:1000]), found(n[1000:])]))
+
+
+def test_source_is_written_when_it_pays():
+    """Small batches go step by step; for the same, source is written once."""
+    mechanism = load("pump")
+    mechanism.batch(n=np.linspace(1, 30, EMITTED_FROM - 1))
+    assert not mechanism.press.kept
+    for size in (EMITTED_FROM, EMITTED_FROM + 1):
+        mechanism.batch(n=np.linspace(1, 30, size))
+        assert len(mechanism.press.kept) == 1
+
+
+def test_the_way_is_chosen_by_the_number_of_variants(monkeypatch):
+    assert best_way(EMITTED_FROM - 1) == "steps"
+    monkeypatch.setattr("graphkin.steps.press.find_spec", lambda name: name)
+    assert (best_way(COMPILED_FROM - 1), best_way(COMPILED_FROM)) == ("numpy", "numba")
+    monkeypatch.setattr("graphkin.steps.press.find_spec", lambda name: None)
+    assert best_way(COMPILED_FROM) == "numpy"
 
 
 def test_records_of_lines_come_back_as_records():
@@ -361,6 +395,6 @@ def test_records_of_lines_come_back_as_records():
     first = next(n for n, s in enumerate(given) if s.given and "n" in s.given.uses())
     steps = (given[first], Step(upright, (0,), Part.SHAPE, Plane.NUMBERS))
     press = Press(Program(steps, {("line", "n"): 1}))
-    found = press.run((0, 1), {"n": np.linspace(1, 30, SIZE)}, (0, 1), compiled=False)
+    found = press.run((0, 1), {"n": np.linspace(1, 30, SIZE)}, (0, 1), way="numpy")
     assert isinstance(found.values[1], Line)
     np.testing.assert_array_equal(found.values[1].along, 1j * found.values[0])

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from graphkin.errors import StructureError
 from graphkin.structure.graph import Contact, Pin, pairs
-from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Higher, Tie, decompose
+from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Higher, Tie
 from graphkin.structure.mobility import count, kutzbach
+from graphkin.structure.order import decompose
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, scene_of, shipped
 from tests.structure.test_contacts import ALONE, train
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.report.structure import group_lines, structure
-from graphkin.structure.groups import decompose
+from graphkin.structure.order import decompose
 from tests.mechanisms import scene_of
 from tests.structure.test_contacts import ALONE, plates, rack, train
 from tests.structure.test_groups import (

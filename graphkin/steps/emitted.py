@@ -1,33 +1,23 @@
-"""Many variants by emitted source: a program traced once, then run as numpy or as a numba loop."""
+"""A traced program as something to run: its source as numpy functions, or as a compiled loop."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from importlib.util import find_spec
 from typing import Any
 
-from graphkin.arithmetic import batch_kind
 from graphkin.plane import Circle, Line, Ratio, Vector
-from graphkin.steps.batch import is_array, made_ready, run_batch, run_blocks, run_moving
 from graphkin.steps.emit import Column, loop_source, numpy_source
 from graphkin.steps.graph import Graph
 from graphkin.steps.program import Program
-from graphkin.steps.run import Trace, Values
-from graphkin.steps.tracer import Number, UntraceableError, traced_kind
+from graphkin.steps.run import Trace
+from graphkin.steps.traced import Number
 
 BLOCK = 8192
 """Variants run at once by numpy: few enough for the cache, enough to pay for each call."""
-EMITTED_FROM = 2_000
-"""Variants from which source is written: tracing costs about as much as they do."""
-COMPILED_FROM = 100_000
-"""Variants from which the compiled loop is used, where numba is installed."""
 RECORDS = (Ratio, Line, Circle, Vector)
-
-Overrides = Mapping[int, Any]
-"""Values, or arrays of them, in place of those of steps."""
 
 
 @dataclass(frozen=True)
@@ -168,116 +158,3 @@ def sin45(x: float) -> float:
     s = s * z + 1 / 120
     s = s * z - 1 / 6
     return x + x * (z * s)
-
-
-@dataclass
-class Press:
-    """Runs a program on many variants: by emitted source, made once for what is asked, or plainly.
-
-    ``kept`` holds None for what source cannot follow.
-    """
-
-    program: Program
-    kept: dict[tuple[Any, ...], Emitted | None] = field(default_factory=dict)
-
-    def run(
-        self,
-        needed: Sequence[int],
-        values: Values,
-        keep: Sequence[int],
-        *,
-        margins: bool = False,
-        overrides: Overrides | None = None,
-        compiled: bool | None = None,
-    ) -> Trace:
-        """As run_blocks: what cannot be drawn is NaN; the caller wraps it in numpy's errstate.
-
-        ``overrides`` gives arrays in place of the values of steps. ``compiled`` asks for numba or
-        for none of it; None leaves that to the number of variants.
-        """
-        overrides = overrides or {}
-        size = size_of((*values.values(), *overrides.values()))
-        if compiled is None:
-            compiled = size >= COMPILED_FROM and find_spec("numba") is not None
-        if size >= EMITTED_FROM or compiled:
-            emitted = self.emitted(needed, values, keep, margins, overrides)
-            if emitted is not None:
-                return emitted.run(inputs_of(values, overrides), size, compiled=compiled)
-        if overrides:
-            kind = batch_kind()
-            return run_batch(
-                self.program, needed, values, kind, keep, margins=margins, overrides=overrides
-            )
-        return run_blocks(self.program, needed, values, batch_kind(), keep, margins=margins)
-
-    def emitted(
-        self,
-        needed: Sequence[int],
-        values: Values,
-        keep: Sequence[int],
-        margins: bool,
-        overrides: Overrides,
-    ) -> Emitted | None:
-        """The program emitted for some targets, inputs and constants; made once for each."""
-        key = (tuple(needed), tuple(keep), margins, marked(values), marked(overrides))
-        if key not in self.kept:
-            try:
-                found = traced(self.program, needed, values, keep, margins, overrides)
-            except UntraceableError:
-                self.kept[key] = None
-            else:
-                self.kept[key] = found
-        return self.kept[key]
-
-
-def size_of(values: Iterable[Any]) -> int:
-    """How many variants there are."""
-    return max((len(value) for value in values if is_array(value)), default=1)
-
-
-def marked(values: Mapping[Any, Any]) -> tuple[Any, ...]:
-    """Each name with its constant, or with the sort of array that it has."""
-    return tuple((name, v.dtype.kind if is_array(v) else (v,)) for name, v in values.items())
-
-
-def inputs_of(values: Values, overrides: Overrides) -> dict[str, Any]:
-    """Plain arrays of floats for all inputs by name, two for a point."""
-    import numpy as np
-
-    found = {name: value for name, value in values.items() if is_array(value)}
-    for number, array in overrides.items():
-        if is_array(array):
-            x, y = parts_named(number)
-            found |= {x: array.real, y: array.imag} if array.dtype.kind == "c" else {x: array}
-    return {name: np.ascontiguousarray(array, dtype=float) for name, array in found.items()}
-
-
-def parts_named(number: int) -> tuple[str, str]:
-    """Names of the inputs that stand for the value of a step; no parameter is called so."""
-    return f"step {number}", f"step {number}, up"
-
-
-def traced(
-    program: Program,
-    needed: Sequence[int],
-    values: Values,
-    keep: Sequence[int],
-    margins: bool,
-    overrides: Overrides,
-) -> Emitted:
-    """One run on traced numbers in the place of arrays: what it reckons, as a graph."""
-    graph = Graph()
-    ready = made_ready(program, needed, values, keep, frozenset(overrides))
-    entered = {name: Number(graph, graph.input(name)) for name, v in values.items() if is_array(v)}
-    given = {number: stand_in(graph, number, value) for number, value in overrides.items()}
-    values = {**values, **entered}
-    trace = run_moving(ready, values, traced_kind(), margins=margins, overrides=given)
-    return Emitted(program, graph, trace.values, trace.margins)
-
-
-def stand_in(graph: Graph, number: int, value: Any) -> Any:
-    """The traced number that stands for a step's own value; a plain one stands for itself."""
-    if not is_array(value):
-        return value
-    x, y = parts_named(number)
-    return Number(graph, graph.input(x), graph.input(y) if value.dtype.kind == "c" else None)

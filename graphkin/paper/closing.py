@@ -1,0 +1,28 @@
+"""The words for a group that is cut: its locus, where it closes, and in which of its ways."""
+
+from __future__ import annotations
+
+from graphkin.paper.data import angle_symbol
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.naming import way_of
+from graphkin.paper.richtext import escape
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.steps.program import Step
+
+
+def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
+    """How the position of a group of class III or higher is found."""
+    says = step.says
+    fields = {key: escape(says[key]) for key in ("k", "n", "list")}
+    if "d" in says:
+        driver = next(d for d in drawing.scene.drivers if d.link == says["d"])
+        fields["what"] = angle_symbol(drawing.scene, driver)
+        return drawing.words("step.close-driver", **fields)
+    fields["q"] = symbol(says["q"])
+    if "g" in says:
+        return drawing.words("step.close-guide", guide=way_of(drawing, says["g"]), **fields)
+    known = [drawing.trace.program.targets["position", says[end]] < number for end in "pq"]
+    fixed, moving = ("q", "p") if known[1] else ("p", "q")
+    fields |= {"p": symbol(says[fixed]), "q": symbol(says[moving])}
+    key = "step.close-bar" if any(known) else "step.close-gap"
+    return drawing.words(key, bar=bar(says["p"], says["q"]), **fields)

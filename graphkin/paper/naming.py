@@ -1,0 +1,95 @@
+"""What steps are called in sentences and relations: their vectors, guides and drawn lengths."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.relation import figure
+from graphkin.paper.richtext import escape
+from graphkin.paper.symbolic import symbol
+from graphkin.plane import dot
+from graphkin.steps.program import Plane, Step
+
+NAUGHT = 1e-6
+"""A vector drawn shorter than this, in mm, is none."""
+WELL_KNOWN = {"omega": "speed", "v": "speed", "epsilon": "acceleration", "a": "acceleration"}
+"""The names of given rates of drivers, and which of their rates it is."""
+
+
+def way_of(drawing: Drawing, name: str) -> str:
+    """A guide by its block, or a straight track by its wheel."""
+    link = drawing.scene.links.get(name)
+    rolls = link is not None and not link.slides
+    return drawing.words("page.track_of" if rolls else "page.guide_of", g=escape(name))
+
+
+def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
+    """The arrow between two points of a plan, whichever way it points."""
+    return drawing.joins.get((tail, tip)) or drawing.joins.get((tip, tail))
+
+
+def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
+    """Markup of the vector between two points of a plan."""
+    found = arrow_of(drawing, tail, tip)
+    return symbol(found.says["symbol"]) if found else default
+
+
+def segment_of(drawing: Drawing, step: Step) -> str:
+    """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
+    ends = [drawing.trace.program.steps[arg].name for arg in step.args]
+    return "".join(symbol(end) for end in ends) if all(ends) else ""
+
+
+def scale_of(drawing: Drawing, plane: Plane) -> float:
+    """What a metre of paper stands for in a plan."""
+    return drawing.scales.kv if plane is Plane.VELOCITIES else drawing.scales.ka
+
+
+def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> float:
+    """How long a vector of a plan is drawn, in mm."""
+    values = drawing.trace.values
+    return 1000 * abs(values[tip] - values[tail]) / scale_of(drawing, plane)
+
+
+def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
+    """Markup of an angular velocity or acceleration by the step that holds it."""
+    step = drawing.trace.program.steps[number]
+    if step.name in drawing.scene.links:
+        return symbol(f"{letter}_{step.name}")
+    if step.given is not None and step.name in WELL_KNOWN:
+        return symbol(f"{letter}_{drawing.scene.drivers[int(step.says['d'])].link}")
+    return f"*{letter}*"
+
+
+def is_driven(drawing: Drawing, number: int) -> bool:
+    """True for a rate that the scene gives."""
+    step = drawing.trace.program.steps[number]
+    return step.given is not None and step.name in WELL_KNOWN
+
+
+def amount(drawing: Drawing, metres: float) -> str:
+    """A length in the scene's own unit."""
+    return f"{figure(drawing, drawing.length(metres))} {drawing.scene.units['length']}"
+
+
+def plan_amount(drawing: Drawing, size: float, plane: Plane) -> str:
+    """How a vector of a given size is drawn in a plan."""
+    return f"{drawing.words.fixed(1000 * size / scale_of(drawing, plane), 2)} mm"
+
+
+def height_above(drawing: Drawing, step: Step) -> float:
+    """The offset of a guide that turns about a pivot, in metres, without its sign."""
+    return abs(float(drawing.trace.values[step.args[2]]))
+
+
+def share_of(drawing: Drawing, start: complex, end: complex, point: complex) -> float:
+    """Where a point of a line stands between two others."""
+    way = end - start
+    return float(dot(way, point - start) / dot(way, way))
+
+
+def names_in(says: Mapping[str, str]) -> dict[str, str]:
+    """The names of a step as markup."""
+    found = {key: symbol(str(value)) for key, value in says.items()}
+    return found | {key: escape(says[key]) for key in ("j", "k", "g", "h", "l") if key in says}

@@ -1,0 +1,94 @@
+"""The words of two trial plans: what was tried, what they miss, and how the right plan divides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.paper.drawing import TAGS, Drawing
+from graphkin.paper.naming import plan_amount, way_of
+from graphkin.paper.phrases import point_sentence
+from graphkin.paper.relation import figure
+from graphkin.paper.sentence import Sentence, together
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.steps.program import Step
+
+RATE_AT = {"turned-velocity": 3, "driven-tangential": 3, "driven-slide": 2}
+"""Steps that begin a trial, and at which place they take what is tried."""
+
+
+def trial_sentence(drawing: Drawing, number: int) -> Iterator[Sentence]:
+    """One sentence for a whole trial plan, with its last point: the first is told in full."""
+    steps, tag = drawing.trace.program.steps, drawing.tags[number]
+    named = [n for n, own in drawing.tags.items() if own == tag and steps[n].name]
+    if number != max(named):
+        return
+    named.sort()
+    if tag == TAGS[0]:
+        told = "; ".join(point_sentence(drawing, n, steps[n]) for n in named)
+    else:
+        told = drawing.words("list_mark").join(symbol(steps[n].name) for n in named)
+    what, size = tried(drawing, named)
+    markup = drawing.words(
+        f"step.trial-{TAGS.index(tag) + 1}", what=what, amount=size, how=told, list=told
+    )
+    yield Sentence(number, f"trial{tag}", markup)
+
+
+def tried(drawing: Drawing, named: list[int]) -> tuple[str, str]:
+    """What a trial tries, and its amount with its unit."""
+    steps, values = drawing.trace.program.steps, drawing.trace.values
+    velocity = drawing.kind == "velocity"
+    for number in named:
+        step = steps[number]
+        key = step.action.key if step.action else ""
+        if key in RATE_AT:
+            size = float(values[step.args[RATE_AT[key]]])
+            if key == "driven-slide":
+                letter = "v" if velocity else "a"
+                unit = "m/s" if velocity else "m/s^2"
+                return symbol(f"{letter}_{step.says['q']}"), quantity(drawing, size, unit)
+            letter, unit = ("ω", "rad/s") if velocity else ("ε", "rad/s^2")
+            return symbol(f"{letter}_{step.says['k']}"), quantity(drawing, size, unit)
+    return "", ""
+
+
+def quantity(drawing: Drawing, size: float, unit: str) -> str:
+    """An amount with its unit; nought without."""
+    return f"{figure(drawing, size)} {unit}" if size else "0"
+
+
+def share_sentence(drawing: Drawing, number: int, step: Step) -> str:
+    """What the trials miss, and the ratio in which the right plan divides every line of theirs."""
+    values, says = drawing.trace.values, step.says
+    share = figure(drawing, float(values[number]))
+    if "d" in says:
+        sizes = [figure(drawing, float(values[arg])) for arg in step.args]
+        return drawing.words("step.share-driver", first=sizes[0], second=sizes[1], share=share)
+    sizes = [plan_amount(drawing, float(values[arg]), drawing.plane) for arg in step.args]
+    fields = {"first": sizes[0], "second": sizes[1], "share": share}
+    if "g" in says:
+        return drawing.words("step.share-guide", guide=way_of(drawing, says["g"]), **fields)
+    return drawing.words("step.share-bar", bar=bar(says["p"], says["q"]), **fields)
+
+
+def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
+    """The points that divide the lines of two trials said in one sentence."""
+    steps = drawing.trace.program.steps
+    crossed = any(is_divided(drawing, said, hand=True) for said in found)
+    divided = [said for said in found if is_divided(drawing, said, hand=False)]
+    if crossed:
+        found = [said for said in found if said.name != "share"]
+    if not divided:
+        return found
+    listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
+    key = "step.divided-alike" if crossed else "step.divided"
+    return together(found, divided, drawing.words(key, list=listed))
+
+
+def is_divided(drawing: Drawing, said: Sentence, *, hand: bool) -> bool:
+    """True for a point of the right plan on the line of its trials, by a crossing or without."""
+    if said.step < 0:
+        return False
+    step = drawing.trace.program.steps[said.step]
+    between = step.action is not None and step.action.key == "between"
+    return between and (step.by_hand in drawing.trace.values) is hand
