@@ -14,6 +14,7 @@ from graphkin.console import FAILED, READING, Desk, complain
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
+    from graphkin.scene.model import Scene
     from graphkin.steps.run import Trace
     from graphkin.steps.solution import Solution, Verdict
 
@@ -101,8 +102,9 @@ def check(name: str, settings: tuple[str, ...]) -> None:
     tell(checking.lines())
     if checking.problems:
         raise StructureError(checking.problems)
-    if not checking.agrees:
-        complain("the independent route does not agree with the construction")
+    for doubt in checking.doubts:
+        complain(doubt)
+    if checking.doubts:
         leave(FAILED)
 
 
@@ -154,7 +156,7 @@ def solve(name: str, settings: tuple[str, ...], asked: bool, as_json: bool) -> N
         click.echo(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
     else:
         click.echo(motion_text(mechanism.scene, solution, found, verdict))
-    if doubts(trace, solution, verdict):
+    if doubts(mechanism.scene, trace, solution, verdict):
         leave(FAILED)
 
 
@@ -350,21 +352,15 @@ def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
         return None
 
 
-def doubts(trace: Trace, solution: Solution, verdict: Verdict | None) -> bool:
+def doubts(scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | None) -> bool:
     """Warn of a flat crossing and of a witness that disagrees; True when there is any doubt."""
-    from graphkin.report.motion import verdict_words
-    from graphkin.report.table import crossing
+    from graphkin.report.motion import flat_words, verdict_words
     from graphkin.steps.solution import FAIR
 
     flat = solution.margin < FAIR
     if flat:
-        step = min(trace.margins, key=lambda number: float(trace.margins[number]))
-        point, part = crossing(trace.program, step)
         bound = f"; it is good to {verdict.limit:.1e} of the largest of its kind" if verdict else ""
-        complain(
-            f"the lines at {point} ({part}) cross at a sine of {solution.margin:.2e}, "
-            f"less than {FAIR:g}: the answer is not fair to ask{bound}"
-        )
+        complain(f"{flat_words(scene, trace)}{bound}")
     if verdict is not None and not verdict.agrees:
         complain(f"the independent check {verdict_words(verdict)}")
     return flat or verdict is None or not verdict.agrees

@@ -26,6 +26,8 @@ WANTED = {
 """The sheet on which each quantity is asked."""
 STEPS = 720
 """Positions of a turn from which a curve is drawn."""
+SIZES = (1.0, 0.7, 0.5, 0.35, 0.25)
+"""How large plans are tried beside the mechanism, where no crank says their scale."""
 AWAY = 20.0
 """Breadths of the mechanism beyond which a centrode is not followed."""
 
@@ -127,27 +129,43 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
 
 
 def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Scales:
-    """The one set of scale factors at which every sheet's drawings fit their fields."""
+    """The one set of scale factors at which every sheet's drawings fit their fields.
+
+    Where no crank says how large velocities are drawn, they are as large as leaves kL smallest.
+    """
     crank = the_crank(mechanism)
-    seconds = 1 / crank if crank else natural_seconds(mechanism)
-    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
-    needs = []
+    curves = curves_of(mechanism) if curves is None else curves
     asked = {kind: targets_of(mechanism, kind) for kind in WANTED}
     if not any(asked.values()):
-        asked = dict.fromkeys(WANTED, mechanism.program.answers)
-    curves = curves_of(mechanism) if curves is None else curves
+        asked = {kind: mechanism.program.answers for kind in WANTED}
+    if crank:
+        kL, seconds = fitting(mechanism, asked, curves, 1 / crank), 1 / crank
+    else:
+        natural = natural_seconds(mechanism)
+        tried = [natural * size for size in SIZES]
+        kL, _, seconds = min((fitting(mechanism, asked, curves, s), -s, s) for s in tried)
+    if mechanism.scene.sheet.scale is not None:
+        kL = kept_scale(float(mechanism.scene.sheet.scale.number(mechanism.scene.values)), kL)
+    if crank:
+        return Scales(kL, seconds)
+    return Scales(kL, kL / next(preferred(kL / seconds)), from_driver=False)
+
+
+def fitting(
+    mechanism: Mechanism,
+    asked: dict[str, tuple[Target, ...]],
+    curves: tuple[Curve, ...],
+    seconds: float,
+) -> float:
+    """The smallest kL at which all sheets fit, with a velocity drawn as its way in some seconds."""
+    nobody, needs = Verdict(True, 0.0, "", 0.0, 0.0, 0.0), []
     for kind, found in asked.items():
         if found:
             trial = drawing(
                 mechanism, kind, found, Scales(1.0, seconds), nobody, words("en"), curves
             )
             needs.append((trial.mechanism_extent(), trial.plan_extent()))
-    kL = fitting_scale(needs, WIDTH, HEIGHT)
-    if mechanism.scene.sheet.scale is not None:
-        kL = kept_scale(float(mechanism.scene.sheet.scale.number(mechanism.scene.values)), kL)
-    if crank:
-        return Scales(kL, seconds)
-    return Scales(kL, kL / next(preferred(kL / seconds)), from_driver=False)
+    return fitting_scale(needs, WIDTH, HEIGHT)
 
 
 def the_crank(mechanism: Mechanism) -> float:

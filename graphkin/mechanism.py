@@ -62,7 +62,10 @@ class Mechanism:
         wanted += [("acceleration", point_of(self.scene, name)) for name in ask.acceleration]
         wanted += [("omega", link) for link in ask.omega]
         wanted += [("epsilon", link) for link in ask.epsilon]
-        wanted += [("centre", link) for link in ask.centres]
+        wanted += [("centre", name) for name in (*ask.centres, *ask.centrodes, *ask.pairs)]
+        wanted += [("position", point) for point in ask.curves]
+        for what in ("inflection", "inflection centre"):
+            wanted += [(what, link) for link in ask.inflection]
         wanted += [("pole", link) for link in ask.poles]
         for block in ask.slides:
             wanted += [(what, block) for what in ("slide", "slide speed", "slide acceleration")]

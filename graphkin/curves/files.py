@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from graphkin.curves import over, paths
+from graphkin.curves import over, paths, ring
 from graphkin.curves.sampled import Sampled, sampled
 from graphkin.curves.style import look, written
 from graphkin.motion.cycle import Cycle
@@ -39,4 +39,4 @@ def figures(found: Sampled) -> Iterator[tuple[str, Callable[[], Figure]]]:
         yield f"centrodes-{link}", partial(paths.rolling, found, link)
     loop = loop_of(found.cycle)
     if loop is not None:
-        yield "reach", partial(paths.reach, found, loop)
+        yield "reach", partial(ring.reach, found, loop)

@@ -97,8 +97,9 @@ def letter(ax: Axes, stand: Stand, name: str, place: complex) -> None:
     way = 9 * away
     if name in stand.scene.frame.points:
         way = complex(-13 if away.real <= 0 else 13, 3)
-    elif any(link.slides and name == link.points[0] for link in stand.scene.links.values()):
-        way = complex(0, 15 if away.imag >= 0 else -15)
+    elif (along := block_along(stand, name)) is not None:
+        square = 1j * along
+        way = 15 * (square if (square * away.conjugate()).real >= 0 else -square)
     ax.annotate(
         name,
         (place.real, place.imag),
@@ -109,6 +110,14 @@ def letter(ax: Axes, stand: Stand, name: str, place: complex) -> None:
         fontsize=8.5,
         zorder=8,
     )
+
+
+def block_along(stand: Stand, name: str) -> complex | None:
+    """The guide of the block whose first point this is; None where there is none."""
+    for link in stand.scene.links.values():
+        if link.slides and link.points and name == link.points[0]:
+            return guide_of(stand, link.slides[0])
+    return None
 
 
 def body(ax: Axes, stand: Stand, link: Link) -> None:

@@ -135,6 +135,9 @@ def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:
 
     even = np.linspace(at.min(), at.max(), 1001)
     order = np.argsort(at)
+    after = np.clip(np.searchsorted(at[order], even), 1, len(at) - 1)
+    gap = at[order][after] - at[order][after - 1]
+    even = even[gap < GAP * np.ptp(at)]  # not between two ranges
     known = np.concatenate([np.interp(even, at[order], v[order]) for v in values])
     known = known[np.isfinite(known)]
     if not known.size:
@@ -149,6 +152,8 @@ def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:
     return low - room, high + room
 
 
+GAP = 0.02
+"""Distance of two places, in parts of all, between which nothing is drawn."""
 RUNS_AWAY = 5.0
 """A curve whose largest value is so many times its usual one runs to infinity."""
 KEPT = 2.0

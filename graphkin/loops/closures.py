@@ -114,7 +114,7 @@ def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
         return found[within_half(part, found, moving)]
 
 
-def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 7) -> Reals:
+def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
     """The position as it stands, and many with the group's unknowns thrown anywhere.
 
     The equations that are linear in them hold at once: steps of Newton's method keep them.

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.arithmetic import FLOAT, batch_kind
 from graphkin.errors import GraphkinError
 from graphkin.motion.sweep import Sweep
-from graphkin.plane import Ratio
+from graphkin.plane import Circle, Line, Ratio
 from graphkin.plans.compile import write
 from graphkin.scene.model import Branch, Scene
 from graphkin.steps.batch import BLOCK, run_batch, run_blocks
@@ -129,7 +129,7 @@ class Course:
         return {target: spread(trace.value(*target), len(at)) for target in wanted}
 
     def loci(self, number: int, at: float) -> tuple[Any, ...]:
-        """The two loci that a step crosses at one u, and what it picks by; empty if unknown."""
+        """The two loci that a step crosses at one u; empty where they are not known."""
         found: dict[int, Any] = {}
         values = {**self.sweep.values(np.array([at]))}
         floats = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in values.items()}
@@ -140,7 +140,8 @@ class Course:
                     found[n] = evaluate(self.program.steps[n], n, found, floats, FLOAT, {})
         except (StepFailed, KeyError):
             return ()
-        return tuple(found[arg] for arg in step.args)
+        every = (found[arg] for arg in step.args)
+        return tuple(locus for locus in every if isinstance(locus, Line | Circle))
 
     def picks(self, name: str, other: Branch) -> set[int]:
         """The steps that one branch decides: those that change when it does.

@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
-from graphkin.motion.pieces import ALIKE, Range
+from graphkin.motion.pieces import ALIKE, Piece, Range
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.motion.sweep import TURN
 from graphkin.scene.model import Closure, Link, Scene
@@ -20,6 +20,8 @@ FINE = 3600
 """Places in each piece at which the sense of a follower is looked at."""
 FEWER = 360
 """The same for groups of higher class, each place of which is a search."""
+ENOUGH = 1e-9
+"""To how much of u their limits are then found."""
 NOTHING = 1e-9
 """Share of the largest speed below which a follower stands still."""
 APART = 1e-4
@@ -132,7 +134,8 @@ def follower(
     pieces = cycle.path.ranges[number]
     at = samples(pieces)
     past = at[-1] + APART * np.arange(2, 4) if whole(cycle, number) else at[:0]
-    turns = refined(np.append(at, past), speed)
+    enough = ENOUGH if any(searched(piece) for piece in pieces) else 0.0
+    turns = refined(np.append(at, past), speed, enough)
     if whole(cycle, number):
         over = turns >= ends(pieces)[1] - ALIKE
         turns = np.sort(np.where(over, np.maximum(turns - TURN, pieces[0].low.at), turns))
@@ -186,10 +189,14 @@ def samples(pieces: Range) -> Reals:
         low += 0.0 if piece.low.kind == "window" else APART
         high -= 0.0 if piece.high.kind == "window" else APART
         if low < high:
-            closures = piece.branches.values()
-            fine = FEWER if any(isinstance(each, Closure) for each in closures) else FINE
+            fine = FEWER if searched(piece) else FINE
             parts.append(np.linspace(low, high, fine + 1))
     return np.concatenate(parts) if parts else np.array([pieces[0].low.at])
+
+
+def searched(piece: Piece) -> bool:
+    """Whether a piece has a group of higher class."""
+    return any(isinstance(each, Closure) for each in piece.branches.values())
 
 
 def ends(pieces: Range) -> Reals:
@@ -197,7 +204,7 @@ def ends(pieces: Range) -> Reals:
     return np.array([pieces[0].low.at, pieces[-1].high.at])
 
 
-def refined(at: Reals, speed: Value) -> Reals:
+def refined(at: Reals, speed: Value, enough: float) -> Reals:
     """Where a speed changes its sense, to the last digits."""
     rate = speed(at)
     most = np.nanmax(np.abs(rate), initial=0.0)
@@ -209,7 +216,7 @@ def refined(at: Reals, speed: Value) -> Reals:
     low, high = at[kept[turned]], at[kept[turned + 1]]
     if not low.size:
         return np.array([])
-    found = crossings_of_nought(speed, low, high)
+    found = crossings_of_nought(speed, low, high, enough)
     return np.asarray(found[np.abs(speed(found)) < most])
 
 

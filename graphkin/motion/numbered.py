@@ -14,12 +14,16 @@ import numpy as np
 
 from graphkin.arithmetic import batch_kind
 from graphkin.motion.course import Course, Reals, spread
+from graphkin.motion.sweep import TURN
 from graphkin.scene.model import Closure
 from graphkin.steps.batch import run_batch
 from graphkin.steps.closing import Closer
 
 PLACES = 720
-"""Places in a sweep at which closures are found; between them as many as the motion needs."""
+"""Places in a whole turn, or in any other sweep, at which closures are found.
+
+Between them there are as many as the motion needs.
+"""
 CHUNK = 120
 """Places at which closures are found at once."""
 NEAR = 0.3
@@ -28,6 +32,8 @@ SURE = 1e-6
 """Miss of a prediction, in parts of the mechanism's size, that is always taken."""
 ENOUGH = 1e-10
 """Share of the sweep to which the places of new numbers and dead points are narrowed."""
+PARTS = 16
+"""Parts into which an interval is cut, all at once, where the motion is not sure."""
 LEAP = 6
 """Places of the grid over which the motion is led where no closure is found between."""
 LEAP_NEAR = 0.1
@@ -129,19 +135,18 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
     """The places of the motion from one u to another, or to the dead point before it."""
     course = group.course
     span = course.sweep.high - course.sweep.low
-    count = max(int(np.ceil(abs(stop - start) / span * PLACES)), 2)
+    whole = TURN if course.sweep.what == "turn" else span
+    count = max(int(np.ceil(abs(stop - start) / whole * PLACES)), 2)
     grid = np.linspace(start, stop, count + 1)
     known = dict(zip(grid.tolist(), np.moveaxis(group.places(grid), 2, 0), strict=True))
     branch = course.branches[group.link]
     assert isinstance(branch, Closure)
     found = [Node(float(start), branch.number, known[float(start)][branch.number - 1])]
-    ahead = grid[:0:-1].tolist()
+    ahead = grid[:0:-1].tolist() if start != stop else []
     for _ in range(MOST):
         if not ahead:
             return found, Stop(float(stop), False, float(stop))
         target = ahead[-1]
-        if target not in known:
-            known[target] = group.places(np.array([target]))[:, :, 0]
         number = led_to(group, found, target, known[target])
         if number:
             found.append(Node(target, number, known[target][number - 1]))
@@ -153,7 +158,10 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
             found.append(node)
             ahead = [at for at in grid[:0:-1].tolist() if abs(at - start) > abs(node.at - start)]
         else:
-            ahead.append((found[-1].at + target) / 2)
+            between = np.linspace(found[-1].at, target, PARTS + 1)[1:-1]
+            closures = np.moveaxis(group.places(between), 2, 0)
+            known |= dict(zip(between.tolist(), closures, strict=True))
+            ahead += between[::-1].tolist()
     return found, Stop(found[-1].at, True, ahead[-1])
 
 
@@ -238,18 +246,26 @@ def changes(group: Numbered, found: list[Node]) -> list[tuple[float, float, int]
             continue
         low, high = found[k - 1], found[k]
         while abs(high.at - low.at) > ENOUGH * span:
-            middle = (low.at + high.at) / 2
-            closures = group.places(np.array([middle]))[:, :, 0]
-            between = low.points + (high.points - low.points) * (
-                (middle - low.at) / (high.at - low.at)
-            )
-            misses = np.abs(closures - between).max(axis=1)
-            number = int(np.nanargmin(np.where(np.isfinite(misses), misses, np.inf))) + 1
-            node = Node(middle, number, closures[number - 1])
-            low, high = (node, high) if number == low.number else (low, node)
+            low, high = narrowed(group, low, high)
         middle = (low.at + high.at) / 2
         marks.append((middle, middle, found[k].number))
     return marks
+
+
+def narrowed(group: Numbered, low: Node, high: Node) -> tuple[Node, Node]:
+    """Two neighbouring places between which the number changes, of many between two such."""
+    share = np.linspace(0, 1, PARTS + 1)[1:-1]
+    at = low.at + (high.at - low.at) * share
+    between = low.points[:, None] + (high.points - low.points)[:, None] * share
+    closures = group.places(at)
+    misses = np.abs(closures - between).max(axis=1)
+    numbers = np.where(np.isfinite(misses), misses, np.inf).argmin(axis=0) + 1
+    for k, number in enumerate(numbers.tolist()):
+        node = Node(float(at[k]), number, closures[number - 1, :, k])
+        if number != low.number:
+            return low, node
+        low = node
+    return low, high
 
 
 def same_place(first: Node, last: Node) -> bool:

@@ -30,15 +30,18 @@ def last_closing(closes: Callable[[Reals], Any], inside: float, outside: float) 
     return inside
 
 
-def crossings_of_nought(value: Callable[[Reals], Reals], low: Reals, high: Reals) -> Reals:
+def crossings_of_nought(
+    value: Callable[[Reals], Reals], low: Reals, high: Reals, enough: float = 0.0
+) -> Reals:
     """Where a function changes its sign in each bracket, by halving, all brackets at once.
 
-    ``value`` takes u (N,) and gives the function of bracket i at u[i].
+    ``value`` takes u (N,) and gives the function of bracket i at u[i]; brackets narrower than
+    ``enough`` are left.
     """
     at_low = value(low)
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        if ((middle == low) | (middle == high)).all():
+        if ((middle == low) | (middle == high)).all() or (high - low).max() < enough:
             break
         here = value(middle)
         same = np.sign(here) == np.sign(at_low)

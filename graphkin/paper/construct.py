@@ -12,6 +12,14 @@ from graphkin.paper.centre import (
     put_named_centre,
     put_ray,
 )
+from graphkin.paper.coriolis import (
+    is_coriolis,
+    put_base,
+    put_component,
+    put_lean,
+    put_lever_velocity,
+    put_square,
+)
 from graphkin.paper.desk import Desk
 from graphkin.paper.plan import put_arc, put_arrow, put_driver_ray, put_line, put_point, put_pole
 from graphkin.paper.triangle import (
@@ -21,6 +29,7 @@ from graphkin.paper.triangle import (
     put_triangle_velocity,
     put_turned,
 )
+from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line
 from graphkin.steps.program import Part, Plane, Step
 
 Put = Callable[[Desk, int, Step, Any], None]
@@ -44,9 +53,22 @@ def put_step(desk: Desk, number: int, step: Step, value: Any) -> None:
     key = step.action.key if step.action else "given"
     plane = Plane.MECHANISM if step.plane is Plane.MECHANISM else Plane.NUMBERS
     put = PUTS.get((plane, key))
+    if number in desk.drawing.tags:
+        put = put_trial
+    elif plane is Plane.MECHANISM and step.part is Part.NORMAL and is_coriolis(step):
+        put = CORIOLIS.get(key)
     if put:
         put(desk, number, step, value)
 
+
+CORIOLIS: dict[str, Put] = {
+    "set-velocity": put_lever_velocity,
+    "coriolis-base": put_base,
+    "square-at": put_square,
+    "coriolis-ray": put_lean,
+    "meet": put_component,
+}
+"""The look of each action in the similar triangles of a Coriolis component."""
 
 PUTS: dict[
     tuple[Plane, str], Put
@@ -83,4 +105,9 @@ PUTS: dict[
     (Plane.NUMBERS, "alike"): put_point,
     (Plane.NUMBERS, "centripetal"): put_point,
     (Plane.NUMBERS, "driven-tangential"): put_point,
+    (Plane.NUMBERS, "driven-slide"): put_point,
+    (Plane.NUMBERS, "lay-off"): put_point,
+    (Plane.NUMBERS, "between"): put_divided,
+    (Plane.NUMBERS, "line-through"): put_trial_line,
+    (Plane.NUMBERS, "along-bar"): put_line,
 }

@@ -180,7 +180,8 @@ class Drawing:
                 tag = steps[number].name[-1]
                 found |= {number: tag} if tag in TAGS else {}
                 continue
-            users = [child for child in self.children.get(number, ()) if child in own]
+            users = [*self.children.get(number, ()), self.results.get(number, -1)]
+            users = [user for user in users if user in own]
             tags = {found.get(child, "") for child in users}
             if len(tags) == 1 and tags != {""}:
                 found[number] = tags.pop()

@@ -47,7 +47,6 @@ FOLLOWING = (
     "parallel-to",
     "shifted",
     "radius-along",
-    "driven-tangential",
     "lay-off-coriolis",
 )
 """Those of them that begin where another one ended."""
@@ -65,7 +64,7 @@ WHOLE = (
 """Actions whose own sentence says all that the hand does."""
 SWINGS = ("swing", "swing-through")
 """Actions that lay a lever through a pin."""
-LAID_OFF = ("turned-velocity", "driven-slide", "centripetal")
+LAID_OFF = ("turned-velocity", "driven-slide", "centripetal", "driven-tangential")
 """Actions that lay off a vector from a point of a plan."""
 
 
@@ -76,21 +75,21 @@ def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
     assert step.action is not None
     if step.action.key in WHOLE:
         return phrase(drawing, step, step.name, step)
-    parts = [clause for arg in last.args for clause in clauses(drawing, arg)]
+    parts = [clause for arg in last.args for clause in clauses(drawing, arg, last.plane)]
     parts.append(phrase(drawing, last, step.name, step))
     return "; ".join(parts)
 
 
-def clauses(drawing: Drawing, number: int) -> Iterator[str]:
-    """The clause of a line or an arc, after that of the vector laid off before it."""
+def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
+    """The clause of a line or an arc of a drawing, after that of the vector laid off before it."""
     step = drawing.trace.program.steps[number]
     if step.action is None or step.action.key not in LINES or step.name:
         return
-    if step.plane is Plane.NUMBERS or is_lever(drawing, number):
+    if step.plane is not plane or is_lever(drawing, number):
         return
     if step.action.key in FOLLOWING:
         for arg in step.args:
-            yield from clauses(drawing, arg)
+            yield from clauses(drawing, arg, plane)
     yield phrase(drawing, step, step.name, step)
 
 
@@ -171,7 +170,9 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     if key == "along-bar":
         return "common-normal"
     if key == "parallel-to" and not step.says["s"]:
-        return "parallel-to-end"
+        before = drawing.trace.program.steps[step.args[0]].action
+        back = before is not None and before.key == "lay-back-coriolis"
+        return "parallel-to-tail" if back else "parallel-to-end"
     if key == "similar-point" and in_line(drawing, step):
         return "similar-in-line"
     if key == "centripetal" and not step.name:
@@ -179,10 +180,11 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     if key == "lay-off" and step.name:
         return "lay-off-named"
     if key in LAID_OFF and drawn_between(drawing, step.args[0], number, step.plane) < NAUGHT:
-        return "falls" if step.says["s"] else "falls-end"
+        at_end = not step.says["s"] or key == "driven-tangential"
+        return "falls-end" if at_end else "falls"
     if key == "driven-slide" and not step.says["s"]:
         return "driven-slide-end"
-    if key in LAID_OFF[::2]:
+    if key in ("turned-velocity", "centripetal"):
         as_long = drawing.scales.from_driver and is_driven(drawing, step.args[3])
         return key if as_long else f"{key}-scaled"
     return key
@@ -257,7 +259,7 @@ def on_plan(
     assert step.action is not None
     key, number = step.action.key, drawing.number_of(step)
     found = {}
-    if key in (*LAID_OFF, "driven-tangential"):
+    if key in LAID_OFF:
         drawn = drawn_between(drawing, step.args[0], number, step.plane)
         found["drawn"] = drawing.words.fixed(drawn, 2)
     match key:
@@ -298,7 +300,9 @@ def sliding_vector(drawing: Drawing, step: Step, number: int) -> str:
     """The vector along a guide: from its line's or its own beginning to the point found."""
     tips = [number, *drawing.children.get(number, ())]
     found = (vector_of(drawing, step.args[0], tip) for tip in tips)
-    return next((name for name in found if name), "")
+    before = drawing.trace.program.steps[step.args[0]].says
+    default = symbol(f"a_{before['i']}^r") if "i" in before else ""
+    return next((name for name in found if name), default)
 
 
 def coordinate(drawing: Drawing, step: Step) -> str:

@@ -11,10 +11,13 @@ from graphkin.paper.field import XY
 from graphkin.paper.labels import Label
 from graphkin.paper.layout import BEYOND
 from graphkin.paper.marks import Arc, Circle, Line
+from graphkin.paper.naming import way_of
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.symbols import PIN, SHORT, arrow
 from graphkin.steps.program import Plane, Step
 
+KINDS = {"ν": "normal", "τ": "tangential", "c": "coriolis", "r": "sliding"}
+"""The looks of the components of an acceleration."""
 DOT = 0.7
 """Radius of a point of a plan in mm."""
 
@@ -47,7 +50,7 @@ def beyond(desk: Desk, number: int, value: Any) -> list[tuple[XY, XY] | None]:
 def line_name(step: Step) -> str:
     """Name of a construction line: what it is drawn through and what it is square to."""
     key = step.action.key if step.action else ""
-    sign = {"square-to": "⊥", "parallel-to": "∥"}.get(key, "")
+    sign = {"square-to": "⊥", "parallel-to": "∥", "along-bar": "∥"}.get(key, "")
     return sign + step.says.get("p", step.says.get("g", "")) + step.says.get("q", "")
 
 
@@ -57,7 +60,9 @@ def line_label(desk: Desk, step: Step) -> str:
     if key == "square-to":
         return f"⊥ {bar(step.says['p'], step.says['q'])}"
     if key == "parallel-to":
-        return f"∥ {desk.drawing.words('page.guide_of', g=step.says['g'])}"
+        return f"∥ {way_of(desk.drawing, step.says['g'])}"
+    if key == "along-bar":
+        return f"∥ {bar(step.says['p'], step.says['q'])}"
     return ""
 
 
@@ -97,9 +102,11 @@ def put_pole(desk: Desk, number: int, step: Step, value: Any) -> None:
     name_point(desk, number, step, at, PIN)
 
 
-def name_point(desk: Desk, number: int, step: Step, at: XY, radius: float) -> None:
+def name_point(
+    desk: Desk, number: int, step: Step, at: XY, radius: float, look: str = "", height: float = 3.5
+) -> None:
     """The letter of a point; points that fall together share one label, o ≡ a."""
-    board = desk.board
+    board, look = desk.board, look or desk.colour
     for i, (x, y) in board.lettered.items():
         if hypot(x - at[0], y - at[1]) < TINY:
             label = board.labels[i]
@@ -109,7 +116,7 @@ def name_point(desk: Desk, number: int, step: Step, at: XY, radius: float) -> No
     board.lettered[len(board.labels)] = at
     letter = symbol(step.name)
     board.labels.append(
-        Label(letter, desk.colour, at, 3.5, step.name, number, priority=2, radius=radius)
+        Label(letter, look, at, height, step.name, number, priority=2, radius=radius)
     )
 
 
@@ -132,7 +139,7 @@ def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def arrow_class(step: Step, desk: Desk) -> str:
     """The look of a vector: normal and tangential components, relative and absolute ones."""
-    kind = {"ν": "normal", "τ": "tangential"}.get(step.says.get("kind", ""))
+    kind = KINDS.get(step.says.get("kind", ""))
     if kind:
         return kind
     relative = len(step.says["symbol"].partition("_")[2]) > 1 and step.name[0] != desk.drawing.pole

@@ -47,7 +47,7 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
             yield component_sentence(drawing, number, step, first=first)
         elif number in drawing.tags:
             yield from trial_sentence(drawing, number)
-        elif key in OWN and not is_again(drawing, step):
+        elif key in OWN and is_own(drawing, step):
             yield Sentence(number, key, OWN[key](drawing, number, step))
         elif is_found_point(drawing, number, step) and not is_again(drawing, step):
             divided = key == "between" and step.by_hand not in drawing.trace.values
@@ -58,6 +58,12 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
 def is_again(drawing: Drawing, step: Step) -> bool:
     """True for a step that the sheet before has shown: the mechanism itself."""
     return drawing.again and step.part is Part.POSITION
+
+
+def is_own(drawing: Drawing, step: Step) -> bool:
+    """True for a step that this sheet is about: not what the sheet before has found."""
+    found_before = (Part.POSITION, Part.VELOCITY) if drawing.kind == "acceleration" else ()
+    return not is_again(drawing, step) and step.part not in found_before
 
 
 def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:

@@ -8,7 +8,15 @@ from math import atan2, cos, degrees, hypot, radians, sin
 from graphkin.paper.field import XY
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, polygon
 
-VECTORS = ("velocity", "relative-velocity", "acceleration", "normal", "tangential", "coriolis")
+VECTORS = (
+    "velocity",
+    "relative-velocity",
+    "acceleration",
+    "normal",
+    "tangential",
+    "coriolis",
+    "sliding",
+)
 """The classes of lines that are vectors."""
 HEAD = 3.2
 """Length of an arrowhead in mm; short vectors get smaller ones, below SHORT none."""

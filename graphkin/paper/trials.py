@@ -62,13 +62,21 @@ def share_sentence(drawing: Drawing, number: int, step: Step) -> str:
     values, says = drawing.trace.values, step.says
     share = figure(drawing, float(values[number]))
     if "d" in says:
-        sizes = [figure(drawing, float(values[arg])) for arg in step.args]
+        unit = rate_unit(drawing, says["d"])
+        sizes = [f"{figure(drawing, float(values[arg]))} {unit}" for arg in step.args]
         return drawing.words("step.share-driver", first=sizes[0], second=sizes[1], share=share)
     sizes = [plan_amount(drawing, float(values[arg]), drawing.plane) for arg in step.args]
     fields = {"first": sizes[0], "second": sizes[1], "share": share}
     if "g" in says:
         return drawing.words("step.share-guide", guide=way_of(drawing, says["g"]), **fields)
     return drawing.words("step.share-bar", bar=bar(says["p"], says["q"]), **fields)
+
+
+def rate_unit(drawing: Drawing, link: str) -> str:
+    """The unit of what a driver gives on this sheet."""
+    driver = next(driver for driver in drawing.scene.drivers if driver.link == link)
+    unit = "rad/s" if driver.kind == "turn" else "m/s"
+    return unit if drawing.kind == "velocity" else f"{unit}^2"
 
 
 def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
@@ -81,8 +89,12 @@ def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
     if not divided:
         return found
     listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
-    key = "step.divided-alike" if crossed else "step.divided"
-    return together(found, divided, drawing.words(key, list=listed))
+    if not crossed:
+        return together(found, divided, drawing.words("step.divided", list=listed))
+    markup = drawing.words("step.divided-alike", list=listed)
+    kept = [said for said in found if said not in divided]
+    place = max(i for i, said in enumerate(kept) if is_divided(drawing, said, hand=True)) + 1
+    return [*kept[:place], Sentence(divided[-1].step, "divided", markup), *kept[place:]]
 
 
 def is_divided(drawing: Drawing, said: Sentence, *, hand: bool) -> bool:

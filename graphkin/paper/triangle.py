@@ -18,13 +18,20 @@ def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> No
     """The relative velocity set at its pin, and b″ at its tip."""
     if is_tiny(desk, step, value):
         return
-    tail, tip = desk.field(desk.drawing.standing.spot(step.says["q"])), desk.field(value)
-    name = "v_" + step.says["i"]
-    desk.board.marks += arrow(tail, tip, "relative-velocity", name, number)
-    desk.board.labels.append(
-        Label(symbol(name), "relative-velocity", (tail, tip), 2.5, name, number)
-    )
+    pin = desk.drawing.standing.spot(step.says["q"])
+    set_vector(desk, number, "v_" + step.says["i"], pin, value)
     put_construction_point(desk, number, step, value)
+
+
+def set_vector(
+    desk: Desk, number: int, name: str, start: complex, end: complex, look: str = ""
+) -> None:
+    """A vector set on the mechanism, with its symbol."""
+    tail, tip, look = desk.field(start), desk.field(end), look or "relative-velocity"
+    desk.board.marks += arrow(tail, tip, look, name, number)
+    short = hypot(tip[0] - tail[0], tip[1] - tail[1]) < SHORT
+    subject = middle(tail, tip) if short else (tail, tip)
+    desk.board.labels.append(Label(symbol(name), look, subject, 2.5, name, number, led=short))
 
 
 def is_tiny(desk: Desk, step: Step, tip: complex) -> bool:

@@ -226,6 +226,8 @@ class Pen:
             if step not in wanted and step not in self.peeked:
                 wanted.add(step)
                 waiting += self.steps[step].args
+        if any(is_input(self.steps[step]) for step in wanted):
+            return None
         for step in sorted(wanted):
             try:
                 self.peeked[step] = evaluate(
@@ -241,17 +243,22 @@ class Pen:
         return Program(tuple(self.steps), dict(self.targets), self.scale_step, drives)
 
 
+def is_input(step: Step) -> bool:
+    """Whether a step's value comes from outside the program."""
+    return step.given is not None and step.given.form == "input"
+
+
 def image(point: str) -> str:
     """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3."""
     name, _, link = point.removeprefix(CONTACT).partition("@")
-    small = name.lower() if name.lower() != name else name + "_v"
+    small = name.lower() if name.lower() not in (name, "o") else name.lower() + "_v"
     return f"{small}_{link}" if link else small
 
 
 def second_image(point: str) -> str:
     """Name of a point's image in the acceleration plan: the small letter with a prime."""
-    small, _, link = image(point).partition("_") if "@" in point else (image(point), "", "")
-    return f"{small}{PRIME}_{link}" if link else small + PRIME
+    small, _, index = image(point).partition("_")
+    return f"{small}{PRIME}_{index}" if index else small + PRIME
 
 
 def letter(point: str) -> str:

@@ -10,15 +10,16 @@ from graphkin.plans.links import contact_name, no_construction, under
 from graphkin.plans.pen import Pen, Says, letter
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import FRAME, Driver, Wheel
-from graphkin.steps.guides import placed, set_at, turned, turned_back
+from graphkin.steps.guides import placed, set_at
 from graphkin.steps.program import Part, Plane
-from graphkin.steps.vocabulary import coordinate
+from graphkin.steps.vocabulary import coordinate, difference, sum_of
 from graphkin.steps.wheels import (
     arm_between,
     axis_turned,
     between_tracks,
     contact_of_wheels,
     contact_on_track,
+    less_axis,
     opposite,
     rack_at,
     radius_along,
@@ -26,7 +27,6 @@ from graphkin.steps.wheels import (
     rolled_on_wheel,
     turned_since,
     turned_to,
-    way_of_turn,
     way_rolled,
 )
 from graphkin.structure.graph import Contact, Pin, Sliding
@@ -69,12 +69,19 @@ def path_of_centre(pen: Pen, shapes: Shapes, contact: Contact) -> int:
         return pen.draw(radius_along, line, radius_of(pen, contact), k=contact.links[0])
 
 
+def start_turn(pen: Pen, contact: Contact, link: str) -> int:
+    """The angle in radians of a link's x axis in the position that the rolling counts from."""
+    angle = contact.rolling.start.get(link)
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.given("nought") if angle is None else pen.given("number", angle)
+
+
 def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
     """How far a driver has rolled, or by turning has made roll, a wheel along a straight track."""
     if driver.kind == "roll":
         return pen.drive(driver).position
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        ends = start_of(pen, contact, contact.links[0]), radius_of(pen, contact)
+        ends = start_turn(pen, contact, contact.links[0]), radius_of(pen, contact)
         return pen.draw(way_rolled, pen.driven_angle(driver), *ends)
 
 
@@ -100,9 +107,9 @@ def touch_and_turn(pen: Pen, shapes: Shapes, contact: Contact) -> None:
     if pen.has("axis", wheel):
         return
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        lead = axis(pen, shapes, on) if on != FRAME else pen.given("ahead")
-        ends = start_of(pen, contact, wheel), way, radius_of(pen, contact)
-        pen.want("axis", wheel, pen.draw(rolled_on_track, lead, *ends))
+        lead, start = angle_of(pen, shapes, contact, on), start_turn(pen, contact, wheel)
+        turn = pen.draw(rolled_on_track, lead, start, way, radius_of(pen, contact))
+        settle_turn(pen, wheel, turn)
 
 
 def named(contact: Contact) -> Says:
@@ -178,28 +185,31 @@ def roll_round(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> None:
     assert arm is not None
     turns = [turned_by(pen, shapes, contact, each) for each in (arm, side.other)]
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        turn = pen.draw(rolled_on_wheel, *turns, side.track_radius, side.radius)
-        pen.shared["turned", link, start_key(contact, link)] = turn
-        pen.want("axis", link, pen.draw(axis_turned, turn, start_of(pen, contact, link)))
+        since = pen.draw(rolled_on_wheel, *turns, side.track_radius, side.radius)
+        settle_turn(pen, link, pen.draw(sum_of, start_turn(pen, contact, link), since))
+
+
+def settle_turn(pen: Pen, link: str, turn: int) -> None:
+    """The angle of a link's x axis in radians, whole turns counted, and so its axis."""
+    pen.shared["turned", link] = turn
+    pen.want("axis", link, pen.draw(axis_turned, turn))
 
 
 def train(pen: Pen, shapes: Shapes, group: Train) -> None:
     """The arm of a planet between two wheels: how far they have turned says where it is."""
     sides = [seen_from(pen, contact, group.wheel) for contact in group.contacts]
     contact, centre = group.contacts[0], group.centre.point
-    turns = [
-        turned_by(pen, shapes, each, side.other)
-        for each, side in zip(group.contacts, sides, strict=True)
-    ]
+    both = list(zip(group.contacts, sides, strict=True))
+    turns = [turned_by(pen, shapes, each, side.other) for each, side in both]
+    starts = [start_turn(pen, each, group.arm) for each in group.contacts]
+    planets = [start_turn(pen, each, group.wheel) for each in group.contacts]
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radii = [side.track_radius for side in sides] + [side.radius for side in sides]
-        turn = pen.draw(arm_between, *turns, *radii)
-        pen.shared["turned", group.arm, start_key(contact, group.arm)] = turn
-        lead = pen.draw(axis_turned, turn, start_of(pen, contact, group.arm))
-        pen.want("axis", group.arm, lead)
+        turn = pen.draw(arm_between, *turns, *starts, *planets, *radii)
+        settle_turn(pen, group.arm, turn)
     ends = shapes.local(group.arm, group.pivot.point), shapes.local(group.arm, centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        start = pen.the("position", group.pivot.point)
+        start, lead = pen.the("position", group.pivot.point), pen.the("axis", group.arm)
         says: Says = {"p": group.pivot.point, "g": group.arm, "q": centre}
         pen.want("position", centre, pen.draw(placed, start, lead, *ends, name=centre, **says))
     for each in group.contacts:
@@ -207,27 +217,31 @@ def train(pen: Pen, shapes: Shapes, group: Train) -> None:
     roll_round(pen, shapes, contact, group.wheel)
 
 
-def start_key(contact: Contact, link: str) -> object:
-    """What the start of a link is written as; a turning is counted from there."""
-    return contact.rolling.start.get(link)
-
-
 def turned_by(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> int:
-    """How far a link has turned since the start.
+    """How far a link has turned since the start of a contact."""
+    angle = angle_of(pen, shapes, contact, link)
+    if link == FRAME or link not in contact.rolling.start:
+        return angle
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        return pen.draw(difference, angle, start_turn(pen, contact, link))
 
-    Whole turns are counted for driven links; others are taken within half a turn.
+
+def angle_of(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> int:
+    """The angle of a link's x axis in radians.
+
+    Whole turns are counted for driven links and rolling wheels; for others it is that within half
+    a turn of the start.
     """
-    key = ("turned", link, start_key(contact, link))
-    if key not in pen.shared:
-        with pen.on(Part.POSITION, Plane.NUMBERS):
-            if link == FRAME:
-                pen.shared[key] = pen.given("nought")
-            elif driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
-                pen.shared[key] = driven_turn(pen, shapes, contact, driver)
-            else:
-                ends = axis(pen, shapes, link), start_of(pen, contact, link)
-                pen.shared[key] = pen.draw(turned_since, *ends)
-    return pen.shared[key]
+    if ("turned", link) in pen.shared:
+        return pen.shared["turned", link]
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        if link == FRAME:
+            return pen.given("nought")
+        if driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
+            pen.shared["turned", link] = driven_turn(pen, shapes, contact, driver)
+            return pen.shared["turned", link]
+        ends = axis(pen, shapes, link), start_of(pen, contact, link)
+        return pen.draw(sum_of, pen.draw(turned_since, *ends), start_turn(pen, contact, link))
 
 
 def turns_link(driver: Driver, link: str) -> bool:
@@ -236,17 +250,14 @@ def turns_link(driver: Driver, link: str) -> bool:
 
 
 def driven_turn(pen: Pen, shapes: Shapes, contact: Contact, driver: Driver) -> int:
-    """How far a driver has turned a link since the start, whole turns counted."""
-    link = driver.link
-    before = turned_by(pen, shapes, contact, driver.against)
-    angle, start = pen.driven_angle(driver), start_of(pen, contact, link)
-    if driver.against in contact.rolling.start:
-        start = pen.draw(turned_back, start, start_of(pen, contact, driver.against))
+    """The angle of a driven link's x axis, whole turns counted."""
+    before = angle_of(pen, shapes, contact, driver.against)
+    angle = pen.driven_angle(driver)
     if driver.of:
-        ends = [shapes.local(link, point) for point in driver.of]
+        ends = [shapes.local(driver.link, point) for point in driver.of]
     else:
         ends = [pen.given("origin"), pen.given("ahead")]
-    return pen.draw(turned_to, before, angle, start, *ends)
+    return pen.draw(turned_to, before, angle, *ends)
 
 
 def roller(pen: Pen, shapes: Shapes, group: Geared, own: Contact) -> None:
@@ -257,11 +268,11 @@ def roller(pen: Pen, shapes: Shapes, group: Geared, own: Contact) -> None:
     way = -1 if all(values) and (values[0].along.conjugate() * values[1].along).real < 0 else 1
     leads = []
     for each in (own, other):
-        on, start = each.links[1], start_of(pen, each, group.link)
+        angle = angle_of(pen, shapes, each, each.links[1])
         with pen.on(Part.POSITION, Plane.NUMBERS):
-            leads.append(start if on == FRAME else pen.draw(turned, axis(pen, shapes, on), start))
+            leads.append(pen.draw(sum_of, angle, start_turn(pen, each, group.link)))
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        lean = pen.draw(turned_back, *leads)
+        lean = pen.draw(difference, *leads)
         radii = radius_of(pen, own), radius_of(pen, other)
         where = pen.draw(between_tracks, *lines, lean, *radii, extra=(way,))
     path = path_of_centre(pen, shapes, own)
@@ -283,15 +294,12 @@ def rack(pen: Pen, shapes: Shapes, group: Geared, slide: Sliding) -> None:
     ends = local_line(pen, shapes, contact.rolling, link)
     radius, axis_ = radius_of(pen, contact), axis(pen, shapes, link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        start = pen.draw(turned, axis_, start_of(pen, contact, wheel))
-        driver = next((d for d in pen.scene.drivers if turns_link(d, wheel)), None)
-        if driver is not None and driver.against == FRAME and not driver.of:
-            line = pen.given("origin"), pen.given("ahead")
-            angle = pen.driven_angle(driver)
-            turn = pen.draw(turned_to, pen.given("nought"), angle, start, *line)
+        turn = angle_of(pen, shapes, contact, wheel)
+        if pen.turns(link):
+            turn = pen.draw(difference, turn, angle_of(pen, shapes, contact, link))
         else:
-            turn = pen.draw(turned_since, axis(pen, shapes, wheel), start)
-        way = pen.draw(way_of_turn, turn, radius)
+            turn = pen.draw(less_axis, turn, axis_)
+        way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
     centre = pen.the("position", contact.wheel.centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         where = centre, axis_, *ends, shapes.local(link, point), radius, way

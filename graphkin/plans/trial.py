@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from graphkin.plans.pen import Pen
 from graphkin.steps.program import Given, Part, Plane, Step
 
@@ -20,6 +22,22 @@ class TrialPen(Pen):
     def input_step(self) -> int:
         """A step whose value comes from outside."""
         return self._add(Step(None, (), Part.POSITION, Plane.NUMBERS, given=Given("input", ())))
+
+    def given(self, form: str, *quantities: Any, name: str = "", **says: Any) -> int:
+        """A value that the scene states comes in too, so that it may vary in a batch."""
+        number = self.parent.given(form, *quantities, name=name, **says)
+        key = ("given", number)
+        if key not in self.shared:
+            self.shared[key] = self.input_step()
+            self.inputs[self.shared[key]] = number
+        return self.shared[key]
+
+    def peek(self, number: int) -> Any:
+        """Value of a step at the scene's own numbers; None where it hangs on what is tried."""
+        for step, known in self.inputs.items():
+            if step not in self.peeked:
+                self.peeked[step] = self.parent.peek(known)
+        return super().peek(number)
 
     def has(self, quantity: str, of: str) -> bool:
         """True when a quantity has been constructed here, or by the real pen."""

@@ -8,7 +8,7 @@ from math import asin, degrees
 from graphkin.closures import Choice, choices
 from graphkin.errors import ClosureError, GraphkinError, Problem, WitnessError
 from graphkin.mechanism import Mechanism
-from graphkin.reach import closing_ranges
+from graphkin.reach import closing_ranges, reached_words
 from graphkin.report.motion import verdict_words
 from graphkin.report.record import plain, settings_words
 from graphkin.report.structure import group_lines, structure
@@ -107,17 +107,18 @@ def closure_lines(choice: Choice) -> list[str]:
 
 
 def range_words(mechanism: Mechanism) -> str:
-    """The driver's angles for which everything closes, for one turning driver."""
-    drivers = mechanism.scene.drivers
-    if len(drivers) != 1 or drivers[0].kind != "turn":
-        return "not swept: it is for mechanisms with one driver, which turns"
-    program = mechanism.program
-    found = closing_ranges(program, program.needed(program.targets), mechanism.scene)
-    if found == [(0.0, 360.0)]:
+    """The positions of the driver for which everything closes, for one driver."""
+    scene = mechanism.scene
+    if len(scene.drivers) != 1:
+        return "not swept: it is for mechanisms with one driver"
+    turns = scene.drivers[0].kind == "turn"
+    found = closing_ranges(scene)
+    if turns and found == [(0.0, 360.0)]:
         return "closes for every angle of the driver: it turns fully"
-    turned = sorted((low - 360 * (high > 360), high - 360 * (high > 360)) for low, high in found)
-    words = ", ".join(f"{low:.2f}° to {high:.2f}°" for low, high in turned)
-    return f"closes for driver angles {words}" if words else "closes for no angle of the driver"
+    what = "angle" if turns else "position"
+    if not found:
+        return f"closes for no {what} of the driver"
+    return f"closes for driver {what}s {reached_words(scene, found)}"
 
 
 def crossing_lines(trace: Trace) -> list[str]:

@@ -127,6 +127,8 @@ def range_words(cycle: Cycle) -> list[str]:
 def singular_words(cycle: Cycle, found: Singular) -> str:
     """A dead point or a change point, in a sentence."""
     where = f"{found.lines} at {at_words(cycle.sweep, found.at)}"
+    if found.kind == "dead" and cycle.sweep.what == "time":
+        return f"{where}: the motion ends, {found.pin} cannot be found beyond"
     if found.kind == "dead":
         return f"{where}: limit position of the driver, {found.pin} cannot be found beyond"
     return f"{where}: change point, passed as the velocity leads"

@@ -389,11 +389,11 @@ def cosine_between(axis: Point, other: Point) -> Real:
 
 @action("far")
 def far(p: Point, *others: Point) -> Real:
-    """Farther than any of some points lies from a point: a round number of times as far."""
+    """How far some points lie from a point in the mean."""
     total: Real = 0.0
     for other in others:
         total = total + abs(other - p)
-    return 2 * total
+    return total / len(others)
 
 
 @action("lacks")

@@ -96,7 +96,9 @@ def numpy_source(graph: Graph, outputs: Sequence[int]) -> tuple[str, int]:
     body = [line for number in order for line in rooms.written(number)]
     opening = [f"t{room} = t[{room}]" for room in range(rooms.count)]
     opening += [f"y{place} = y[{place}]" for place in range(len(outputs))]
+    constants = [f"{name} = array({value})" for value, name in rooms.constants.items()]
     lines = ["def block(x, y, t):", *(f"    {line}" for line in (*opening, *body, "return"))]
+    lines = [*constants, *lines]
     return "\n".join(lines) + "\n", rooms.count
 
 
@@ -108,6 +110,7 @@ class Rooms:
         self.count = 0
         self.free: list[int] = []
         self.name: dict[int, str] = {}
+        self.constants: dict[str, str] = {}
         self.places: dict[int, list[int]] = {}
         for place, number in enumerate(outputs):
             self.places.setdefault(number, []).append(place)
@@ -124,12 +127,16 @@ class Rooms:
             self.count += 1
         return f"t{self.free.pop()}"
 
+    def constant(self, value: str) -> str:
+        """A constant by a name: numpy takes an array of one number quicker than a plain one."""
+        return self.constants.setdefault(value, f"k{len(self.constants)}")
+
     def written(self, number: int) -> list[str]:
         """The lines that give a node its value and copy it to the outputs that it is."""
         node = self.graph.nodes[number]
         lines = []
         if node.op == "number":
-            self.name[number] = shown(node)
+            self.name[number] = self.constant(shown(node))
         elif node.op == "input":
             self.name[number] = f"x[{node.name!r}]"
         else:
@@ -150,7 +157,7 @@ class Rooms:
             return f"{letter}{number} = {function}({', '.join(args)})"
         self.name[number] = room = self.take(number)
         if node.op == "over":
-            args.insert(0, "1.0")
+            args.insert(0, self.constant("1.0"))
         return f"{ARRAYS[node.op]}({', '.join(args)}, out={room})"
 
 

@@ -27,21 +27,21 @@ def radius_along(line: Line, radius: Real) -> Line:
 
 
 @action("rolled-on-track")
-def rolled_on_track(axis: Point, start: Point, coordinate: Real, radius: Real) -> Point:
-    """Axis of a wheel that rolled a way from its start; ``radius`` is negative on the right."""
-    return axis * start * turn_by(-coordinate / radius)
+def rolled_on_track(lead: Real, start: Real, coordinate: Real, radius: Real) -> Real:
+    """Angle of a wheel that rolled a way from its start; ``radius`` is negative on the right."""
+    return lead + start - coordinate / radius
 
 
 @action("way-rolled")
-def way_rolled(turn: Real, start: Point, radius: Real) -> Real:
-    """How far along its track a wheel has rolled when it has turned to an angle."""
-    return -(turn - phase(start)) * radius
+def way_rolled(turn: Real, start: Real, radius: Real) -> Real:
+    """How far along its track a wheel has rolled when it has turned to an angle against it."""
+    return -(turn - start) * radius
 
 
-@action("way-rolled")
-def way_of_turn(turn: Real, radius: Real) -> Real:
-    """How far along its track a wheel has rolled while it turned by an angle."""
-    return -turn * radius
+@action("less-axis")
+def less_axis(turn: Real, axis: Point) -> Real:
+    """An angle less that of a link that keeps its direction."""
+    return turn - phase(axis)
 
 
 @action("rack-at")
@@ -67,9 +67,9 @@ def turned_since(axis: Point, start: Point) -> Real:
 
 
 @action("turned-to")
-def turned_to(before: Real, angle: Real, start: Point, here: Point, there: Point) -> Real:
-    """How far a driven link has turned since the start, from the angle of one of its lines."""
-    return before + angle - phase((there - here) * start)
+def turned_to(before: Real, angle: Real, here: Point, there: Point) -> Real:
+    """The angle of a driven link, from that of one of its lines (here to there)."""
+    return before + angle - phase(there - here)
 
 
 @action("rolled-on-wheel")
@@ -80,35 +80,47 @@ def rolled_on_wheel(turn_arm: Real, turn_track: Real, track: Real, wheel: Real) 
 
 @action("arm-between")
 def arm_between(
-    turn: Real, other: Real, track: Real, other_track: Real, wheel: Real, other_wheel: Real
+    turn: Real,
+    other_turn: Real,
+    start: Real,
+    other_start: Real,
+    planet: Real,
+    other_planet: Real,
+    track: Real,
+    other_track: Real,
+    wheel: Real,
+    other_wheel: Real,
 ) -> Real:
-    """How far an arm has turned whose planet rolls on two wheels that turned so far (Willis).
+    """The angle of an arm whose planet rolls on two wheels that turned so far (Willis).
 
-    Radii of the two tracks and of the planet's wheel on each, a ring's negative. Equal ratios
-    leave the arm free: they raise ZeroDivisionError on a scalar.
+    Of both contacts: how far the track has turned, the arm's and the planet's angle at the start,
+    radii of the track and of the planet's wheel, a ring's negative. Equal ratios leave the arm
+    free: they raise ZeroDivisionError on a scalar.
     """
     first, second = track / wheel, other_track / other_wheel
-    return (turn * first - other * second) / (first - second)
+    near = planet - (turn + start) * first - start
+    far = other_planet - (other_turn + other_start) * second - other_start
+    return (far - near) / (first - second)
 
 
 @action("axis")
-def axis_turned(turn: Real, start: Point) -> Point:
-    """Axis of a link that has turned by an angle since its start."""
-    return start * turn_by(turn)
+def axis_turned(turn: Real) -> Point:
+    """Axis of a link at an angle in radians."""
+    return turn_by(turn)
 
 
 @action("between-tracks")
 def between_tracks(
-    own: Line, other: Line, starts: Point, radius: Real, other_radius: Real, way: int
+    own: Line, other: Line, lean: Real, radius: Real, other_radius: Real, way: int
 ) -> Real:
     """Where between two parallel tracks a roller stands on the first, from how it turned.
 
-    On both tracks the way rolled gives the same turning; ``starts`` is the lean of one start
-    against the other, way the sense of the second track against the first.
+    On both tracks the way rolled gives the same turning; ``lean`` is how much farther the one has
+    the roller turned at its zero, way the sense of the second track against the first.
     """
     unit = own.along / abs(own.along)
     shift = dot(unit, own.point - other.point)
-    return -(phase(starts) * other_radius + way * shift) / (way - other_radius / radius)
+    return -(lean * other_radius + way * shift) / (way - other_radius / radius)
 
 
 @action("speed-rolled")

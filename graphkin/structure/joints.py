@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
+from graphkin.errors import Problem, StructureError
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.graph import Contact, Pair, Pin, Sliding, contacts, sharers
 
@@ -23,6 +24,7 @@ class Joints:
             for slide in link.slides:
                 self._put(Sliding(slide, (link.name, slide.on)))
         for contact in contacts(scene):
+            refuse_loose(contact)
             self._put(contact)
 
     def _put(self, pair: Sliding | Contact) -> None:
@@ -56,6 +58,21 @@ class Joints:
     def unknown(self, known: Collection[str]) -> Iterator[str]:
         """The links that are not known, as written."""
         return (name for name in self.scene.links if name not in known)
+
+
+def refuse_loose(contact: Contact) -> None:
+    """Raise StructureError for wheels that roll on one another with no arm between them."""
+    if contact.track is None or contact.arm is not None:
+        return
+    centres = f"{contact.track.centre} and {contact.wheel.centre}"
+    raise StructureError(
+        Problem(
+            f"links.{contact.links[0]}.rolls",
+            f"no link carries both centres, {centres}",
+            f"an arm: a link with {contact.track.centre}-{contact.wheel.centre} = …",
+            "the arm keeps the wheels together; its weight and shape do not matter",
+        )
+    )
 
 
 def partner(pair: Joint, link: str) -> str:

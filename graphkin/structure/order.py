@@ -77,12 +77,20 @@ def driven_by(
     """The group of one driven link: a crank about any known pin, or along its own guide."""
     if driver.kind == "turn":
         pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
-        return Crank(driver, link, pins[0].point) if pins else None
+        return Crank(driver, link, pins[0].point) if pins else turned_wheel(joints, driver, link)
     wanted = Sliding if driver.kind == "slide" else Contact
     for pair in joints.between(link, (against,)):
         if isinstance(pair, wanted) and pair.links[0] == driver.link:
             assert not isinstance(pair, Pin)
             return Driven(driver, link, pair)
+    return None
+
+
+def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
+    """A wheel that a driver turns against the straight track on which it rolls."""
+    for pair in joints.between(link, (driver.against,)):
+        if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
+            return Driven(driver, link, pair) if link == driver.link and pair.taken == 2 else None
     return None
 
 

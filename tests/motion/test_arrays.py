@@ -90,3 +90,23 @@ def test_the_moving_centrode_rolls_on_the_fixed_one(mechanism, link, low, high):
     assert placed[middle] == pytest.approx(both.fixed[middle])
     ways = [curve[middle + 1] - curve[middle - 1] for curve in (both.fixed, placed)]
     assert abs(np.angle(ways[0] / ways[1])) < 1e-4
+
+
+def test_centrodes_of_the_cardan_motion_are_circles_in_the_ratio_of_two_to_one():
+    found = cycle(load(f"{SCENES}/centrodes-cardan.toml"))
+    length = float(found.scene.values["l"]) / 1000
+    (link,) = found.scene.ask.centrodes
+    both = centrodes(found, link)
+    assert both is not None
+    crossing = 0
+    assert np.allclose(np.abs(both.fixed - crossing), length, rtol=1e-9)
+    assert np.allclose(np.abs(both.moving - length / 2), length / 2, rtol=1e-9)
+
+
+def test_the_rolling_wheel_has_its_rail_and_its_rim_for_centrodes():
+    found = cycle(load(f"{SCENES}/centrodes-roller.toml"))
+    radius = float(found.scene.values["r"]) / 1000
+    both = centrodes(found, found.scene.ask.centrodes[0])
+    assert both is not None
+    assert np.allclose(both.fixed.imag, both.fixed[0].imag, atol=1e-12)
+    assert np.allclose(np.abs(both.moving), radius)

@@ -37,7 +37,7 @@ TABLE: dict[str, set[str]] = {
     "plans": {"scene", "structure", "steps"},
     "freedom": {"scene", "structure", "loops"},
     "witness": {"scene", "steps", "loops"},
-    "reach": {"scene", "steps"},
+    "reach": {"scene", "steps", "motion"},
     "mechanism": {"scene", "structure", "steps", "plans", "witness", "reach", "labs"},
     "paper": {"scene", "steps", "text"},
     "handout": {"scene", "steps", "text", "paper", "mechanism", "witness", "motion"},

@@ -1,0 +1,155 @@
+"""Where the motion along a sweep ends or may change its closure: dead points and change points.
+
+At a dead point the sine of a crossing falls to nought as a square root and nothing closes beyond;
+at a change point it touches nought. Its square is smooth in both, and goes on below nought.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from graphkin.motion.course import Course, Reals
+from graphkin.motion.refine import AROUND, TOUCH, last_closing, least_square, touching
+from graphkin.plane import Line
+
+End = Literal["dead", "change", "number", "window"]
+SUSPECT = 0.3
+"""Sine of a crossing below which a minimum is looked at more closely."""
+WIDE = 3
+"""Steps of the grid between the samples from which a change point is found."""
+NARROW = 2
+"""Positions of the grid in a row that do not close, and may be one change point."""
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Where a piece ends: a dead point or a change point with the steps whose loci touch there.
+
+    At a ``number`` the closure goes on smoothly under another number. ``beyond`` is a u at which
+    nothing closes, for a dead point.
+    """
+
+    kind: End
+    at: float
+    steps: tuple[int, ...] = ()
+    beyond: float | None = None
+
+
+def next_event(course: Course, start: float, stop: float) -> Event:
+    """The first dead point or change point on the way; the window's end if there is none."""
+    step = course.sweep.grid_step
+    count = max(int(np.ceil(abs(stop - start) / step)), 1)
+    grid = np.linspace(start, stop, count + 1)
+    if start == stop:
+        return Event("window", stop)
+    margins = course.margins(grid)
+    margins[:, 0] = np.where(np.isfinite(margins[:, 0]), margins[:, 0], 0.0)
+    closed = np.array(np.isfinite(margins).all(axis=0))
+    closed[0] = True
+    end = first_end(course, grid, closed)
+    last = len(grid) if end is None else end + 1
+    for k in suspects(margins[:, :last], closed[:last]):
+        event = looked_at(course, grid, k)
+        if event is not None and abs(event.at - start) > 0.01 * step:
+            return event
+    if end is None:
+        return Event("window", stop)
+    return dead(course, float(grid[end]), float(grid[end + 1]))
+
+
+def first_end(course: Course, grid: Reals, closed: np.ndarray) -> int | None:
+    """The last position of the grid that closes before a dead point; a change point is passed.
+
+    A short run that does not close, with a closing position on both sides, is left to ``suspects``.
+    """
+    gaps = np.flatnonzero(~closed)
+    k = 0
+    while k < len(gaps):
+        first = int(gaps[k])
+        length = 1
+        while k + length < len(gaps) and gaps[k + length] == first + length:
+            length += 1
+        past = first + length
+        at_end = past >= len(grid)
+        if length > NARROW or (at_end and not is_touch(course, grid, first)):
+            return first - 1
+        if not at_end and not is_touch(course, grid, first + length // 2):
+            return first - 1
+        k += length
+    return None
+
+
+def is_touch(course: Course, grid: Reals, k: int) -> bool:
+    """Whether a position of the grid that does not close is one where loci only touch."""
+    event = looked_at(course, grid, k)
+    return event is not None and event.kind == "change"
+
+
+def suspects(margins: Reals, closed: np.ndarray) -> list[int]:
+    """Positions of the grid near which a crossing may touch nought, in order."""
+    found: set[int] = set()
+    rows = margins[:-1]
+    if rows.shape[1] > 2:
+        middle, before, after = rows[:, 1:-1], rows[:, :-2], rows[:, 2:]
+        with np.errstate(invalid="ignore"):
+            low = (middle < SUSPECT) & (middle <= before) & (middle <= after)
+            square = middle**2
+            bend = before**2 + after**2 - 2 * square
+            slope = (after**2 - before**2) / 2
+            vertex = square - slope**2 / np.where(bend > 0, 2 * bend, np.inf)
+            near = vertex < 0.3 * np.maximum(square, bend) + TOUCH
+        found.update(int(k) + 1 for k in np.flatnonzero((low & near).any(axis=0)))
+    gaps = np.flatnonzero(~closed)
+    found.update(int(k) for k in gaps if k > 0)
+    return sorted(found)
+
+
+def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
+    """What happens near a position of the grid: a change point, a narrow gap, or nothing."""
+    step = float(grid[1] - grid[0])
+    centre = float(grid[k])
+    known: dict[int, tuple[float, float]] = {}
+    for _ in range(2):
+        samples = course.margins(centre + AROUND * step)[:-1]
+        lows = {n: least_square(AROUND, row) for n, row in enumerate(samples)}
+        known = {n: low for n, low in lows.items() if low is not None and low[1] < TOUCH}
+        if not known:
+            return None
+        first = min(known, key=lambda n: known[n][1])
+        centre += known[first][0] * step
+    if known[first][1] < -TOUCH:
+        return dead(course, centre - 2 * step, centre)
+    at = centre + touch_of(course, centre, step, first)
+    steps = tuple(course.crossings[n] for n in sorted(known))
+    if runs_away(course, steps[0], at - step):
+        return Event("dead", at, steps, at)
+    return Event("change", at, steps)
+
+
+def touch_of(course: Course, centre: float, step: float, row: int) -> float:
+    """How far from a place a margin touches nought; from afar, where its digits are sure."""
+    for wide in (WIDE * step, step):
+        samples = course.margins(centre + AROUND * wide)[row]
+        shift = touching(AROUND, samples) if np.isfinite(samples).all() else None
+        if shift is not None:
+            return shift * wide
+    return 0.0
+
+
+def runs_away(course: Course, number: int, at: float) -> bool:
+    """Whether a step crosses two straight lines: their crossing is at infinity when parallel."""
+    loci = course.loci(number, at)
+    return len(loci) == 2 and all(isinstance(locus, Line) for locus in loci)
+
+
+def dead(course: Course, inside: float, outside: float) -> Event:
+    """The dead point between a position that closes and one that does not."""
+    last = last_closing(course.closes, inside, outside)
+    way = 1.0 if outside > inside else -1.0
+    past = last + way * max(1e-9 * course.sweep.grid_step, 8 * float(np.spacing(abs(last))))
+    failing = np.flatnonzero(~np.isfinite(course.margins(np.array([past]))[:-1, 0]))
+    steps = (course.crossings[failing[0]],) if failing.size else ()
+    return Event("dead", last, steps, past)

@@ -1,0 +1,48 @@
+"""Groups of higher class: the motion goes on though the number of its closure changes."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from graphkin.mechanism import load
+from graphkin.motion import cycle
+from graphkin.motion.limits import followers
+from graphkin.scene.model import Closure
+
+
+@pytest.fixture(scope="module")
+def swept():
+    """A Stephenson III driven at the crank of its two-link path, across two new numbers."""
+    mechanism = load("examples/scenes/stephenson-3-crank.toml")
+    return cycle(mechanism, low=95, high=125, steps=60)
+
+
+def test_the_closure_is_followed_under_its_changing_number(swept):
+    assert len(swept.pieces) > 1
+    numbers = [piece.branches["1"] for piece in swept.pieces]
+    assert all(isinstance(each, Closure) for each in numbers)
+    assert all(a != b for a, b in pairwise(numbers))
+    for name, motion in swept.solution.points.items():
+        if np.ptp(np.abs(motion.position - motion.position[0])) == 0:
+            continue
+        # positions and velocities fit together: no leap to another closure anywhere
+        seconds = np.radians(np.diff(swept.at)) / swept.solution.links["5"].omega[0]
+        mean = (motion.velocity[1:] + motion.velocity[:-1]) / 2
+        step = np.diff(motion.position)
+        assert np.abs(step - mean * seconds).max() < 0.02 * np.abs(step).max(), name
+
+
+def test_every_row_agrees_with_the_witness(swept):
+    assert swept.witnessed.agrees.all()
+
+
+def test_a_link_turns_round_where_the_other_driver_has_its_dead_point():
+    # driven at link 1 the same linkage has dead points; seen from link 5, link 1 turns round there
+    other = load("examples/scenes/stephenson-3.toml")
+    dead = cycle(other).ranges[0][1]
+    here = cycle(load("examples/scenes/stephenson-3-crank.toml"), low=145, high=160, steps=15)
+    crank = next(each for each in followers(here) if each.name == "1")
+    assert crank.high.value == pytest.approx(dead, abs=1e-6)
