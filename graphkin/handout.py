@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import Problem, SceneError, WitnessError
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import HEIGHT, WIDTH
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.scale import Scales, extent_of, fitting_scale, kept_scale, preferred
+from graphkin.paper.scale import (
+    Extent,
+    Scales,
+    extent_of,
+    fitting_scale,
+    kept_scale,
+    preferred,
+)
 from graphkin.steps.program import PLACES, Target
 from graphkin.steps.solution import FAIR, Curve, Solution, Verdict
 from graphkin.text import LANGUAGES, Words, words
@@ -26,8 +34,12 @@ WANTED = {
 """The sheet on which each quantity is asked."""
 STEPS = 720
 """Positions of a turn from which a curve is drawn."""
-SIZES = (1.0, 0.7, 0.5, 0.35, 0.25)
-"""How large plans are tried beside the mechanism, where no crank says their scale."""
+SIZES = (0.2, 1.2)
+"""How large plans are drawn beside the mechanism where no crank says it: at least, at most."""
+LADDER = 5
+"""Preferred scales that are tried then, upwards from the least."""
+LARGE = (120.0, 80.0)
+"""Sizes in mm above which a mechanism or a plan is read no better."""
 AWAY = 20.0
 """Breadths of the mechanism beyond which a centrode is not followed."""
 
@@ -129,43 +141,56 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
 
 
 def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Scales:
-    """The one set of scale factors at which every sheet's drawings fit their fields.
-
-    Where no crank says how large velocities are drawn, they are as large as leaves kL smallest.
-    """
-    crank = the_crank(mechanism)
+    """The one set of scale factors at which every sheet's drawings fit their fields."""
     curves = curves_of(mechanism) if curves is None else curves
+    stated = mechanism.scene.sheet.scale
+    wanted = float(stated.number(mechanism.scene.values)) if stated is not None else 0.0
+    crank = the_crank(mechanism)
+    if crank:
+        kL = fitting_scale(extents(trials_of(mechanism, curves, 1 / crank)), WIDTH, HEIGHT)
+        return Scales(kept_scale(wanted, kL) if wanted else kL, 1 / crank)
+    natural = natural_seconds(mechanism)
+    smallest = trials_of(mechanism, curves, natural * SIZES[0])
+    least = fitting_scale(extents(smallest), WIDTH, HEIGHT)
+    lengths = [kept_scale(wanted, least)] if wanted else list(islice(preferred(least), LADDER))
+    tried = [pair for kL in lengths for pair in pairs_of(mechanism, curves, kL, natural)]
+    _, kL, kv = max(tried, default=(0.0, least, next(preferred(least / natural / SIZES[0]))))
+    return Scales(kL, kL / kv, from_driver=False)
+
+
+def pairs_of(
+    mechanism: Mechanism, curves: tuple[Curve, ...], kL: float, natural: float
+) -> Iterator[tuple[float, float, float]]:
+    """The preferred kv that fit beside a kL, each with how well both drawings can be read."""
+    for kv in preferred(kL / natural / SIZES[1]):
+        seconds = kL / kv
+        if seconds < SIZES[0] * natural / 2:
+            return
+        trials = trials_of(mechanism, curves, seconds)
+        if fitting_scale(extents(trials), WIDTH, HEIGHT) <= kL * (1 + 1e-12):
+            size = min(1000 * trial.reach / kL for trial in trials)
+            vectors = [abs(trial.at_scale(trial.plane, trial.largest)) for trial in trials]
+            yield min(size, LARGE[0]) * min(1000 * min(vectors) / kL, LARGE[1]), kL, kv
+
+
+def extents(trials: list[Drawing]) -> list[tuple[Extent, Extent]]:
+    """The room for mechanism and plan on each sheet, at the mechanism's full size."""
+    return [(trial.mechanism_extent(), trial.plan_extent()) for trial in trials]
+
+
+def trials_of(
+    mechanism: Mechanism, curves: tuple[Curve, ...], seconds: float
+) -> list[Drawing]:
+    """The material of each sheet, a velocity drawn at full size as its way in some time."""
     asked = {kind: targets_of(mechanism, kind) for kind in WANTED}
     if not any(asked.values()):
-        asked = {kind: mechanism.program.answers for kind in WANTED}
-    if crank:
-        kL, seconds = fitting(mechanism, asked, curves, 1 / crank), 1 / crank
-    else:
-        natural = natural_seconds(mechanism)
-        tried = [natural * size for size in SIZES]
-        kL, _, seconds = min((fitting(mechanism, asked, curves, s), -s, s) for s in tried)
-    if mechanism.scene.sheet.scale is not None:
-        kL = kept_scale(float(mechanism.scene.sheet.scale.number(mechanism.scene.values)), kL)
-    if crank:
-        return Scales(kL, seconds)
-    return Scales(kL, kL / next(preferred(kL / seconds)), from_driver=False)
-
-
-def fitting(
-    mechanism: Mechanism,
-    asked: dict[str, tuple[Target, ...]],
-    curves: tuple[Curve, ...],
-    seconds: float,
-) -> float:
-    """The smallest kL at which all sheets fit, with a velocity drawn as its way in some seconds."""
-    nobody, needs = Verdict(True, 0.0, "", 0.0, 0.0, 0.0), []
-    for kind, found in asked.items():
-        if found:
-            trial = drawing(
-                mechanism, kind, found, Scales(1.0, seconds), nobody, words("en"), curves
-            )
-            needs.append((trial.mechanism_extent(), trial.plan_extent()))
-    return fitting_scale(needs, WIDTH, HEIGHT)
+        asked = dict.fromkeys(WANTED, mechanism.program.answers)
+    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    return [
+        drawing(mechanism, kind, found, Scales(1.0, seconds), nobody, words("en"), curves)
+        for kind, found in asked.items()
+        if found
+    ]
 
 
 def the_crank(mechanism: Mechanism) -> float:

@@ -1,35 +1,21 @@
-"""Where a mechanism closes: why a step fails, by how much, and for which driver positions."""
+"""Why a step cannot be drawn, by how much it misses, and what lies in line at a dead point."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from graphkin.errors import ClosureError, GraphkinError, Problem
+from graphkin.errors import ClosureError, Problem
+from graphkin.ranges import MOST, driver_words, where_it_closes
 from graphkin.scene.model import Driver, Scene
-from graphkin.scene.quantity import LENGTHS, shortest
+from graphkin.scene.quantity import shortest
 from graphkin.steps.closing import Closer, ClosingError, needed_of, sign_table
 from graphkin.steps.program import Part, Program, Step
 from graphkin.steps.run import StepFailed, miss
 
-if TYPE_CHECKING:
-    from graphkin.motion.course import Course
-
-HALVINGS = 20
-"""How often the last step at the end of a range is halved."""
 TOUCH = 1e-9
 """Share of its loci by which a crossing may be missed that only touches, but for rounding."""
 DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
-MOST = 3
-"""Drivers told with their ranges."""
-FREE = {
-    (False, False): "{0} to {1} {2}",
-    (True, False): "up to {1} {2}",
-    (False, True): "{0} {2} and more",
-    (True, True): "of any size",
-}
-"""Words for a range of a sliding driver, by whether it reaches below and above what was tried."""
-Range = tuple[float, float]
 
 
 # --- why a step fails ----------------------------------------------------------------------------
@@ -42,29 +28,35 @@ def does_not_close(
     step = failed.step
     if isinstance(failed.__cause__, ClosingError):
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
+    if falls(step):
+        return ClosureError(no_direction(step))
     letters = "-".join(step.says[key] for key in ("p", "q") if key in step.says)
     what = " of ".join(part for part in (step.part.value, step.name or letters) if part)
     early = step.part in (Part.SHAPE, Part.POSITION)
     return ClosureError(
         Problem(
             what,
-            f"{sought(step)} cannot be found: {why(program, failed)}",
-            "two different points" if falls(step) else "loci that cross",
+            f"{step.name or 'a value'} cannot be found: {why(program, failed)}",
+            "loci that cross",
             where_it_closes(scene) if early else DEAD,
         )
     )
 
 
-def sought(step: Step) -> str:
-    """What a step was to find."""
-    if falls(step):
-        return f"the direction of link {step.says['k']}"
-    return step.name or "a value"
-
-
 def falls(step: Step) -> bool:
     """Whether a step looks for the direction from one point to another, which fall together."""
     return step.action is not None and step.action.key == "swing-through"
+
+
+def no_direction(step: Step) -> Problem:
+    """The problem of a slot through a pivot on which the pin in the slot has come to stand."""
+    says = step.says
+    return Problem(
+        f"position of link {says['k']}",
+        f"{says['q']} falls on {says['p']}, so that the guide through both may have any direction",
+        f"{says['q']} and {says['p']} apart",
+        f"move the driver, or give the guide an offset from {says['p']}",
+    )
 
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
@@ -114,13 +106,13 @@ def why(program: Program, failed: StepFailed) -> str:
     """Words for what hinders a step: loci that miss each other, or parallel lines."""
     step = failed.step
     key = step.action.key if step.action else ""
-    if key == "swing-through":
-        return f"{step.says['q']} falls on {step.says['p']}, so that any direction would do"
     if key == "swing":
         return f"{step.says['q']} stands nearer to {step.says['p']} than the guide passes it"
     missed = miss(step, failed.args_found)
-    if missed is None or missed < TOUCH * size(failed.args_found):
+    if missed is None:
         return in_line(program, failed.number)
+    if missed < TOUCH * size(failed.args_found):
+        return f"{in_line(program, failed.number)}, a dead point"
     loci = "the arcs miss each other" if "q" in step.says else "the arc misses the guide"
     return f"{loci} by {millimetres(missed)}"
 
@@ -203,14 +195,9 @@ def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
     drivers = zip(scene.drivers, program.drives, strict=False)
     needed = set(needed_of(program, (number,)))
     causes = [driver for driver, drive in drivers if drive.position in needed]
-    places = [f"{driver_words(driver)} at {stands(scene, driver)}" for driver in causes[:MOST]]
+    places = [f"{driver_words(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
     words = in_line(program, number, "nearly ")
-    return f"{words}: move {' or '.join(places)} away" if places else words
-
-
-def driver_words(driver: Driver) -> str:
-    """A driver in short, as it is written: turn = 1."""
-    return f"{driver.kind} = {driver.link}"
+    return f"{words}: move {' or '.join(places)} to another position" if places else words
 
 
 def stands(scene: Scene, driver: Driver) -> str:
@@ -218,94 +205,3 @@ def stands(scene: Scene, driver: Driver) -> str:
     number = float(driver.position.number(scene.values))
     unit = driver.position.unit
     return f"{number:.10g}°" if unit == "deg" else f"{number:.10g} {unit}"
-
-
-# --- for which positions of a driver it closes ---------------------------------------------------
-
-
-def where_it_closes(scene: Scene) -> str:
-    """Words for the positions of each driver at which every position can be drawn."""
-    known = [
-        (driver, reached_words(scene, closing_ranges(scene, n), n))
-        for n, driver in enumerate(scene.drivers[:MOST], 1)
-    ]
-    if len(scene.drivers) == 1:
-        ((driver, words),) = known
-        if words:
-            return (
-                f"it closes for driver {'angles' if driver.kind == 'turn' else 'positions'} {words}"
-            )
-        noun = "angle" if driver.kind == "turn" else "position"
-        return f"it closes for no {noun} of the driver: check the lengths"
-    told = [f"{driver_words(driver)} from {words}" for driver, words in known if words]
-    if not told:
-        return "no driver alone can close it: check lengths, sides and the drivers' positions"
-    return f"the other drivers as they stand, it closes for {'; or for '.join(told)}"
-
-
-def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
-    """The ranges of one driver, counted from 1, in the scene's units; empty where there are none.
-
-    Ranges of angles are told in order of their first angle from -180 to 180 degrees.
-    """
-    if scene.drivers[number - 1].kind == "turn":
-        turned = sorted(
-            (low - turn, high - turn) for low, high in found for turn in [360 * (high > 360)]
-        )
-        return ", ".join(f"{low:.2f}° to {high:.2f}°" for low, high in turned)
-    from graphkin.motion.sweep import sweep_of
-
-    sweep, unit = sweep_of(scene, driver=number), scene.units["length"]
-    words = []
-    for low, high in found:
-        first, last = (f"{end / float(LENGTHS[unit]):.6g}" for end in (low, high))
-        free = low <= sweep.low + sweep.grid_step, high >= sweep.high - sweep.grid_step
-        form = FREE[free]
-        words.append(form.format(first, last, unit))
-    return ", ".join(words)
-
-
-def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
-    """The ranges of a driver's position (degrees or m) for which all positions can be drawn.
-
-    The closures are those that the scene picks, the other drivers stand. One turn is looked at, or
-    as far as all lengths together reach; [(0, 360)] is a whole turn.
-    """
-    import numpy as np
-
-    from graphkin.motion.course import Course
-    from graphkin.motion.sweep import GRID, TURN, sweep_of
-
-    sweep = sweep_of(scene, driver=number)
-    course = Course(sweep, scene.branches)
-    start = 0.0 if sweep.whole else sweep.low
-    step = sweep.grid_step
-    grid = start + np.arange(GRID + (not sweep.whole)) * step
-    try:
-        closed = course.closes(grid)
-    except GraphkinError:
-        return []
-    if closed.all():
-        return [(0.0, TURN)] if sweep.whole else [(float(grid[0]), float(grid[-1]))]
-    if not closed.any():
-        return []
-    if not sweep.whole:
-        closed = np.concatenate([[False], closed, [False]])
-        grid = np.concatenate([[grid[0] - step], grid, [grid[-1] + step]])
-    starts = np.flatnonzero(closed & ~np.roll(closed, 1))
-    ends = np.flatnonzero(closed & ~np.roll(closed, -1))
-    if ends[0] < starts[0]:
-        ends = np.roll(ends, -1)
-    lows, highs = refined(course, grid[starts], -step), refined(course, grid[ends], step)
-    pairs = [(float(low), float(high)) for low, high in zip(lows, highs, strict=True)]
-    return sorted((low - (TURN if high < low else 0), high) for low, high in pairs)
-
-
-def refined(course: Course, at: Any, step: float) -> Any:
-    """The ends of closing ranges, each between a position that closes and one a step further."""
-    closing, size = at, step
-    for _ in range(HALVINGS):
-        size /= 2
-        further = closing + size
-        closing = closing + size * course.closes(further % 360 if course.sweep.whole else further)
-    return closing

@@ -20,6 +20,8 @@ NUMBER = 2.3
 
 ROUNDS = 4
 """How often labels are placed anew with more key numbers before a field counts as full."""
+HELPERS = ("construction", "trial")
+"""Classes of letters that a drawing can do without where there is no room for them."""
 SMALL = 1.8
 """Height of the smallest lettering in mm."""
 KEY = 4
@@ -130,10 +132,22 @@ class Board:
             if all(spot.free for spot in spots) and not self.unled(spots):
                 break
             if not rounds_left:
+                spots = self.without_helpers(spots)
                 refuse_crowds(self.labels, spots)
+                break
             self.shorten([spot.free for spot in spots], meanings)
         clear = with_leaders(self.labels, spots, self.marks)
         return [*self.marks, *foot, *marks_of(self.labels, clear)]
+
+    def without_helpers(self, spots: Sequence[Spot]) -> list[Spot]:
+        """Leave out the letters of the construction that find no place; the rest is drawn."""
+        kept = [
+            (label, spot)
+            for label, spot in zip(self.labels, spots, strict=True)
+            if spot.free or label.cls not in HELPERS
+        ]
+        self.labels = [label for label, _ in kept]
+        return [spot for _, spot in kept]
 
     def unled(self, spots: Sequence[Spot]) -> bool:
         """Bring labels nearer whose leaders would cross others; true when there were any."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graphkin.plans import wheels
+from graphkin.plans.arrows import acceleration_arrow
 from graphkin.plans.carried import image_under, omega_of, second_image_under
 from graphkin.plans.coriolis import (
     coriolis_of,
@@ -13,7 +14,7 @@ from graphkin.plans.coriolis import (
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import Base, crank_tip
 from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
-from graphkin.plans.pen import PRIME, Pen, Says, about, letter, named, second_image
+from graphkin.plans.pen import Pen, Says, about, letter, named, second_image
 from graphkin.plans.plates import crosses_well
 from graphkin.plans.shape import Shapes
 from graphkin.plans.velocity import driven_rate, line_of
@@ -24,7 +25,6 @@ from graphkin.steps.vocabulary import (
     alike,
     centripetal,
     driven_tangential,
-    join,
     meet,
     parallel_to,
     part_along,
@@ -67,7 +67,7 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False)
             found = pen.draw(driven_tangential, found, *ends, rate, name=second_image(tip), **says)
             component_arrow(pen, corner, found, "τ", tip, pivot)
     pen.want("acceleration", tip, found)
-    arrow_to(pen, tip)
+    acceleration_arrow(pen, tip)
 
 
 def driven(pen: Pen, shapes: Shapes, group: Driven) -> None:
@@ -93,7 +93,7 @@ def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, rate:
         )
         slide_arrow(pen, corner, found, known, point)
     pen.want("acceleration", point, found)
-    arrow_to(pen, point)
+    acceleration_arrow(pen, point)
     if isinstance(pair, Contact):
         wheels.second_touch(pen, pair)
 
@@ -149,7 +149,7 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
                 slide_arrow(pen, corner, found, partner(pair, link), point)
     pen.want("acceleration", name, found)
     if "@" not in name:
-        arrow_to(pen, name)
+        acceleration_arrow(pen, name)
     for pair, _ in sides:
         if isinstance(pair, Contact):
             wheels.second_touch(pen, pair)
@@ -192,7 +192,7 @@ def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
             for pivot, corner in corners.items():
                 component_arrow(pen, corner, found, "τ", point, pivot)
         pen.want("acceleration", point, found)
-        arrow_to(pen, point)
+        acceleration_arrow(pen, point)
 
 
 def led_points(pen: Pen, base: Base) -> None:
@@ -208,7 +208,7 @@ def led_points(pen: Pen, base: Base) -> None:
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             found = pen.draw(alike, start, name=second_image(point), p=base.start, q=point)
         pen.want("acceleration", point, found)
-        arrow_to(pen, point)
+        acceleration_arrow(pen, point)
 
 
 def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str, int]]:
@@ -245,13 +245,6 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
             start = pen.draw(lay_off_turned, start, vector, q=first)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))
-
-
-def arrow_to(pen: Pen, pin: str) -> None:
-    """The arrow from the pole to a second image, and the same acceleration on the mechanism."""
-    o, tip = pen.pole(Plane.ACCELERATIONS), pen.the("acceleration", pin)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        pen.arrow(join, o, tip, name=f"o{PRIME}{second_image(pin)}", symbol=f"a_{pin}", q=pin, p="")
 
 
 def set_on_mechanism(pen: Pen, point: str) -> None:

@@ -119,7 +119,8 @@ def closure_of(scene: Scene, group: Higher) -> int:
     numbers = [branch.number for branch in stated if isinstance(branch, Closure)]
     if numbers and len(stated) == 1:
         return numbers[0]
-    link = first_written(scene, group)
+    link = next((name for name in group.links if name in scene.branches), None)
+    link = link or first_written(scene, group)
     found = "is missing"
     if stated:
         found = "is given twice" if len(stated) > 1 else 'is not "closure 1" or another number'

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.links import under
 from graphkin.plans.pen import Pen, Says, image, letter, second_image
 from graphkin.scene.model import FRAME
@@ -69,6 +70,10 @@ def carried(pen: Pen, link: str, point: str, quantity: str) -> int:
     if not pen.has(quantity, name):
         pen.want("position", name, pen.the("position", point))
         pen.want(quantity, name, found_under(pen, link, point, quantity))
+        if quantity == "velocity":
+            velocity_arrows(pen, name, None)
+        else:
+            acceleration_arrow(pen, name)
     return pen.the(quantity, name)
 
 

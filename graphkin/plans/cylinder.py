@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graphkin.plans import acceleration, position, velocity
+from graphkin.plans.arrows import velocity_arrows
 from graphkin.plans.coriolis import coriolis_arrow, coriolis_of, slide_arrow
 from graphkin.plans.guides import local_line
 from graphkin.plans.links import under
@@ -70,7 +71,7 @@ def move(pen: Pen, shapes: Shapes, group: Stretched) -> None:
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
         found = pen.draw(driven_slide, start, line, speed, name=image(foot), extra=(way,), **says)
     pen.want("velocity", foot, found)
-    velocity.arrow_to(pen, foot, point)
+    velocity_arrows(pen, foot, point)
     velocity.dyad(pen, shapes, group.dyad)
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from graphkin.plans import acceleration as accelerations
 from graphkin.plans import velocity as velocities
+from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.carried import image_under, omega_of
 from graphkin.plans.coriolis import guide_corner
 from graphkin.plans.guides import known_guide
@@ -221,6 +222,6 @@ def finish(pen: Pen, kind: Kind, point: str) -> None:
     """The arrow to a point of the right plan."""
     if kind is VELOCITY:
         starts = {b.start for b in pen.bases.values() if point in (*b.others, b.end)}
-        velocities.arrow_to(pen, point, next(iter(sorted(starts)), None))
+        velocity_arrows(pen, point, next(iter(sorted(starts)), None))
     else:
-        accelerations.arrow_to(pen, point)
+        acceleration_arrow(pen, point)

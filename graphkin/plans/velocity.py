@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graphkin.plans import wheels
+from graphkin.plans.arrows import arrow_between, velocity_arrows
 from graphkin.plans.carried import image_under, omega_of
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import Base, crank_tip, under
@@ -16,7 +17,6 @@ from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
     difference,
-    join,
     meet,
     parallel_to,
     part_along,
@@ -75,7 +75,7 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str) -> None:
         rate = pen.the("omega", link)
         found = pen.draw(turned_velocity, start, *ends, rate, name=image(tip), **says)
     pen.want("velocity", tip, found)
-    arrow_to(pen, tip, pivot)
+    velocity_arrows(pen, tip, pivot)
 
 
 def driven(pen: Pen, shapes: Shapes, group: Driven) -> None:
@@ -97,7 +97,7 @@ def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, speed
         says: Says = {"q": point, "g": pair.links[0], "s": named(pen, start)}
         found = pen.draw(driven_slide, start, line, speed, name=image(point), extra=(way,), **says)
     pen.want("velocity", point, found)
-    arrow_to(pen, point, None)
+    velocity_arrows(pen, point, None)
     slide_arrow(pen, pair, link, point)
     if isinstance(pair, Contact):
         wheels.touch(pen, pair)
@@ -139,7 +139,7 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
         found = pen.draw(meet, *lines, name=image(name), q=name)
     pen.want("velocity", name, found)
     for pair, link in sides:
-        arrow_to(pen, name, source(pair, name))
+        velocity_arrows(pen, name, source(pair, name))
         if isinstance(pair, Sliding) and "@" not in name:
             slide_arrow(pen, pair, link, name)
         if isinstance(pair, Contact):
@@ -198,9 +198,9 @@ def plate_points(pen: Pen, shapes: Shapes, base: Base) -> None:
                 similar_point, *ends, ratio, name=image(point), by_hand=by_hand, **says
             )
         pen.want("velocity", point, found)
-        arrow_to(pen, point, base.start)
+        velocity_arrows(pen, point, base.start)
         if base.end in pen.scene.link(base.link).points:
-            arrow_to(pen, point, base.end)
+            velocity_arrows(pen, point, base.end)
 
 
 def led_points(pen: Pen, base: Base) -> None:
@@ -216,7 +216,7 @@ def led_points(pen: Pen, base: Base) -> None:
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             found = pen.draw(alike, start, name=image(point), p=base.start, q=point)
         pen.want("velocity", point, found)
-        arrow_to(pen, point, None)
+        velocity_arrows(pen, point, None)
 
 
 def turning(pen: Pen, base: Base) -> None:
@@ -238,34 +238,12 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
 # --- arrows --------------------------------------------------------------------------------------
 
 
-def arrow_to(pen: Pen, pin: str, pivot: str | None) -> None:
-    """The arrows of a plan to an image: the absolute velocity, and the one relative to a pivot."""
-    o, tip = pen.pole(Plane.VELOCITIES), pen.the("velocity", pin)
-    arrow_between(pen, o, tip, pin, "")
-    if pivot is None or pen.the("velocity", pivot) in (o, tip):
-        return
-    start = pen.the("velocity", pivot)
-    if pivot == pin.partition("@")[0]:
-        arrow_between(pen, tip, start, pivot, letter(pin))
-    else:
-        arrow_between(pen, start, tip, pin, letter(pivot))
-
-
 def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
     """The arrow of a relative velocity along a guide that moves."""
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
     start, tip = image_under(pen, known, point), pen.the("velocity", point)
     if start not in (o, tip):
         arrow_between(pen, start, tip, point, letter(under(point, known)))
-
-
-def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
-    """The arrow of the velocity of a point, against another if that is named; drawn once."""
-    name = named(pen, tail) + named(pen, tip)
-    if name not in pen.arrows:
-        with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-            symbol = f"v_{letter(pin)}{about}"
-            pen.arrow(join, tail, tip, name=name, symbol=symbol, q=letter(pin), p=about)
 
 
 def set_on_mechanism(pen: Pen, point: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.carried import carried, omega_of, second_image_under
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import contact_name, no_construction, under
@@ -12,6 +13,7 @@ from graphkin.plans.shape import Shapes
 from graphkin.scene.model import Driver
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
+    alike,
     along_bar,
     epsilon,
     in_proportion,
@@ -66,7 +68,11 @@ def geared(pen: Pen, group: Geared) -> None:
                 with pen.on(Part.VELOCITY, Plane.VELOCITIES):
                     rate = omega_of(pen, link)
                     start = pen.draw(turned_velocity, start, *ends, rate, name=image(point), **says)
+            else:
+                with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+                    start = pen.draw(alike, start, name=image(point), p=letter(name), q=point)
             pen.want("velocity", point, start)
+            velocity_arrows(pen, point, None)
         case Contact() as own:
             first = touched(pen, own, link, partner(own, link))
             names = [under(contact_name(own), link), under(name, link)]
@@ -78,6 +84,7 @@ def geared(pen: Pen, group: Geared) -> None:
             with pen.on(Part.VELOCITY, Plane.VELOCITIES):
                 found = pen.draw(similar_point, first, start, ratio, name=image(centre), **says)
             pen.want("velocity", centre, found)
+            velocity_arrows(pen, centre, None)
             with pen.on(Part.RESULT, Plane.NUMBERS):
                 turning = pen.draw(omega, *places[:2], first, start, name=link, **says)
             pen.want("omega", link, turning)
@@ -121,6 +128,7 @@ def train(pen: Pen, group: Train) -> None:
         says: Says = {"p": letter(under(names[0], link)), "q": letter(under(names[1], link))}
         found = pen.draw(similar_point, *divided, name=image(centre), r=centre, **says)
     pen.want("velocity", centre, found)
+    velocity_arrows(pen, centre, None)
 
 
 def on_line_of(pen: Pen, names: list[str], images: list[int], centre: str) -> tuple[int, int, int]:
@@ -154,6 +162,7 @@ def second_train(pen: Pen, group: Train) -> None:
         found = pen.draw(meet, line, along, name=second_image(centre), q=centre)
         component_arrow(pen, corner, found, "τ", centre, pivot)
     pen.want("acceleration", centre, found)
+    acceleration_arrow(pen, centre)
     second_touched(pen, group.contacts[0], link, partner(group.contacts[0], link))
 
 
@@ -191,6 +200,7 @@ def second_rack(pen: Pen, shapes: Shapes, group: Geared, slide: Sliding) -> None
             name=second_image(point),
         )
     pen.want("acceleration", point, found)
+    acceleration_arrow(pen, point)
 
 
 def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
@@ -218,5 +228,6 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         found = pen.draw(similar_point, *images, ratio, name=second_image(centre), **says)
     pen.want("acceleration", centre, found)
+    acceleration_arrow(pen, centre)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("epsilon", link, pen.draw(epsilon, *places[:2], *images, name=link, **says))

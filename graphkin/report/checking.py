@@ -8,8 +8,8 @@ from math import asin, degrees
 from graphkin.closures import Choice, choices
 from graphkin.errors import ClosureError, GraphkinError, Problem, WitnessError
 from graphkin.mechanism import Mechanism
-from graphkin.reach import closing_ranges, reached_words
-from graphkin.report.motion import verdict_words
+from graphkin.ranges import closing_ranges, reached_words
+from graphkin.report.motion import flat_words, is_flat, verdict_words
 from graphkin.report.record import plain, settings_words
 from graphkin.report.structure import group_lines, structure
 from graphkin.report.table import crossing, labelled, listed, table
@@ -29,7 +29,7 @@ class Checking:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.problems: list[Problem] = []
-        self.agrees = True
+        self.doubts: list[str] = []
 
     def lines(self) -> Iterator[str]:
         """The whole report, line by line, as far as the scene allows."""
@@ -42,6 +42,7 @@ class Checking:
             yield from labelled("rank", self.rank())
             trace = self.mechanism.trace()
             yield from labelled("crossings", crossing_lines(trace))
+            self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
             yield from labelled("witness", [self.witness(trace)])
         except GraphkinError as error:
             self.problems += error.problems
@@ -73,13 +74,14 @@ class Checking:
         return list(rank.lines())
 
     def witness(self, trace: Trace) -> str:
-        """The verdict of the independent route."""
+        """The verdict of the independent route; a doubt where it does not agree."""
         try:
             verdict = self.mechanism.witness(gathered(trace))
         except WitnessError as error:
-            self.agrees = False
+            self.doubts.append(f"the independent route cannot judge: {error}")
             return f"could not judge: {error}"
-        self.agrees = verdict.agrees
+        if not verdict.agrees:
+            self.doubts.append("the independent route does not agree with the construction")
         return verdict_words(verdict)
 
 

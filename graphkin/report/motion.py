@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from graphkin.reach import beside_dead_point
 from graphkin.report.centres import (
     breadth_of,
     centre_words,
@@ -15,9 +16,10 @@ from graphkin.report.centres import (
     relative_table,
 )
 from graphkin.report.record import Record, settings_words
-from graphkin.report.table import Cell, cleaned, number, table
+from graphkin.report.table import Cell, cleaned, crossing, number, table
 from graphkin.scene.model import Scene
-from graphkin.steps.solution import Solution, Verdict
+from graphkin.steps.run import Trace
+from graphkin.steps.solution import FAIR, Solution, Verdict
 
 POINT_HEADS = {
     "position": ("x, m", "y, m"),
@@ -165,3 +167,19 @@ def verdict_words(verdict: Verdict | None) -> str:
     if verdict.branches:
         words += "; these branches do not hold: " + ", ".join(verdict.branches)
     return words
+
+
+def is_flat(trace: Trace) -> bool:
+    """Whether some lines cross so flatly that no ruler finds their point."""
+    return any(float(margin) < FAIR for margin in trace.margins.values())
+
+
+def flat_words(scene: Scene, trace: Trace) -> str:
+    """The flattest crossing: its point, its sine, what is nearly in line, and how to leave it."""
+    number = min(trace.margins, key=lambda step: float(trace.margins[step]))
+    point, part = crossing(trace.program, number)
+    sine = f"{float(trace.margins[number]):.2e}, less than {FAIR:g}"
+    return (
+        f"the lines at {point} ({part}) cross at a sine of {sine}: the answer is not fair to ask; "
+        f"{beside_dead_point(scene, trace.program, number)}"
+    )

@@ -100,13 +100,33 @@ def check_link(scene: Scene, link: Link, findings: Findings) -> None:
     for index, rolling in enumerate(link.rolls):
         where = numbered(f"{place}.rolls", index, len(link.rolls))
         check_rolling(scene, link, rolling, where, findings)
+    check_guides(scene, link, findings)
+
+
+def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
+    """No two guides of a block lie on one link, and no two links are guides of one another."""
+    place = f"{place_of(link.name)}.slides"
+    ways = Counter(slide.on for slide in link.slides)
+    for on, times in ways.items():
+        if times > 1:
+            found = (
+                f"{times} guides on {named(on)}: parallel ones hold the block twice, others fast"
+            )
+            findings.add(place, found, "one guide on one link", "leave one out")
+        other = scene.links.get(on)
+        earlier = other is not None and list(scene.links).index(on) < list(scene.links).index(
+            link.name
+        )
+        if other is not None and earlier and link.name in [slide.on for slide in other.slides]:
+            found = f"links {on} and {link.name} slide on one another, guides in a circle"
+            findings.add(place, found, "slides in one of the two links only")
 
 
 def check_alone(scene: Scene, findings: Findings) -> None:
     """Every moving link has points and touches another: by a pin, a guide, a track or a wheel."""
     links = (scene.frame, *scene.links.values())
-    carriers = {slide.on for link in links for slide in link.slides}
-    carriers |= {rolling.on for link in links for rolling in link.rolls}
+    tracks = {rolling.on for link in links for rolling in link.rolls}
+    carriers = tracks | {slide.on for link in links for slide in link.slides}
     shared = Counter(point for link in links for point in link.points)
     for link in scene.links.values():
         place = f"links.{link.name}"
@@ -115,9 +135,15 @@ def check_alone(scene: Scene, findings: Findings) -> None:
         pinned = any(shared[point] > 1 for point in link.points)
         if not link.points:
             findings.add(place, "a link without points", "points, such as P = [0, 0] or P-Q = 30")
-        elif not (pinned or link.slides or link.rolls or link.name in carriers):
+        elif not (pinned or link.slides or link.rolls or link.wheels or link.name in carriers):
             found = f"link {link.name} touches no other"
             findings.add(place, found, "a point that another link has too, slides or rolls")
+    for link in links:
+        place = place_of(link.name)
+        if link.wheels and not link.rolls and link.name not in tracks:
+            found = "a wheel without a track: it rolls on nothing, and nothing rolls on it"
+            expected = f"rolls = {{ on = LINK, … }} here, or rolls = {{ on = {link.name} }} there"
+            findings.add(f"{place}.wheel", found, expected)
 
 
 def check_guide(
@@ -166,15 +192,54 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
         return
     for point in driver.of or ():
         known_point(point, link.points, f"link {link.name}", f"{place}.of", findings)
-    if driver.kind == "turn":
+    if findings.inside(place_of(link.name)):
         return
+    if driver.kind != "turn":
+        check_led(scene, driver, link, place, findings)
+    elif driver.against in turning_with(scene, driver.link):
+        found = f"link {link.name} cannot turn against {named(driver.against)}: slides join them"
+        expected = f"slide = {link.name}" if link.slides else "a link that a pin joins"
+        findings.add(f"{place}.turn", found, expected)
+
+
+def turning_with(scene: Scene, name: str) -> set[str]:
+    """The links that a link cannot turn against: those that slides join it to, one by one."""
+    found, grown = {name}, True
+    while grown:
+        joined = [{link.name, slide.on} for link in scene.links.values() for slide in link.slides]
+        more = set().union(*(pair for pair in joined if pair & found)) - found
+        found |= more
+        grown = bool(more)
+    return found
+
+
+def check_led(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:
+    """A driver that slides or rolls a link has a guide, or a straight track, to move it along."""
     straight = [joint.on for joint in link.rolls if joint.through is not None]
     tracks = straight if driver.kind == "roll" else [joint.on for joint in link.slides]
-    if driver.against not in tracks:
-        verb = "slides" if driver.kind == "slide" else "rolls straight"
-        found = f"link {link.name} {verb} on {' and '.join(tracks) or 'nothing'}"
-        hint = f"write against = {tracks[0]}" if tracks else ""
-        findings.add(place, f"{found}, not on {driver.against}", f"a link that {verb}", hint)
+    if driver.against in tracks:
+        return
+    verb = "slides" if driver.kind == "slide" else "rolls straight"
+    if tracks:
+        found = f"link {link.name} {verb} on {named(tracks[0])}, not on {named(driver.against)}"
+        findings.add(place, found, f"against = {tracks[0]}")
+        return
+    can = [each.name for each in scene.links.values() if each.slides]
+    if driver.kind == "slide":
+        found = f"link {link.name} has no guide to slide along"
+        expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
+        findings.add(f"{place}.slide", found, expected)
+    elif link.rolls:
+        found = f"link {link.name} rolls on a wheel, which has no coordinate"
+        findings.add(f"{place}.roll", found, f"turn = {link.name}, or a straight track")
+    else:
+        found = f"link {link.name} has no straight track to roll on"
+        findings.add(f"{place}.roll", found, "rolls = { on, through, angle } in that link")
+
+
+def named(link: str) -> str:
+    """A link in words."""
+    return "the frame" if link == FRAME else f"link {link}"
 
 
 def check_repeated(scene: Scene, findings: Findings) -> None:

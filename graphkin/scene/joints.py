@@ -104,7 +104,8 @@ def read_wheel(table: Table, measures: Measures, module: Quantity | None) -> Whe
         radius = pitch_radius(teeth, module)
     else:
         found = "no radius" if teeth is None else "teeth without a module"
-        measures.findings.add(table.place, found, "radius = …, or teeth = … and module = …")
+        hint = "" if teeth is None else "a module at the top of the file is that of every wheel"
+        measures.findings.add(table.place, found, "radius = …, or teeth = … and module = …", hint)
     inside = table.flag("inside")
     table.finish()
     return Wheel(centre, radius, teeth, inside)

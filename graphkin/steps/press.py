@@ -23,7 +23,7 @@ from graphkin.steps.tracer import parts_named, traced
 EMITTED_FROM = 2_000
 """Variants from which source is written: a few such batches make up for it."""
 COMPILED_FROM = 100_000
-"""Variants from which it is compiled, where numba is installed."""
+"""Variants from which it is compiled, where numba is installed: seconds, once for each process."""
 
 Overrides = Mapping[int, Any]
 """Values, or arrays of them, in place of those of steps."""

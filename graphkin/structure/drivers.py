@@ -9,7 +9,7 @@ from dataclasses import replace
 from graphkin.errors import Problem, StructureError
 from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
 from graphkin.structure.graph import contacts, pairs, sharers
-from graphkin.structure.groups import Group, Higher, Tie, Unresolved
+from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
 from graphkin.structure.mobility import count
 from graphkin.structure.order import decompose
 
@@ -32,6 +32,11 @@ def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
     loose = [link for group in groups if isinstance(group, Unresolved) for link in group.links]
     if ties and loose:
         raise StructureError(misplaced(drivers, ties, loose))
+    idle = [
+        driver for driver in unused(scene, groups) if not {driver.link, driver.against} & {*loose}
+    ]
+    if idle and loose:
+        raise StructureError([driven_twice(scene, driver, loose) for driver in idle])
 
 
 def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) -> None:
@@ -122,6 +127,28 @@ def misplaced(drivers: int, ties: Sequence[str], loose: Sequence[str]) -> Proble
         f"{', '.join(loose)} hang on no driver",
         "a driver for each freedom",
         f"let a driver move link {loose[0]} instead, or add one if {tie} is idle",
+    )
+
+
+def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
+    """The drivers that no group takes."""
+    taken = list[Driver]()
+    for group in groups:
+        parts = (*group.chain, group) if isinstance(group, Higher) else (group,)
+        taken += [part.driver for part in parts if isinstance(part, Crank | Driven | Stretched)]
+        if isinstance(group, Higher) and isinstance(group.last, Driver):
+            taken.append(group.last)
+    return [driver for driver in scene.drivers if driver not in taken]
+
+
+def driven_twice(scene: Scene, driver: Driver, loose: Sequence[str]) -> Problem:
+    """A driver of a link whose motion the other drivers give already, while others are free."""
+    return Problem(
+        f"drivers[{scene.drivers.index(driver)}]",
+        f"the other drivers move link {driver.link} already, while {', '.join(loose)} "
+        f"{'hangs' if len(loose) == 1 else 'hang'} on no driver",
+        "one driver for each freedom",
+        f"let it move link {loose[0]} instead",
     )
 
 

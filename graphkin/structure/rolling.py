@@ -155,7 +155,10 @@ def gap(scene: Scene, name: str, rolling: Rolling, apart: Apart) -> Problem:
     if apart.needed <= 0:
         return Problem(place, found, "a ring that is larger than the wheel within it")
     expected = f"the {how} of the radii, {centres} = {shown(scene, apart.needed)}"
-    return Problem(place, found, expected)
+    within = abs(radius(scene, apart.track) - radius(scene, apart.wheel))
+    is_ring = how == "sum" and abs(within - apart.distance) <= TOUCH * apart.distance
+    hint = "write inside = true in the larger wheel, if it is a ring" if is_ring else ""
+    return Problem(place, found, expected, hint)
 
 
 def shown(scene: Scene, length: float) -> str:

@@ -211,7 +211,7 @@ def test_a_witness_that_cannot_judge_gives_status_1(
 def test_a_mechanism_that_does_not_close_gives_status_2(
     run: Run, four_bar: Callable[..., Path]
 ) -> None:
-    result = run("solve", four_bar(coupler=10))
+    result = run("solve", four_bar(coupler=9))
     assert result.exit_code == 2
     assert result.stdout == ""
     assert "B cannot be found: the arcs miss each other by" in result.stderr

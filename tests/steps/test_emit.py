@@ -368,6 +368,19 @@ def test_where_a_block_ends_does_not_show(way):
     np.testing.assert_array_equal(found(n), np.concatenate([found(n[:1000]), found(n[1000:])]))
 
 
+def test_source_made_for_one_constant_is_not_used_for_another(tmp_path):
+    mechanism, arrays = case(tmp_path, "crank-rocker")
+    program, target = mechanism.program, ("position", "B")
+    needed, keep = program.needed([target]), [program.targets[target]]
+    press = Press(program)
+    for length in (85.0, 105.0, 85.0):
+        values = {**mechanism.scene.values, **arrays, "L": length}
+        ours = press.run(needed, values, keep, way="numpy").value(*target)
+        plain = press.run(needed, values, keep, way="steps").value(*target)
+        np.testing.assert_allclose(ours, plain, rtol=1e-13)
+    assert len(press.kept) == 2
+
+
 def test_source_is_written_when_it_pays():
     """Small batches go step by step; for the same, source is written once."""
     mechanism = load("pump")

@@ -39,7 +39,7 @@ def same(one, other) -> bool:
 def test_a_slice_runs_only_earlier_steps_and_gives_the_same_values(made, data):
     mechanism = made.mechanism()
     program, whole = mechanism.program, mechanism.trace()
-    target = data.draw(st.sampled_from(sorted(program.targets)))
+    target = data.draw(st.sampled_from(sorted(program.answers)))
     trace = mechanism.trace([target])
     assert set(trace.values) == set(program.needed([target]))
     for number, value in trace.values.items():
@@ -52,7 +52,7 @@ def test_a_slice_runs_only_earlier_steps_and_gives_the_same_values(made, data):
 def test_no_needed_step_can_be_spared(made, data):
     mechanism = made.mechanism()
     program = mechanism.program
-    target = data.draw(st.sampled_from(sorted(program.targets)))
+    target = data.draw(st.sampled_from(sorted(program.answers)))
     needed = program.needed([target])
     for spared in needed:
         rest = [number for number in needed if number != spared]

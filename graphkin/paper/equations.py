@@ -1,0 +1,174 @@
+"""The vector equations of a plan: motions about pins, along guides, at contacts, and what is given.
+
+What is not crossed in the plan but computed and laid off stands with its numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.paper.drawing import TAGS, Drawing
+from graphkin.paper.naming import is_driven, rate_symbol, way_of
+from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.richtext import escape
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.scene.model import FRAME
+from graphkin.steps.program import Step
+
+
+def of_equations(drawing: Drawing) -> list[Relation]:
+    """The equations of a plan in the order of drawing, each of them once."""
+    found: dict[str, Relation] = {}
+    for number, step, _ in drawing.steps(drawing.plane):
+        if drawing.tags.get(number) == TAGS[1]:
+            continue
+        for relation in of_step(drawing, number, step):
+            found.setdefault(relation.left + relation.symbols, relation)
+    return list(found.values())
+
+
+def of_step(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
+    """The equations that belong to one step of a plan."""
+    velocity = drawing.kind == "velocity"
+    tried = number in drawing.tags
+    match step.action.key if step.action else "":
+        case "square-to":
+            yield euler(drawing, step.says["p"], step.says["q"])
+        case "parallel-to":
+            yield from along(drawing, number, step)
+        case "along-bar":
+            yield touching(drawing, step)
+        case "turned-velocity" if not tried and not is_pin_of_driver(drawing, step, step.args[3]):
+            yield turned(drawing, step, "v", "ω")
+        case "centripetal" if not is_pin_of_driver(drawing, step, step.args[3]):
+            yield turned(drawing, step, "a", "ω")
+        case "driven-tangential" if not tried and not is_pin_of_driver(drawing, step, step.args[3]):
+            yield turned(drawing, step, "a", "ε")
+        case "driven-slide" if not tried:
+            yield given_along(drawing, step, "v" if velocity else "a")
+
+
+def is_pin_of_driver(drawing: Drawing, step: Step, rate: int) -> bool:
+    """True for a pin of a crank on the frame, of which the driver's own relations tell."""
+    return is_driven(drawing, rate) and step.says["p"] in drawing.scene.frame.points
+
+
+def index_of(drawing: Drawing, step: Step) -> str:
+    """Index of a motion about a pin: B about a fixed pivot, BA about a moving one."""
+    says = step.says
+    return says["q"] + ("" if says["p"] in drawing.scene.frame.points else says["p"])
+
+
+# --- about a pin ---------------------------------------------------------------------------------
+
+
+def euler(drawing: Drawing, p: str, q: str) -> Relation:
+    """Euler's theorem for the motion of a pin about another, or about a fixed pivot."""
+    fixed = p in drawing.scene.frame.points
+    index, letter = (q if fixed else q + p), "v" if drawing.kind == "velocity" else "a"
+    key = f"calculation.{'about' if fixed else 'euler'}_{drawing.kind}"
+    fields = {
+        "whole": symbol(f"{letter}_{q}"),
+        "start": symbol(f"{letter}_{p}"),
+        "relative": symbol(f"v_{index}"),
+        "normal": symbol(f"a_{index}^ν"),
+        "tangential": symbol(f"a_{index}^τ"),
+    }
+    return Relation(drawing.words(key, bar=bar(p, q), p=symbol(p), q=symbol(q), **fields))
+
+
+def turned(drawing: Drawing, step: Step, letter: str, rate: str) -> Relation:
+    """What a known turning gives a point: rate times bar, or its square for the normal part."""
+    p, q, index = step.says["p"], step.says["q"], index_of(drawing, step)
+    value, length = abs(float(drawing.trace.values[step.args[3]])), length_of(drawing, p, q)
+    kind = {"v": "", "a": "^ν" if rate == "ω" else "^τ"}[letter]
+    square = "^2" if kind == "^ν" else ""
+    size = value * value * length if square else value * length
+    where = "towards" if square else "square_to"
+    return Relation(
+        symbol(f"{letter}_{index}{kind}"),
+        f"{rate_symbol(drawing, step.args[3], rate)}{square}·{bar(p, q)}",
+        f"{figure(drawing, value, 6)}{square}·{figure(drawing, length)}",
+        answer(drawing, size),
+        "m/s" if letter == "v" else "m/s^2",
+        drawing.words(f"calculation.{where}", p=symbol(p), q=symbol(q), bar=bar(p, q)),
+    )
+
+
+# --- along a guide -------------------------------------------------------------------------------
+
+
+def along(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
+    """The motion along a guide: alone where that stands still, else on top of its point's."""
+    names = slider(drawing, number, step)
+    if names is None:
+        return
+    point, beneath = names
+    velocity, guide = drawing.kind == "velocity", way_of(drawing, step.says["g"])
+    letter = "v" if velocity else "a"
+    if drawing.trace.program.steps[step.args[0]].name == drawing.pole:
+        name = symbol(f"{letter}_{point}")
+        yield Relation(drawing.words("calculation.along_guide", name=name, guide=guide))
+        return
+    fields = {
+        "whole": symbol(f"{letter}_{point}"),
+        "start": symbol(f"{letter}_{beneath}"),
+        "relative": symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r")),
+        "coriolis": symbol(f"a_{point}{beneath}^c"),
+    }
+    turns = not velocity and drawing.trace.program.steps[step.args[0]].name == ""
+    key = "coriolis" if turns else "sliding"
+    yield Relation(drawing.words(f"calculation.{key}", guide=guide, **fields))
+
+
+def slider(drawing: Drawing, number: int, step: Step) -> tuple[str, str] | None:
+    """The point that slides and the one beneath it on the guide, as the index of symbols."""
+    users = [drawing.trace.program.steps[child] for child in drawing.children.get(number, ())]
+    found = next((user.says["q"] for user in users if "q" in user.says), None)
+    if found is None:
+        return None
+    point, _, link = found.partition("@")
+    block = drawing.scene.links[step.says["g"]]
+    if not link:
+        ways = [*(slide.on for slide in block.slides), *(rolls.on for rolls in block.rolls), FRAME]
+        link = ways[0] if point in block.points else block.name
+    return point, point + ("" if link.isdigit() else ",") + link
+
+
+def given_along(drawing: Drawing, step: Step, letter: str) -> Relation:
+    """The given motion of a driven slider along its guide."""
+    values, start = drawing.trace.values, drawing.trace.program.steps[step.args[0]]
+    point = step.says["q"]
+    block = drawing.scene.links[step.says["g"]]
+    ways = [*(slide.on for slide in block.slides), *(rolls.on for rolls in block.rolls)]
+    fixed = start.name == drawing.pole
+    beneath = "" if fixed else point + ("" if ways[0].isdigit() else ",") + ways[0]
+    kind = "^r" if letter == "a" and not fixed else ""
+    unit = "m/s" if letter == "v" else "m/s^2"
+    return Relation(
+        symbol(f"{letter}_{point}{beneath}{kind}"),
+        symbol(f"{letter}_{escape(block.name)}"),
+        "",
+        answer(drawing, abs(float(values[step.args[2]]))),
+        unit,
+        f"∥ {way_of(drawing, step.says['g'])}",
+    )
+
+
+# --- at a contact --------------------------------------------------------------------------------
+
+
+def touching(drawing: Drawing, step: Step) -> Relation:
+    """Where wheels touch their accelerations differ along the common normal only."""
+    normal = bar(step.says["p"], step.says["q"])
+    return Relation(drawing.words("calculation.touching", bar=normal, s=symbol(step.says["s"])))
+
+
+def is_laid_off(drawing: Drawing, step: Step) -> bool:
+    """True for a component that was not found by the plan but computed and laid off."""
+    kind = step.says.get("kind", "")
+    if kind in ("ν", "c"):
+        return True
+    tip = drawing.trace.program.steps[step.args[1]].action
+    return kind == "τ" and tip is not None and tip.key == "driven-tangential"
+

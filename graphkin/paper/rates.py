@@ -1,0 +1,171 @@
+"""The relations of angular velocities and accelerations: by bars, by sums, by gears, by trials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.naming import rate_symbol
+from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.tables import sense
+from graphkin.steps.program import Step
+
+SUMS = {"sum": "+", "difference": "−"}
+"""Rates that follow from two others."""
+FINE = 6
+"""Significant digits of rates put into sums, whose digits may cancel."""
+
+
+def of_turning(drawing: Drawing) -> Iterator[Relation]:
+    """Angular velocities or accelerations: relative motion over length, with the sense."""
+    key, letter, unit = rate_of(drawing)
+    program = drawing.trace.program
+    for link in drawing.scene.links:
+        number = program.targets.get((key, link), -1)
+        value = drawing.turning(link)
+        if value is None or number not in drawing.trace.values:
+            continue
+        step = program.steps[number]
+        name, action = symbol(f"{letter}_{link}"), step.action.key if step.action else ""
+        tail = (answer(drawing, abs(value)), unit, sense(drawing.words, value))
+        if action and step.name != link:
+            yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
+        elif action == key:
+            yield by_bar(drawing, step, name, tail)
+        elif action == "between":
+            yield by_trials(drawing, step, name, letter, tail)
+    yield from of_gears(drawing)
+
+
+def rate_of(drawing: Drawing) -> tuple[str, str, str]:
+    """The rate that a sheet is about: its name, its letter, its unit."""
+    if drawing.kind == "velocity":
+        return "omega", "ω", "rad/s"
+    return "epsilon", "ε", "rad/s^2"
+
+
+def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) -> Relation:
+    """A rate from the relative motion of two points of the link."""
+    p, q = step.says["p"], step.says["q"]
+    index = q if p in drawing.scene.frame.points else q + p
+    relative = symbol(f"v_{index}" if drawing.kind == "velocity" else f"a_{index}^τ")
+    length = length_of(drawing, p, q)
+    size = abs(float(drawing.trace.values[drawing.number_of(step)])) * length
+    size = 0.0 if drawing.turning(step.name) == 0 else size
+    figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
+    return Relation(name, f"{relative}/{bar(p, q)}", figures, *tail)
+
+
+def by_trials(
+    drawing: Drawing, step: Step, name: str, letter: str, tail: tuple[str, str, str]
+) -> Relation:
+    """A rate that was tried itself, divided as every line of the two trials is."""
+    first, second, share = (float(drawing.trace.values[arg]) for arg in step.args)
+    figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
+    figures += f"({figure(drawing, second, FINE)} − {figure(drawing, first)})"
+    whole = f"*{letter}*^1 + *λ*·(*{letter}*^2 − *{letter}*^1)"
+    if first + share * (second - first) < 0:
+        return Relation(name, whole, "", *tail)
+    return Relation(name, whole, figures, *tail)
+
+
+def of_sum(drawing: Drawing, link: str) -> Iterator[Relation]:
+    """The rate of a crank that turns on a moving link: that link's rate and its own."""
+    program, driver = drawing.trace.program, driver_of(drawing, link)
+    for key, letter, unit in (("omega", "ω", "rad/s"), ("epsilon", "ε", "rad/s^2")):
+        step = program.steps[program.targets.get((key, link), 0)]
+        action = step.action.key if step.action else ""
+        if action not in SUMS or not set(step.args) <= set(drawing.trace.values):
+            continue
+        one, two = (float(drawing.trace.values[arg]) for arg in step.args)
+        whole = one + two if action == "sum" else one - two
+        figures = f"{figure(drawing, one, FINE)} {SUMS[action]} {within(drawing, two)}"
+        relative = symbol(f"{letter}_{driver.link}")[:-1] + f"/{driver.against}}}"
+        yield Relation(
+            symbol(f"{letter}_{link}"),
+            f"{rate_symbol(drawing, step.args[0], letter)} {SUMS[action]} {relative}",
+            figures,
+            figure(drawing, whole, FINE),
+            unit,
+            sense(drawing.words, whole),
+        )
+
+
+def driver_of(drawing: Drawing, link: str):  # type: ignore[no-untyped-def]
+    """The driver that turns a link."""
+    return next(d for d in drawing.scene.drivers if link in (d.link, d.against))
+
+
+def within(drawing: Drawing, value: float) -> str:
+    """A number after a sign: in brackets if it is negative."""
+    text = figure(drawing, value, FINE)
+    return f"({text})" if value < 0 else text
+
+
+# --- gears ---------------------------------------------------------------------------------------
+
+
+def of_gears(drawing: Drawing) -> Iterator[Relation]:
+    """Willis' relation for wheels that roll on one another: rates against the arm by the radii."""
+    standing, (key, letter, unit) = drawing.standing, rate_of(drawing)
+    del key
+    for touch in standing.touches:
+        other = touch.other
+        if other is None:
+            continue
+        arm = next(
+            (
+                link.name
+                for link in (drawing.scene.frame, *drawing.scene.links.values())
+                if {touch.disc.wheel.centre, other.wheel.centre} <= set(link.points)
+            ),
+            None,
+        )
+        names = (touch.disc.link, arm, other.link)
+        rates = [rate_at(drawing, name) for name in names if name is not None]
+        if len(rates) < len(names) or None in rates or "0" in (names[0],):
+            continue
+        yield by_radii(drawing, names, rates, (other, touch.disc), letter, unit)
+
+
+def rate_at(drawing: Drawing, link: str) -> float | None:
+    """The rate of a link on this sheet; nought for the frame."""
+    return 0.0 if link == "0" else drawing.turning(link)
+
+
+def by_radii(
+    drawing: Drawing,
+    names: tuple[str, str, str],
+    rates: tuple[float, float, float],
+    discs: tuple[Disc, Disc],
+    letter: str,
+    unit: str,
+) -> Relation:
+    """The rate of a wheel from that of the arm and that of the wheel on which it rolls."""
+    wheel, arm, track = (symbol(f"{letter}_{name}") for name in names)
+    _, carried, rolled = rates
+    ring = any(disc.wheel.inside for disc in discs)
+    sign, factor = ("+", 1) if ring else ("−", -1)
+    radii = f"{radius_of(discs[1])}/{radius_of(discs[0])}"
+    numbers = f"{figure(drawing, discs[1].radius)}/{figure(drawing, discs[0].radius)}"
+    ratio = discs[1].radius / discs[0].radius
+    whole = carried + factor * (rolled - carried) * ratio
+    if names[1] == FRAME:
+        lead = "−" if factor < 0 else ""
+        symbols = f"{lead}{track}·{radii}"
+        figures = f"{lead}{within(drawing, rolled)}·{numbers}"
+    else:
+        symbols = f"{arm} {sign} ({track} − {arm})·{radii}"
+        less = f"({within(drawing, rolled)} − {within(drawing, carried)})"
+        figures = f"{figure(drawing, carried, FINE)} {sign} {less}·{numbers}"
+        if names[2] == FRAME:
+            symbols = f"{arm} {sign} (0 − {arm})·{radii}"
+    result = drawing.words.significant(whole, 4)
+    remark = sense(drawing.words, whole)
+    return Relation(wheel, symbols, figures, result, unit, remark)
+
+
+def radius_of(disc: Disc) -> str:
+    """Symbol of a wheel's radius."""
+    return symbol(f"r_{disc.link}")

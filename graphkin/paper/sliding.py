@@ -1,0 +1,81 @@
+"""The relations of sliding: Coriolis components, and what is asked of blocks on their guides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.naming import rate_symbol, way_of
+from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.richtext import escape
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.steps.program import Plane, Step
+
+
+def of_coriolis(drawing: Drawing) -> Iterator[Relation]:
+    """Each Coriolis component: twice the turning of the guide times the relative velocity."""
+    values = drawing.trace.values
+    for number, step, value in drawing.steps(Plane.NUMBERS):
+        if step.action is None or step.action.key != "coriolis" or not step.name:
+            continue
+        omega = abs(float(values[step.args[0]]))
+        speed = drawing.settled_speed(abs(values[step.args[2]] - values[step.args[1]]))
+        rate = rate_symbol(drawing, step.args[0])
+        v = symbol("v_" + step.says["i"])
+        yield Relation(
+            symbol(step.name),
+            f"2·{rate}·{v}",
+            f"2·{figure(drawing, omega)}·{figure(drawing, speed)}",
+            answer(drawing, 2 * omega * speed),
+            "m/s^2",
+            drawing.words(
+                "calculation.quarter",
+                v=v,
+                omega=rate,
+                drawn=drawing.words.fixed(1000 * abs(value) / drawing.scales.ka, 2),
+            ),
+        )
+
+
+def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
+    """The acceleration of a rolling point of contact against its track: to the wheel's centre."""
+    says, values = step.says, drawing.trace.values
+    p, q = says["p"], says["q"]
+    length = length_of(drawing, p, q)
+    wheel, track = (float(values[arg]) for arg in step.args[2:])
+    names = [rate_symbol(drawing, arg) for arg in step.args[2:]]
+    rate = f"({names[0]} − {names[1]})" if track else names[0]
+    return Relation(
+        symbol(f"a_{says['i']}^ν"),
+        f"{rate}^2·{bar(p, q)}",
+        f"{figure(drawing, abs(wheel - track))}^2·{figure(drawing, length)}",
+        answer(drawing, size),
+        "m/s^2",
+        drawing.words(
+            "calculation.laid_off",
+            p=symbol(q),
+            q=symbol(p),
+            drawn=drawing.words.fixed(1000 * size / drawing.scales.ka, 2),
+        ),
+    )
+
+
+def of_slides(drawing: Drawing) -> Iterator[Relation]:
+    """The motion of each block that is asked, along its guide: with the guide's sense or against."""
+    velocity = drawing.kind == "velocity"
+    what, letter = ("slide speed", "v") if velocity else ("slide acceleration", "a")
+    for block in drawing.scene.ask.slides:
+        value = drawing.trace.value(what, block)
+        if value is None:
+            continue
+        link = drawing.scene.links[block]
+        size = drawing.settled(abs(float(value)))
+        key = "forward" if value > 0 else "backward"
+        yield Relation(
+            f"*{letter}*_{{{escape(block)}/{escape(link.slides[0].on)}}}",
+            "",
+            "",
+            answer(drawing, size),
+            "m/s" if velocity else "m/s^2",
+            drawing.words(f"calculation.{key}", guide=way_of(drawing, block)) if size else "",
+        )
