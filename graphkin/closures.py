@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from graphkin.arithmetic import FLOAT
 from graphkin.plans.branches import has_two_ways
 from graphkin.scene.model import Branch, Scene, Side, Way
-from graphkin.steps.closing import Closer
 from graphkin.steps.program import Part, Program, Step
 from graphkin.steps.run import StepFailed, Trace, run
+from graphkin.steps.trying import Closer
 from graphkin.structure.graph import Pin
 from graphkin.structure.groups import Dyad, Group, Higher
 

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from graphkin.paper.marks import Page
 
 WANTED = {
-    "velocity": ("velocity", "omega", "centre"),
-    "acceleration": ("acceleration", "epsilon", "pole", "inflection"),
+    "velocity": ("velocity", "omega", "centre", "slide speed"),
+    "acceleration": ("acceleration", "epsilon", "pole", "inflection", "slide acceleration"),
 }
 """The sheet on which each quantity is asked."""
 STEPS = 720
@@ -178,9 +178,7 @@ def extents(trials: list[Drawing]) -> list[tuple[Extent, Extent]]:
     return [(trial.mechanism_extent(), trial.plan_extent()) for trial in trials]
 
 
-def trials_of(
-    mechanism: Mechanism, curves: tuple[Curve, ...], seconds: float
-) -> list[Drawing]:
+def trials_of(mechanism: Mechanism, curves: tuple[Curve, ...], seconds: float) -> list[Drawing]:
     """The material of each sheet, a velocity drawn at full size as its way in some time."""
     asked = {kind: targets_of(mechanism, kind) for kind in WANTED}
     if not any(asked.values()):

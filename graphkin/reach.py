@@ -9,9 +9,9 @@ from graphkin.errors import ClosureError, Problem
 from graphkin.ranges import MOST, driver_words, where_it_closes
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import shortest
-from graphkin.steps.closing import Closer, ClosingError, needed_of, sign_table
 from graphkin.steps.program import Part, Program, Step
 from graphkin.steps.run import StepFailed, miss
+from graphkin.steps.trying import Closer, ClosingError, needed_of, sign_table
 
 TOUCH = 1e-9
 """Share of its loci by which a crossing may be missed that only touches, but for rounding."""

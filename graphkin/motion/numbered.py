@@ -17,7 +17,7 @@ from graphkin.motion.course import Course, Reals, spread
 from graphkin.motion.sweep import TURN
 from graphkin.scene.model import Closure
 from graphkin.steps.batch import run_batch
-from graphkin.steps.closing import Closer
+from graphkin.steps.trying import Closer
 
 PLACES = 720
 """Places in a whole turn, or in any other sweep, at which closures are found.

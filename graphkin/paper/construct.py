@@ -22,6 +22,7 @@ from graphkin.paper.coriolis import (
 )
 from graphkin.paper.desk import Desk
 from graphkin.paper.plan import put_arc, put_arrow, put_driver_ray, put_line, put_point, put_pole
+from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line
 from graphkin.paper.triangle import (
     put_bar_line,
     put_crossing,
@@ -29,7 +30,6 @@ from graphkin.paper.triangle import (
     put_triangle_velocity,
     put_turned,
 )
-from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line
 from graphkin.steps.program import Part, Plane, Step
 
 Put = Callable[[Desk, int, Step, Any], None]

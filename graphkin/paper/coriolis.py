@@ -9,7 +9,7 @@ from graphkin.paper.field import XY
 from graphkin.paper.labels import Label
 from graphkin.paper.marks import Circle, Line
 from graphkin.paper.symbolic import symbol
-from graphkin.paper.symbols import arrow, square_mark
+from graphkin.paper.symbols import square_mark
 from graphkin.paper.triangle import set_vector
 from graphkin.steps.program import Step
 

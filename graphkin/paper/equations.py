@@ -171,4 +171,3 @@ def is_laid_off(drawing: Drawing, step: Step) -> bool:
         return True
     tip = drawing.trace.program.steps[step.args[1]].action
     return kind == "τ" and tip is not None and tip.key == "driven-tangential"
-

@@ -49,7 +49,7 @@ def scale_of(drawing: Drawing, plane: Plane) -> float:
 def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> float:
     """How long a vector of a plan is drawn, in mm."""
     values = drawing.trace.values
-    return 1000 * abs(values[tip] - values[tail]) / scale_of(drawing, plane)
+    return float(1000 * abs(values[tip] - values[tail]) / scale_of(drawing, plane))
 
 
 def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:

@@ -6,13 +6,14 @@ import re
 from collections.abc import Iterator
 
 from graphkin.paper.amounts import written
-from graphkin.paper.data import angle_symbol
+from graphkin.paper.data import angle_symbol, driver_index
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.rates import of_sum
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import sense
-from graphkin.scene.model import Driver
+from graphkin.scene.model import FRAME, Driver
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.steps.program import Plane
 
@@ -23,16 +24,17 @@ OMEGA = 6
 def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
     """Position and speed from the parameters, angular velocity, speed of the driven pin."""
     words, scene = drawing.words, drawing.scene
-    index = f"_{{{escape(driver.link)}}}"
-    angle = angle_symbol(scene, driver)
-    for letter, quantity in ((angle, driver.position), (f"*n*{index}", driver.speed)):
+    index = f"_{{{driver_index(driver)}}}"
+    angle, speed = angle_symbol(scene, driver), speed_letter(driver)
+    for letter, quantity in ((angle, driver.position), (f"{speed}{index}", driver.speed)):
         if quantity.uses():
             value = written(scene, words, quantity)
             amount, _, unit = value.partition(" ")
+            figures = expression(drawing, quantity, values=True)
             yield Relation(
                 letter,
                 expression(drawing, quantity, values=False),
-                expression(drawing, quantity, values=True),
+                figures if figures != amount.rstrip("°") else "",
                 amount,
                 unit,
             )
@@ -49,17 +51,40 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
             "rad/s",
             sense(words, omega),
         )
-    for p, q in driven_bars(drawing, driver):
-        yield from of_pin(drawing, driver, p, q)
+    elif driver.speed.unit == "deg/s":
+        degrees = words.decimal(driver.speed.written(scene.values).lstrip("-"))
+        yield Relation(
+            f"*ω*{index}",
+            "",
+            f"π·{degrees}/180",
+            figure(drawing, abs(omega), OMEGA),
+            "rad/s",
+            sense(words, omega),
+        )
+    if driver.against == FRAME:
+        for p, q in driven_bars(drawing, driver):
+            yield from of_pin(drawing, driver, p, q)
+    if drawing.kind == "velocity":
+        yield from of_sum(drawing, driver)
+
+
+def speed_letter(driver: Driver) -> str:
+    """The letter of a driver's speed, as among the data."""
+    if driver.kind != "turn":
+        return "*v*"
+    return "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
 
 
 def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
-    """The bar of a driver's link from its pivot to its pin."""
+    """The bars of a driver's link from its fixed pivot to its pins."""
+    frame = drawing.scene.frame.points
     for _, step, _ in drawing.steps(Plane.VELOCITIES):
-        if step.action is not None and step.action.key == "turned-velocity":
-            p, q = step.says["p"], step.says["q"]
-            if {p, q} <= set(drawing.scene.links[driver.link].points):
-                yield p, q
+        if step.action is None or step.action.key != "turned-velocity":
+            continue
+        p, q, rate = step.says["p"], step.says["q"], drawing.trace.program.steps[step.args[3]]
+        number = drawing.scene.drivers.index(driver)
+        if p in frame and rate.given is not None and int(rate.says.get("d", -1)) == number:
+            yield p, q
 
 
 def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relation]:
@@ -115,7 +140,8 @@ def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
 
 def spelled(drawing: Drawing, text: str) -> str:
     """Signs of an expression as they are printed."""
-    return escape(drawing.words.decimal(text).replace("*", "·").replace(" · ", "·"))
+    plain = escape(drawing.words.decimal(text).replace("*", "·").replace(" · ", "·"))
+    return re.sub(r"\\\^(\d)(?!\d)", r"^\1", plain)
 
 
 def of_scales(drawing: Drawing) -> Iterator[Relation]:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from graphkin.paper.bodies import Disc
+from graphkin.paper.data import driver_index
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import rate_symbol
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import sense
+from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.program import Step
 
 SUMS = {"sum": "+", "difference": "−"}
@@ -70,31 +73,25 @@ def by_trials(
     return Relation(name, whole, figures, *tail)
 
 
-def of_sum(drawing: Drawing, link: str) -> Iterator[Relation]:
+def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
     """The rate of a crank that turns on a moving link: that link's rate and its own."""
-    program, driver = drawing.trace.program, driver_of(drawing, link)
-    for key, letter, unit in (("omega", "ω", "rad/s"), ("epsilon", "ε", "rad/s^2")):
+    program, (key, letter, unit) = drawing.trace.program, rate_of(drawing)
+    for link, action in ((driver.link, "sum"), (driver.against, "difference")):
         step = program.steps[program.targets.get((key, link), 0)]
-        action = step.action.key if step.action else ""
-        if action not in SUMS or not set(step.args) <= set(drawing.trace.values):
+        known = set(step.args) <= set(drawing.trace.values)
+        if step.action is None or step.action.key != action or step.name != link or not known:
             continue
         one, two = (float(drawing.trace.values[arg]) for arg in step.args)
         whole = one + two if action == "sum" else one - two
-        figures = f"{figure(drawing, one, FINE)} {SUMS[action]} {within(drawing, two)}"
-        relative = symbol(f"{letter}_{driver.link}")[:-1] + f"/{driver.against}}}"
+        relative = f"*{letter}*_{{{driver_index(driver)}}}"
         yield Relation(
             symbol(f"{letter}_{link}"),
             f"{rate_symbol(drawing, step.args[0], letter)} {SUMS[action]} {relative}",
-            figures,
+            f"{figure(drawing, one, FINE)} {SUMS[action]} {within(drawing, two)}",
             figure(drawing, whole, FINE),
             unit,
             sense(drawing.words, whole),
         )
-
-
-def driver_of(drawing: Drawing, link: str):  # type: ignore[no-untyped-def]
-    """The driver that turns a link."""
-    return next(d for d in drawing.scene.drivers if link in (d.link, d.against))
 
 
 def within(drawing: Drawing, value: float) -> str:
@@ -108,36 +105,28 @@ def within(drawing: Drawing, value: float) -> str:
 
 def of_gears(drawing: Drawing) -> Iterator[Relation]:
     """Willis' relation for wheels that roll on one another: rates against the arm by the radii."""
-    standing, (key, letter, unit) = drawing.standing, rate_of(drawing)
-    del key
-    for touch in standing.touches:
-        other = touch.other
-        if other is None:
+    _, letter, unit = rate_of(drawing)
+    links = (drawing.scene.frame, *drawing.scene.links.values())
+    for touch in drawing.standing.touches:
+        if touch.other is None:
             continue
-        arm = next(
-            (
-                link.name
-                for link in (drawing.scene.frame, *drawing.scene.links.values())
-                if {touch.disc.wheel.centre, other.wheel.centre} <= set(link.points)
-            ),
-            None,
-        )
-        names = (touch.disc.link, arm, other.link)
-        rates = [rate_at(drawing, name) for name in names if name is not None]
-        if len(rates) < len(names) or None in rates or "0" in (names[0],):
-            continue
-        yield by_radii(drawing, names, rates, (other, touch.disc), letter, unit)
+        centres = {touch.disc.wheel.centre, touch.other.wheel.centre}
+        arms = [link.name for link in links if centres <= set(link.points)]
+        names = (touch.disc.link, *arms[:1], touch.other.link)
+        rates = [rate for name in names if (rate := rate_at(drawing, name)) is not None]
+        if len(rates) == 3 and names[0] != FRAME:
+            yield by_radii(drawing, names, rates, (touch.disc, touch.other), letter, unit)
 
 
 def rate_at(drawing: Drawing, link: str) -> float | None:
     """The rate of a link on this sheet; nought for the frame."""
-    return 0.0 if link == "0" else drawing.turning(link)
+    return 0.0 if link == FRAME else drawing.turning(link)
 
 
 def by_radii(
     drawing: Drawing,
-    names: tuple[str, str, str],
-    rates: tuple[float, float, float],
+    names: Sequence[str],
+    rates: Sequence[float],
     discs: tuple[Disc, Disc],
     letter: str,
     unit: str,

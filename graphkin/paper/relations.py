@@ -9,12 +9,15 @@ from collections.abc import Iterator, Sequence
 
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.equations import is_laid_off, of_equations
+from graphkin.paper.naming import segment_of
 from graphkin.paper.outset import of_driver, of_scales
+from graphkin.paper.rates import of_sum, of_turning
 from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.sliding import of_coriolis, of_rolling, of_slides
 from graphkin.paper.symbolic import bar, symbol
-from graphkin.paper.tables import segment_markup, sense
 from graphkin.plane import Ratio, Vector
-from graphkin.steps.program import Part, Plane, Step
+from graphkin.steps.program import Part, Plane
 
 Section = tuple[str, list[Relation]]
 
@@ -36,16 +39,29 @@ def sections_of(drawing: Drawing) -> list[Section]:
     """The sections of one sheet."""
     if drawing.kind == "velocity":
         return [
-            ("velocities", [*of_equations(drawing), *read_off(drawing)]),
+            ("velocities", list(of_plan(drawing))),
             ("turning", list(of_turning(drawing))),
+            ("slides", list(of_slides(drawing))),
             ("centres", list(of_centres(drawing))),
         ]
     return [
         ("normals", list(of_normals(drawing))),
-        ("accelerations", [*of_equations(drawing), *read_off(drawing)]),
+        ("coriolis_components", list(of_coriolis(drawing))),
+        ("accelerations", list(of_plan(drawing))),
         ("spinning", list(of_turning(drawing))),
+        ("slides", list(of_slides(drawing))),
         ("poles", list(of_centres(drawing))),
     ]
+
+
+def of_plan(drawing: Drawing) -> Iterator[Relation]:
+    """What a plan is drawn from, and what is read off it."""
+    if drawing.kind == "acceleration":
+        for driver in drawing.scene.drivers:
+            yield from of_sum(drawing, driver)
+    yield from of_equations(drawing)
+    yield from of_trials(drawing)
+    yield from read_off(drawing)
 
 
 def data_line(drawing: Drawing) -> Relation:
@@ -53,34 +69,6 @@ def data_line(drawing: Drawing) -> Relation:
     *pieces, last = given(drawing)
     first, *more = [f"{piece};" for piece in pieces] + [last]
     return Relation(first, more=tuple(more))
-
-
-def of_equations(drawing: Drawing) -> Iterator[Relation]:
-    """Euler's theorems for each motion about a pin, and the directions that guides give."""
-    for _, step, _ in drawing.steps(drawing.plane):
-        key = step.action.key if step.action else ""
-        if key == "square-to":
-            yield euler(drawing, step.says["p"], step.says["q"])
-        elif key == "parallel-to":
-            point = drawing.scene.links[step.says["g"]].points[0]
-            name = symbol(f"{'v' if drawing.kind == 'velocity' else 'a'}_{point}")
-            guide = drawing.words("page.guide_of", g=step.says["g"])
-            yield Relation(drawing.words("calculation.along_guide", name=name, guide=guide))
-
-
-def euler(drawing: Drawing, p: str, q: str) -> Relation:
-    """Euler's theorem for the motion of a pin about another, or about a fixed pivot."""
-    fixed = p in drawing.scene.frame.points
-    index, letter = (q if fixed else q + p), "v" if drawing.kind == "velocity" else "a"
-    key = f"calculation.{'about' if fixed else 'euler'}_{drawing.kind}"
-    fields = {
-        "whole": symbol(f"{letter}_{q}"),
-        "start": symbol(f"{letter}_{p}"),
-        "relative": symbol(f"v_{index}"),
-        "normal": symbol(f"a_{index}^ν"),
-        "tangential": symbol(f"a_{index}^τ"),
-    }
-    return Relation(drawing.words(key, bar=bar(p, q), p=symbol(p), q=symbol(q), **fields))
 
 
 def read_off(drawing: Drawing) -> Iterator[Relation]:
@@ -93,21 +81,30 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
             continue
         size = drawing.settled(abs(value.tip - value.tail))
         name = step.says["symbol"]
-        segment = (
-            segment_markup(step.name)
-            if step.name != name
-            else drawing.words("calculation.segment", name=symbol(name))
-        )
+        segment = segment_of(drawing, step)
+        if not segment:
+            segment = drawing.words("calculation.segment", name=symbol(name))
         figures = f"{figure(drawing, scale / 1000)}·{drawn(drawing, 1000 * size / scale)}"
         yield Relation(symbol(name), f"{k}·{segment}", figures, answer(drawing, size), unit)
 
 
-def is_laid_off(drawing: Drawing, step: Step) -> bool:
-    """True for a component that was not found by the plan but computed and laid off."""
-    driven = {driver.link for driver in drawing.scene.drivers}
-    bars = [drawing.scene.links[link].points for link in driven]
-    of_driver = any({step.says["p"], step.says["q"]} <= set(points) for points in bars)
-    return step.says.get("kind") == "ν" or (step.says.get("kind") == "τ" and of_driver)
+def of_trials(drawing: Drawing) -> Iterator[Relation]:
+    """Where between two trial plans the right one lies: what they miss grows in proportion."""
+    part = Part.VELOCITY if drawing.kind == "velocity" else Part.ACCELERATION
+    for number, step, value in drawing.steps(Plane.NUMBERS):
+        if step.action is None or step.action.key != "share" or step.part is not part:
+            continue
+        first, second = (figure(drawing, float(drawing.trace.values[arg])) for arg in step.args)
+        users = (drawing.trace.program.steps[user] for user in drawing.children.get(number, ()))
+        names = [symbol(user.name) for user in users if user.plane is drawing.plane]
+        yield Relation(
+            "*λ*",
+            "*m*^1/(*m*^1 − *m*^2)",
+            f"{first}/({first} − ({second}))",
+            answer(drawing, float(value)),
+            "",
+            drawing.words("calculation.divided", list=", ".join(names)),
+        )
 
 
 def drawn(drawing: Drawing, millimetres: float) -> str:
@@ -119,6 +116,8 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
     """Each normal component: square of the relative velocity over the bar, and its drawn length."""
     ka = drawing.scales.ka
     for _, step, value in drawing.steps(Plane.NUMBERS):
+        if step.action is not None and step.action.key == "rolling-normal":
+            yield of_rolling(drawing, step, drawing.settled(abs(value)))
         if step.action is None or step.action.key != "normal":
             continue
         p, q, i = step.says["p"], step.says["q"], step.says["i"]
@@ -136,30 +135,6 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
                 q=symbol(q),
                 drawn=drawing.words.fixed(1000 * size / ka, 2),
             ),
-        )
-
-
-def of_turning(drawing: Drawing) -> Iterator[Relation]:
-    """Angular velocities or accelerations: relative motion over length, with the sense."""
-    velocity = drawing.kind == "velocity"
-    key, letter, unit = ("omega", "ω", "rad/s") if velocity else ("epsilon", "ε", "rad/s^2")
-    program = drawing.trace.program
-    for link in drawing.scene.links:
-        step = program.steps[program.targets.get((key, link), 0)]
-        value = drawing.turning(link)
-        if value is None or step.action is None or step.action.key != key:
-            continue
-        p, q = step.says["p"], step.says["q"]
-        index = q if p in drawing.scene.frame.points else q + p
-        relative = symbol(f"v_{index}" if velocity else f"a_{index}^τ")
-        length = length_of(drawing, p, q)
-        yield Relation(
-            symbol(f"{letter}_{step.name}"),
-            f"{relative}/{bar(p, q)}",
-            f"{figure(drawing, abs(value) * length)}/{figure(drawing, length)}",
-            answer(drawing, abs(value)),
-            unit,
-            sense(drawing.words, value),
         )
 
 

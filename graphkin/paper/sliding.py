@@ -15,18 +15,18 @@ from graphkin.steps.program import Plane, Step
 def of_coriolis(drawing: Drawing) -> Iterator[Relation]:
     """Each Coriolis component: twice the turning of the guide times the relative velocity."""
     values = drawing.trace.values
-    for number, step, value in drawing.steps(Plane.NUMBERS):
+    for _, step, value in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "coriolis" or not step.name:
             continue
         omega = abs(float(values[step.args[0]]))
-        speed = drawing.settled_speed(abs(values[step.args[2]] - values[step.args[1]]))
+        speed = abs(values[step.args[2]] - values[step.args[1]])
         rate = rate_symbol(drawing, step.args[0])
         v = symbol("v_" + step.says["i"])
         yield Relation(
             symbol(step.name),
             f"2·{rate}·{v}",
             f"2·{figure(drawing, omega)}·{figure(drawing, speed)}",
-            answer(drawing, 2 * omega * speed),
+            answer(drawing, drawing.settled(2 * omega * speed)),
             "m/s^2",
             drawing.words(
                 "calculation.quarter",
@@ -61,7 +61,7 @@ def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
 
 
 def of_slides(drawing: Drawing) -> Iterator[Relation]:
-    """The motion of each block that is asked, along its guide: with the guide's sense or against."""
+    """The motion of each block that is asked, along its guide: in its sense or against it."""
     velocity = drawing.kind == "velocity"
     what, letter = ("slide speed", "v") if velocity else ("slide acceleration", "a")
     for block in drawing.scene.ask.slides:

@@ -8,7 +8,7 @@ from graphkin.paper.richtext import escape
 
 NAME = re.compile(
     r"^(?P<times>\d*)(?P<letter>[^\W\d_¹²]+)(?P<index>\d*(?:,\w+?)?)(?P<prime>[′″‴⁗]?)"
-    r"(?:_(?P<sub>[^\W¹²]+(?:,\w+)?[^\W¹²]*))?(?P<tag>[¹²]?)(?:\^(?P<sup>\w))?$"
+    r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]?)(?:\^(?P<sup>\w))?$"
 )
 FOURTH = "⁗"
 TAGS = {"¹": "^1", "²": "^2"}

@@ -9,6 +9,7 @@ from typing import Any
 from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Line, Mark, Text, box
+from graphkin.paper.naming import segment_of
 from graphkin.paper.richtext import extent
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Vector
@@ -33,7 +34,8 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, float, float]]:
     for _, step, value in drawing.steps(drawing.plane):
         if step.arrow and isinstance(value, Vector):
             size = drawing.settled(abs(value.tip - value.tail))
-            found.append((step.says["symbol"], step.name, 1000 * size / scale, size))
+            segment = segment_of(drawing, step)
+            found.append((step.says["symbol"], segment, 1000 * size / scale, size))
     return found
 
 
@@ -42,15 +44,9 @@ def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     words = drawing.words
     rows = []
     for name, segment, length, size in vectors(drawing):
-        drawn = "" if segment == name else segment_markup(segment)
         values = ("", "") if empty else (words.fixed(length, 2), words.significant(size))
-        rows.append(Row((symbol(name), drawn, *values), name))
+        rows.append(Row((symbol(name), segment, *values), name))
     return rows
-
-
-def segment_markup(name: str) -> str:
-    """Markup of a segment of a plan, o′b′."""
-    return "*" + name + "*"
 
 
 def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:

@@ -1,4 +1,4 @@
-"""The marks of two trial plans: thin and grey, their points with tags, and the lines through them."""
+"""The marks of two trial plans: thin and grey, points with tags, and the lines through them."""
 
 from __future__ import annotations
 

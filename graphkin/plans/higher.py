@@ -19,7 +19,6 @@ from graphkin.plans.shape import Shapes
 from graphkin.plans.trial import TrialPen
 from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.closing import (
-    Trying,
     beside_line,
     cosine_between,
     excess,
@@ -32,6 +31,7 @@ from graphkin.steps.closing import (
 )
 from graphkin.steps.guides import axis_with_guide, turned_back
 from graphkin.steps.program import Part, Plane
+from graphkin.steps.trying import Trying
 from graphkin.steps.vocabulary import coordinate
 from graphkin.structure.graph import Contact, Pin, Sliding
 from graphkin.structure.groups import Dyad, Group, Higher, Tie

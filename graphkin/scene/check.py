@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection
 
+from graphkin.scene.check_drivers import check_drivers
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.model import FRAME, Branch, Driver, Link, Rolling, Scene, Side, Slide, Way
+from graphkin.scene.known import all_points, known_link, known_point, place_of
+from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -16,36 +17,9 @@ def check_scene(scene: Scene, findings: Findings) -> None:
     for link in (scene.frame, *scene.links.values()):
         check_link(scene, link, findings)
     check_alone(scene, findings)
-    for driver in scene.drivers:
-        check_driver(scene, driver, driver.position.place.rpartition(".")[0], findings)
-    check_repeated(scene, findings)
+    check_drivers(scene, findings)
     check_branches(scene, findings)
     check_ask(scene, findings)
-
-
-def all_points(scene: Scene) -> dict[str, None]:
-    """Every point of every link, once, in the order written."""
-    every = (scene.frame, *scene.links.values())
-    return dict.fromkeys(point for link in every for point in link.points)
-
-
-def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
-    """The link of a name; None, with a problem noted, when there is none."""
-    if name == FRAME or name in scene.links:
-        return scene.link(name)
-    found = f"link {name} is not in [links]"
-    findings.add(place, found, listed((FRAME, *scene.links)), nearest(name, scene.links))
-    return None
-
-
-def known_point(
-    name: str, points: Collection[str], where: str, place: str, findings: Findings
-) -> bool:
-    """Whether a point is among those of ``where``; a problem is noted when it is not."""
-    if name not in points:
-        expected = listed(points) or "a point that is written"
-        findings.add(place, f"{name} is no point of {where}", expected, nearest(name, points))
-    return name in points
 
 
 def check_namespace(scene: Scene, findings: Findings) -> None:
@@ -82,11 +56,6 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
             findings.add(place, found, other, f"{other} is written with another capital")
 
 
-def place_of(name: str) -> str:
-    """Where a link is written."""
-    return "frame" if name == FRAME else f"links.{name}"
-
-
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
     """Guides, tracks and wheels of a link name points and links that are there."""
     place = place_of(link.name)
@@ -104,29 +73,23 @@ def check_link(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
-    """No two guides of a block lie on one link, and no two links are guides of one another."""
-    place = f"{place_of(link.name)}.slides"
-    ways = Counter(slide.on for slide in link.slides)
-    for on, times in ways.items():
-        if times > 1:
-            found = (
-                f"{times} guides on {named(on)}: parallel ones hold the block twice, others fast"
-            )
-            findings.add(place, found, "one guide on one link", "leave one out")
+    """No two links are guides of one another."""
+    order = list(scene.links)
+    for on in dict.fromkeys(slide.on for slide in link.slides):
         other = scene.links.get(on)
-        earlier = other is not None and list(scene.links).index(on) < list(scene.links).index(
-            link.name
-        )
-        if other is not None and earlier and link.name in [slide.on for slide in other.slides]:
+        if other is None or order.index(on) >= order.index(link.name):
+            continue
+        if link.name in [slide.on for slide in other.slides]:
             found = f"links {on} and {link.name} slide on one another, guides in a circle"
-            findings.add(place, found, "slides in one of the two links only")
+            expected = "slides in one of the two links only"
+            findings.add(f"{place_of(link.name)}.slides", found, expected)
 
 
 def check_alone(scene: Scene, findings: Findings) -> None:
     """Every moving link has points and touches another: by a pin, a guide, a track or a wheel."""
     links = (scene.frame, *scene.links.values())
-    tracks = {rolling.on for link in links for rolling in link.rolls}
-    carriers = tracks | {slide.on for link in links for slide in link.slides}
+    carriers = {slide.on for link in links for slide in link.slides}
+    carriers |= {rolling.on for link in links for rolling in link.rolls}
     shared = Counter(point for link in links for point in link.points)
     for link in scene.links.values():
         place = f"links.{link.name}"
@@ -138,12 +101,6 @@ def check_alone(scene: Scene, findings: Findings) -> None:
         elif not (pinned or link.slides or link.rolls or link.wheels or link.name in carriers):
             found = f"link {link.name} touches no other"
             findings.add(place, found, "a point that another link has too, slides or rolls")
-    for link in links:
-        place = place_of(link.name)
-        if link.wheels and not link.rolls and link.name not in tracks:
-            found = "a wheel without a track: it rolls on nothing, and nothing rolls on it"
-            expected = f"rolls = {{ on = LINK, … }} here, or rolls = {{ on = {link.name} }} there"
-            findings.add(f"{place}.wheel", found, expected)
 
 
 def check_guide(
@@ -178,77 +135,6 @@ def check_rolling(
         findings.add(place, f"link {rolling.on} has no wheel to roll on", expected)
     for name in rolling.start:
         known_link(scene, name, f"{place}.start.{name}", findings)
-
-
-def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -> None:
-    """A driver moves a known link against another, along a guide or a track that is there."""
-    link = known_link(scene, driver.link, f"{place}.{driver.kind}", findings)
-    against = known_link(scene, driver.against, f"{place}.against", findings)
-    if link is None or against is None:
-        return
-    if driver.link == driver.against:
-        what = "the frame, which is at rest" if driver.link == FRAME else "itself"
-        findings.add(f"{place}.{driver.kind}", f"against {what}", "a link that moves")
-        return
-    for point in driver.of or ():
-        known_point(point, link.points, f"link {link.name}", f"{place}.of", findings)
-    if findings.inside(place_of(link.name)):
-        return
-    if driver.kind != "turn":
-        check_led(scene, driver, link, place, findings)
-    elif driver.against in turning_with(scene, driver.link):
-        found = f"link {link.name} cannot turn against {named(driver.against)}: slides join them"
-        expected = f"slide = {link.name}" if link.slides else "a link that a pin joins"
-        findings.add(f"{place}.turn", found, expected)
-
-
-def turning_with(scene: Scene, name: str) -> set[str]:
-    """The links that a link cannot turn against: those that slides join it to, one by one."""
-    found, grown = {name}, True
-    while grown:
-        joined = [{link.name, slide.on} for link in scene.links.values() for slide in link.slides]
-        more = set().union(*(pair for pair in joined if pair & found)) - found
-        found |= more
-        grown = bool(more)
-    return found
-
-
-def check_led(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:
-    """A driver that slides or rolls a link has a guide, or a straight track, to move it along."""
-    straight = [joint.on for joint in link.rolls if joint.through is not None]
-    tracks = straight if driver.kind == "roll" else [joint.on for joint in link.slides]
-    if driver.against in tracks:
-        return
-    verb = "slides" if driver.kind == "slide" else "rolls straight"
-    if tracks:
-        found = f"link {link.name} {verb} on {named(tracks[0])}, not on {named(driver.against)}"
-        findings.add(place, found, f"against = {tracks[0]}")
-        return
-    can = [each.name for each in scene.links.values() if each.slides]
-    if driver.kind == "slide":
-        found = f"link {link.name} has no guide to slide along"
-        expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
-        findings.add(f"{place}.slide", found, expected)
-    elif link.rolls:
-        found = f"link {link.name} rolls on a wheel, which has no coordinate"
-        findings.add(f"{place}.roll", found, f"turn = {link.name}, or a straight track")
-    else:
-        found = f"link {link.name} has no straight track to roll on"
-        findings.add(f"{place}.roll", found, "rolls = { on, through, angle } in that link")
-
-
-def named(link: str) -> str:
-    """A link in words."""
-    return "the frame" if link == FRAME else f"link {link}"
-
-
-def check_repeated(scene: Scene, findings: Findings) -> None:
-    """No motion is given twice."""
-    seen = Counter((driver.kind, driver.link, driver.against) for driver in scene.drivers)
-    for (kind, link, against), times in seen.items():
-        if times > 1:
-            found = f"{kind} = {link} against {against} is given {times} times"
-            findings.add("drivers", found, "one driver for one motion")
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:

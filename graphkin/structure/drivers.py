@@ -10,6 +10,7 @@ from graphkin.errors import Problem, StructureError
 from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
 from graphkin.structure.graph import contacts, pairs, sharers
 from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
+from graphkin.structure.held import impossible
 from graphkin.structure.mobility import count
 from graphkin.structure.order import decompose
 
@@ -19,10 +20,14 @@ RANK = "the rank of the constraints"
 def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
     """Raise StructureError where the structure alone shows that the drivers are wrong.
 
-    Too few by the count, which is never above the truth; too many where all links follow without
-    some of them; two on what one moves, and none on others. Else a count below the number of
-    drivers decides nothing, for a link may be idle: ask ``refuse_wrong_drivers`` with the rank.
+    What guides and wheels cannot do; too few by the count, which is never above the truth; too many
+    where all links follow without some of them; two on what one moves, and none on others. Else a
+    count below the number of drivers decides nothing, for a link may be idle: ask
+    ``refuse_wrong_drivers`` with the rank.
     """
+    wrong = impossible(scene)
+    if wrong:
+        raise StructureError(wrong)
     freedoms, drivers = count(scene).mobility, len(scene.drivers)
     if freedoms > drivers:
         refuse_wrong_drivers(scene)
@@ -32,9 +37,8 @@ def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
     loose = [link for group in groups if isinstance(group, Unresolved) for link in group.links]
     if ties and loose:
         raise StructureError(misplaced(drivers, ties, loose))
-    idle = [
-        driver for driver in unused(scene, groups) if not {driver.link, driver.against} & {*loose}
-    ]
+    known = {FRAME, *(link for group in groups for link in group.links)} - {*loose}
+    idle = [each for each in unused(scene, groups) if {each.link, each.against} <= known]
     if idle and loose:
         raise StructureError([driven_twice(scene, driver, loose) for driver in idle])
 

@@ -257,10 +257,12 @@ def test_wheels_and_tracks(
 def test_a_driver_along_the_wrong_guide(problem: Finder) -> None:
     old = 'turn = 1\nangle = "30 + 2*n"'
     wrong = problem(old, "slide = 5\nposition = 1\nagainst = 3")
-    assert wrong.found == "link 5 slides on 0, not on 3"
-    assert wrong.hint == "write against = 0"
-    assert "slides on nothing" in problem(old, "slide = 4\nposition = 1").found
-    assert "rolls straight on nothing" in problem(old, "roll = 4\nposition = 1").found
+    assert wrong.found == "link 5 slides on the frame, not on link 3"
+    assert wrong.expected == "against = 0"
+    lost = problem(old, "slide = 4\nposition = 1")
+    assert lost.found == "link 4 has no guide to slide along"
+    assert lost.expected == "slide = 5"
+    assert "no straight track to roll on" in problem(old, "roll = 4\nposition = 1").found
 
 
 SEVERAL = """[links.6]

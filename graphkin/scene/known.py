@@ -1,0 +1,43 @@
+"""Names that a scene uses, held against those that it writes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from graphkin.scene.findings import Findings, listed, nearest
+from graphkin.scene.model import FRAME, Link, Scene
+
+
+def all_points(scene: Scene) -> dict[str, None]:
+    """Every point of every link, once, in the order written."""
+    every = (scene.frame, *scene.links.values())
+    return dict.fromkeys(point for link in every for point in link.points)
+
+
+def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
+    """The link of a name; None, with a problem noted, when there is none."""
+    if name == FRAME or name in scene.links:
+        return scene.link(name)
+    found = f"link {name} is not in [links]"
+    findings.add(place, found, listed((FRAME, *scene.links)), nearest(name, scene.links))
+    return None
+
+
+def known_point(
+    name: str, points: Collection[str], where: str, place: str, findings: Findings
+) -> bool:
+    """Whether a point is among those of ``where``; a problem is noted when it is not."""
+    if name not in points:
+        expected = listed(points) or "a point that is written"
+        findings.add(place, f"{name} is no point of {where}", expected, nearest(name, points))
+    return name in points
+
+
+def place_of(name: str) -> str:
+    """Where a link is written."""
+    return "frame" if name == FRAME else f"links.{name}"
+
+
+def named(link: str) -> str:
+    """A link in words."""
+    return "the frame" if link == FRAME else f"link {link}"

@@ -1,0 +1,180 @@
+"""What joins the bodies of a mechanism, as equations that must vanish: plain distances and angles.
+
+Poses are (x, y, θ) of each body's own axes; the numbers may be floats or of any precision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from tests.random.records import FRAME, Drive, Gear, Slide, Standing, Straight
+
+Pose = tuple[Any, Any, Any]
+
+
+class Geometry(Protocol):
+    """The shapes of the bodies in their own axes, in some kind of numbers."""
+
+    def cis(self, angle: Any) -> Any:
+        """Unit vector at an angle (radians)."""
+
+    def local(self, body: str, point: str) -> Any:
+        """A point of a body."""
+
+    def guide(self, slide: Slide) -> tuple[Any, Any, Any]:
+        """A point of a guide and its direction on its body, and the block's offset."""
+
+    def track(self, straight: Straight) -> tuple[Any, Any, Any, Any]:
+        """Start and direction of a track on its body, radius, and start angle of its wheel."""
+
+    def gear(self, gear: Gear) -> tuple[tuple[Any, Any], dict[str, Any]]:
+        """Radii of two wheels, and for each body the angle that its turning is counted from."""
+
+    def drive(self, drive: Drive, time: Any) -> Any:
+        """The given position at a time, as the angle of the body's x axis where it turns."""
+
+
+@dataclass
+class Moved:
+    """Bodies in some poses."""
+
+    geometry: Geometry
+    poses: Mapping[str, Pose]
+
+    def __post_init__(self) -> None:
+        self.units = {name: self.geometry.cis(pose[2]) for name, pose in self.poses.items()}
+
+    def at(self, body: str, local: Any) -> Any:
+        """A point of a body, in the plane."""
+        x, y, _ = self.poses[body]
+        return x + 1j * y + self.units[body] * local
+
+    def point(self, body: str, name: str) -> Any:
+        """A named point of a body, in the plane."""
+        return self.at(body, self.geometry.local(body, name))
+
+    def slid(self, standing: Standing, slide: Slide) -> Any:
+        """Where a block's first point stands from the start of its guide: along and to the left."""
+        through, along, _ = self.geometry.guide(slide)
+        first = next(iter(standing.bodies[slide.block].points))
+        way = self.point(slide.block, first) - self.at(slide.on, through)
+        return way * (self.units[slide.on] * along).conjugate()
+
+
+Equation = tuple[set[str], Callable[[Moved, Any], list[Any]]]
+"""The bodies that some equations are about, and what must vanish, in poses at a time."""
+
+
+def equations(standing: Standing) -> list[Equation]:
+    """Everything that joins or drives the bodies of a mechanism."""
+    found: list[Equation] = []
+    for point, (first, *others) in standing.owners().items():
+        for other in others:
+            if standing.idle.get(other, ("", ""))[1] == point:
+                found.append(({first, other}, pointing(standing, other, first, point)))
+            else:
+                found.append(({first, other}, pinned(point, first, other)))
+    for slide in standing.slides.values():
+        found.append(({slide.block, slide.on}, sliding(standing, slide)))
+    for straight in standing.straights:
+        found.append(({straight.wheel, straight.on}, rolling(straight)))
+    for gear in standing.gears:
+        found.append(({gear.wheel, gear.on, gear.arm}, meshing(gear)))
+    for drive in standing.drives:
+        found.append(({drive.body, drive.against}, driven(standing, drive)))
+    return found
+
+
+def pinned(point: str, first: str, other: str) -> Callable[[Moved, Any], list[Any]]:
+    """A point of two bodies is in one place."""
+
+    def apart(moved: Moved, time: Any) -> list[Any]:
+        gap = moved.point(first, point) - moved.point(other, point)
+        return [gap.real, gap.imag]
+
+    return apart
+
+
+def pointing(
+    standing: Standing, bar: str, other: str, point: str
+) -> Callable[[Moved, Any], list[Any]]:
+    """An idle bar points to a point of another body: its length is not needed."""
+    pivot = standing.idle[bar][0]
+
+    def aside(moved: Moved, time: Any) -> list[Any]:
+        start = moved.point(bar, pivot)
+        way = moved.point(bar, point) - start
+        return [((moved.point(other, point) - start) * way.conjugate()).imag / abs(way)]
+
+    return aside
+
+
+def sliding(standing: Standing, slide: Slide) -> Callable[[Moved, Any], list[Any]]:
+    """A block stays at its offset from its guide, its x axis along it."""
+
+    def off(moved: Moved, time: Any) -> list[Any]:
+        _, along, offset = moved.geometry.guide(slide)
+        lean = moved.units[slide.block] * (moved.units[slide.on] * along).conjugate()
+        return [moved.slid(standing, slide).imag - offset, lean.imag]
+
+    return off
+
+
+def rolling(straight: Straight) -> Callable[[Moved, Any], list[Any]]:
+    """A wheel stays its radius from its track and turns by its way over the radius."""
+
+    def slip(moved: Moved, time: Any) -> list[Any]:
+        through, along, radius, start = moved.geometry.track(straight)
+        on, wheel, side = straight.on, straight.wheel, straight.side
+        way = moved.point(wheel, straight.centre) - moved.at(on, through)
+        way = way * (moved.units[on] * along).conjugate()
+        turned = moved.units[wheel] * moved.units[on].conjugate()
+        rolled = moved.geometry.cis(start - side * way.real / radius)
+        return [way.imag - side * radius, (turned * rolled.conjugate()).imag]
+
+    return slip
+
+
+def meshing(gear: Gear) -> Callable[[Moved, Any], list[Any]]:
+    """Seen from the arm, the rims of two wheels have come equally far."""
+
+    def slip(moved: Moved, time: Any) -> list[Any]:
+        (own, other), zero = moved.geometry.gear(gear)
+        turned = {name: moved.poses[name][2] - zero[name] for name in zero}
+        against = turned[gear.arm]
+        return [own * (turned[gear.wheel] - against) + other * (turned[gear.on] - against)]
+
+    return slip
+
+
+def driven(standing: Standing, drive: Drive) -> Callable[[Moved, Any], list[Any]]:
+    """A body stands as far against another as its driver says."""
+
+    def off(moved: Moved, time: Any) -> list[Any]:
+        given = moved.geometry.drive(drive, time)
+        if drive.kind == "slide":
+            return [moved.slid(standing, standing.slides[drive.body]).real - given]
+        if drive.kind == "roll":
+            straight = next(each for each in standing.straights if each.wheel == drive.body)
+            through, along, *_ = moved.geometry.track(straight)
+            way = moved.point(drive.body, straight.centre) - moved.at(drive.against, through)
+            return [(way * (moved.units[drive.against] * along).conjugate()).real - given]
+        straight = next(
+            (s for s in standing.straights if (s.wheel, s.on) == (drive.body, drive.against)), None
+        )
+        if straight is not None:
+            through, along, radius, start = moved.geometry.track(straight)
+            way = moved.point(drive.body, straight.centre) - moved.at(drive.against, through)
+            way = (way * (moved.units[drive.against] * along).conjugate()).real
+            return [start - straight.side * way / radius - given]
+        lean = moved.units[drive.body] * moved.units[drive.against].conjugate()
+        return [(lean * moved.geometry.cis(given).conjugate()).imag]
+
+    return off
+
+
+def fixed_frame(poses: Mapping[str, Pose]) -> dict[str, Pose]:
+    """Poses with the frame's."""
+    return {FRAME: (0, 0, 0), **poses}

@@ -1,0 +1,148 @@
+"""A mechanism as it stands: bodies with the places of their points, what joins and drives them.
+
+All places and directions are those in the plane (complex numbers, metres), so that everything
+closes from the outset. How the scene is to tell it is decided when it is written.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from dataclasses import dataclass, field
+
+FRAME = "0"
+
+
+@dataclass
+class Slide:
+    """A block on a straight guide of a body: a point and the direction of the guide.
+
+    ``through`` is written as a named point, as coordinates, or with ``end`` as two points.
+    """
+
+    block: str
+    on: str
+    through: complex
+    along: complex
+    offset: float
+    named: str | None = None
+    end: str | None = None
+
+
+@dataclass
+class Straight:
+    """A wheel on a straight track of a body: start of the way, direction, side and start angle."""
+
+    wheel: str
+    on: str
+    centre: str
+    radius: float
+    through: complex
+    along: complex
+    side: int
+    start: float | None
+
+
+@dataclass
+class Gear:
+    """A wheel on another whose centres an arm keeps apart; rings have a negative radius.
+
+    ``start`` holds the angles (degrees) from which each turning is counted, and ``turned`` how far
+    (radians) each body has turned since.
+    """
+
+    wheel: str
+    on: str
+    arm: str
+    centres: tuple[str, str]
+    radii: tuple[float, float]
+    start: dict[str, float] = field(default_factory=dict)
+    turned: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass
+class Drive:
+    """A given motion: position (radians or metres), speed and acceleration."""
+
+    kind: str
+    body: str
+    against: str
+    position: float
+    speed: float
+    acceleration: float = 0.0
+    of: tuple[str, str] | None = None
+
+
+@dataclass
+class Body:
+    """A link: its points and their places, in the order written, and how they are written."""
+
+    name: str
+    points: dict[str, complex]
+    how: str = "lengths"
+    origin: complex = 0j
+    along: complex | None = None
+    """Direction of the x axis; None where it runs from the first point to the second."""
+    wheels: list[tuple[str, float]] = field(default_factory=list)
+    ways: dict[str, str] = field(default_factory=dict)
+    """How each point beyond the second is written: triangle, angle or polar."""
+
+    @property
+    def axis(self) -> complex:
+        """The direction of its x axis in the plane."""
+        if self.along is not None:
+            return self.along
+        a, b, *_ = self.points.values()
+        return (b - a) / abs(b - a)
+
+    @property
+    def corner(self) -> complex:
+        """The origin of its axes."""
+        return next(iter(self.points.values())) if self.along is None else self.origin
+
+    @property
+    def angle(self) -> float:
+        """The angle of its x axis in radians."""
+        return phase(self.axis)
+
+
+@dataclass
+class Standing:
+    """A whole mechanism in one position."""
+
+    bodies: dict[str, Body] = field(default_factory=lambda: {FRAME: Body(FRAME, {}, "", 0j, 1 + 0j)})
+    slides: dict[str, Slide] = field(default_factory=dict)
+    straights: list[Straight] = field(default_factory=list)
+    gears: list[Gear] = field(default_factory=list)
+    drives: list[Drive] = field(default_factory=list)
+    idle: dict[str, tuple[str, str]] = field(default_factory=dict)
+    """Idle bars: what they are pinned to, and the point that they only point to."""
+
+    def place(self, point: str) -> complex:
+        """Where a point stands."""
+        return next(body.points[point] for body in self.bodies.values() if point in body.points)
+
+    def owners(self) -> dict[str, list[str]]:
+        """The bodies that own each point."""
+        found: dict[str, list[str]] = {}
+        for body in self.bodies.values():
+            for point in body.points:
+                found.setdefault(point, []).append(body.name)
+        return found
+
+    @property
+    def size(self) -> float:
+        """The largest distance from the first point to another (m)."""
+        places = [z for body in self.bodies.values() for z in body.points.values()]
+        return max(abs(z - places[0]) for z in places)
+
+    @property
+    def least(self) -> float:
+        """The shortest bar (m)."""
+        lengths = [
+            abs(b - a)
+            for body in self.bodies.values()
+            if body.name != FRAME
+            for i, a in enumerate(body.points.values())
+            for b in list(body.points.values())[:i]
+        ]
+        return min((length for length in lengths if length > 0), default=self.size)

@@ -1,0 +1,230 @@
+"""A mechanism as a scene, and the very numbers that the scene states, in any precision."""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+from typing import Any
+
+import mpmath
+
+from tests.mechanisms import HEAD, angled, number, pair, sided
+from tests.random.records import FRAME, Body, Drive, Gear, Slide, Standing, Straight
+
+DIGITS = 50
+"""Digits of the exact numbers."""
+
+
+class Written:
+    """The scene of a mechanism, without its branches, and its numbers as ``Geometry``."""
+
+    def __init__(self, standing: Standing) -> None:
+        self.standing = standing
+        self.exact: dict[str, dict[str, Any]] = {}
+        self.numbers: dict[int, tuple[Any, ...]] = {}
+        with mpmath.workdps(DIGITS):
+            self.lines = [line for body in standing.bodies.values() for line in self.body(body)]
+            for drive in standing.drives:
+                self.lines += self.driver(drive)
+
+    def text(self, branches: dict[str, str]) -> str:
+        """The whole scene."""
+        said = [f'{name} = "{words}"' for name, words in branches.items()]
+        return HEAD + "\n".join([*self.lines, "[branches]", *said, ""])
+
+    # --- writing ---------------------------------------------------------------------------------
+
+    def body(self, body: Body) -> list[str]:
+        """One link: its points, its guide, its wheels and what they roll on."""
+        lines = ["[frame]" if body.name == FRAME else f"[links.{body.name}]"]
+        lines += self.shape(body)
+        for centre, radius in body.wheels:
+            inside = ", inside = true" if radius < 0 else ""
+            wheel = f'{{ centre = "{centre}", radius = {abs(radius)!r}{inside} }}'
+            key = "wheel" if len(body.wheels) == 1 else "wheels"
+            lines.append(f"{key} = {wheel}")
+        if len(body.wheels) > 1:
+            joined = ", ".join(line.partition(" = ")[2] for line in lines[-len(body.wheels) :])
+            lines[-len(body.wheels) :] = [f"wheels = [{joined}]"]
+        if slide := self.standing.slides.get(body.name):
+            lines.append(f"slides = {{ {self.guided(slide)} }}")
+        tracks = [self.tracked(each) for each in self.standing.straights if each.wheel == body.name]
+        tracks += [self.meshed(each) for each in self.standing.gears if each.wheel == body.name]
+        if tracks:
+            lines.append(f"rolls = [{', '.join(tracks)}]")
+        return lines
+
+    def shape(self, body: Body) -> list[str]:
+        """The points of a link, by coordinates or by lengths and angles."""
+        exact = self.exact[body.name] = {}
+        if body.along is not None:
+            lines = []
+            for point, place in body.points.items():
+                local = (place - body.corner) * body.axis.conjugate()
+                lines.append(f"{point} = {pair(local)}")
+                exact[point] = mpmath.mpc(number(local.real), number(local.imag))
+            return lines
+        (p, a), (q, b), *rest = body.points.items()
+        lines = [f"{p}-{q} = {abs(b - a)!r}"]
+        exact |= {p: mpmath.mpc(0), q: mpmath.mpc(mpmath.mpf(repr(abs(b - a))))}
+        for point, place in rest:
+            said, exact[point] = third(body.ways[point], (p, q, point), (a, b, place), exact)
+            lines += said
+        return lines
+
+    def local(self, body: str, place: complex) -> complex:
+        """A place of the plane in the axes of a body."""
+        owner = self.standing.bodies[body]
+        return (place - owner.corner) * owner.axis.conjugate()
+
+    def guided(self, slide: Slide) -> str:
+        """A guide: through a point or coordinates at an angle, or along two points."""
+        offset = f", offset = {number(slide.offset)}"
+        exact = mpmath.mpf(number(slide.offset))
+        if slide.end is not None:
+            first, second = (self.on_body(slide.on, point) for point in (slide.named, slide.end))
+            way = second - first
+            self.numbers[id(slide)] = first, way / abs(way), exact
+            return f'on = {slide.on}, along = "{slide.named}-{slide.end}"{offset}'
+        through, start = self.through(slide)
+        angle, along = self.direction(slide.on, slide.along)
+        self.numbers[id(slide)] = start, along, exact
+        return f"on = {slide.on}, through = {through}, angle = {angle}{offset}"
+
+    def on_body(self, body: str, point: str | None) -> Any:
+        """A point of a body, exactly; the body may not have been written yet."""
+        assert point is not None
+        if body not in self.exact or point not in self.exact[body]:
+            self.shape(self.standing.bodies[body])
+        return self.exact[body][point]
+
+    def through(self, joint: Slide | Straight) -> tuple[str, Any]:
+        """The point that a guide or track is written through."""
+        if isinstance(joint, Slide) and joint.named is not None:
+            return f'"{joint.named}"', self.on_body(joint.on, joint.named)
+        local = self.local(joint.on, joint.through)
+        return pair(local), mpmath.mpc(number(local.real), number(local.imag))
+
+    def direction(self, on: str, along: complex) -> tuple[str, Any]:
+        """A direction of the plane as an angle on a body, in degrees, and exactly."""
+        words = number(math.degrees(phase(along * self.standing.bodies[on].axis.conjugate())))
+        return words, unit(mpmath.radians(mpmath.mpf(words)))
+
+    def tracked(self, straight: Straight) -> str:
+        """A straight track."""
+        through, start = self.through(straight)
+        angle, along = self.direction(straight.on, straight.along)
+        zero = straight.start or 0.0
+        self.numbers[id(straight)] = start, along, radius_of(straight.radius), degrees(zero)
+        side = ', side = "right"' if straight.side < 0 else ""
+        said = (
+            ""
+            if straight.start is None
+            else f", start = {{ {straight.wheel} = {number(straight.start)} }}"
+        )
+        return f"{{ on = {straight.on}, through = {through}, angle = {angle}{side}{said} }}"
+
+    def meshed(self, gear: Gear) -> str:
+        """A wheel on another."""
+        radii = tuple(mpmath.mpf(repr(each)) for each in gear.radii)
+        self.numbers[id(gear)] = radii, {
+            name: degrees(gear.start.get(name, 0.0)) for name in (gear.wheel, gear.on, gear.arm)
+        }
+        said = ", ".join(f"{name} = {number(angle)}" for name, angle in gear.start.items())
+        start = f", start = {{ {said} }}" if said else ""
+        return f"{{ on = {gear.on}{start} }}"
+
+    def driver(self, drive: Drive) -> list[str]:
+        """A driver."""
+        position = math.degrees(drive.position) if drive.kind == "turn" else drive.position
+        where = mpmath.mpf(number(position))
+        if drive.kind == "turn":
+            where = mpmath.radians(where)
+            if drive.of:
+                p, q = (self.exact[drive.body][point] for point in drive.of)
+                where -= mpmath.arg(q - p)
+        given = drive.speed, drive.acceleration
+        self.numbers[id(drive)] = where, *(mpmath.mpf(repr(each)) for each in given)
+        lines = ["[[drivers]]", f"{drive.kind} = {drive.body}"]
+        lines += [] if drive.against == FRAME else [f"against = {drive.against}"]
+        lines += [f'of = "{"-".join(drive.of)}"'] if drive.of else []
+        key = "angle" if drive.kind == "turn" else "position"
+        lines += [f"{key} = {number(position)}", f"speed = {drive.speed!r}"]
+        return [*lines, f"acceleration = {drive.acceleration!r}"]
+
+
+class Exact:
+    """What a scene states, in many digits: a ``Geometry``."""
+
+    def __init__(self, written: Written) -> None:
+        self.written, self.wound = written, {}
+
+    def cis(self, angle: Any) -> Any:
+        """Unit vector at an angle."""
+        return unit(angle)
+
+    def local(self, body: str, point: str) -> Any:
+        """A point of a body."""
+        return self.written.exact[body][point]
+
+    def guide(self, slide: Slide) -> tuple[Any, ...]:
+        """A guide on its body, and the block's offset."""
+        return self.written.numbers[id(slide)]
+
+    def track(self, straight: Straight) -> tuple[Any, ...]:
+        """A track on its body, radius and start angle."""
+        return self.written.numbers[id(straight)]
+
+    def gear(self, gear: Gear) -> Any:
+        """Radii of two wheels, and the angles that turnings are counted from."""
+        radii, zero = self.written.numbers[id(gear)]
+        if id(gear) not in self.wound:
+            bodies = self.written.standing.bodies
+            self.wound[id(gear)] = {
+                name: angle
+                + 2
+                * mpmath.pi
+                * round((bodies[name].angle - float(angle) - gear.turned[name]) / (2 * math.pi))
+                for name, angle in zero.items()
+            }
+        return radii, self.wound[id(gear)]
+
+    def drive(self, drive: Drive, time: Any) -> Any:
+        """The given position at a time."""
+        where, speed, rate = self.written.numbers[id(drive)]
+        return where + speed * time + rate * time * time / 2
+
+
+def unit(angle: Any) -> Any:
+    """A unit vector at an angle."""
+    return mpmath.mpc(*mpmath.cos_sin(angle))
+
+
+def degrees(angle: float) -> Any:
+    """A written angle, in radians."""
+    return mpmath.radians(mpmath.mpf(number(angle)))
+
+
+def radius_of(radius: float) -> Any:
+    """A written radius."""
+    return mpmath.mpf(repr(radius))
+
+
+def third(
+    way: str, names: tuple[str, str, str], places: tuple[complex, ...], exact: dict[str, Any]
+) -> tuple[list[str], Any]:
+    """A third point of a link beside its first two: how it is written, and where that puts it."""
+    (p, q, r), (a, b, c) = names, places
+    if way == "polar":
+        angle = number(math.degrees(phase((c - a) / (b - a))))
+        said = f'{r} = {{ from = "{p}", length = {abs(c - a)!r}, angle = {angle} }}'
+        return [said], mpmath.mpf(repr(abs(c - a))) * unit(degrees(float(angle)))
+    if way == "angle":
+        angle = number(math.degrees(phase((c - a) / (b - a))))
+        local = mpmath.mpf(repr(abs(c - a))) * unit(degrees(float(angle)))
+        return angled(p, q, r, a, b, c), local
+    lines = sided(p, q, r, a, b, c)
+    base, near, far = (mpmath.mpf(repr(abs(each))) for each in (b - a, c - a, c - b))
+    x = (near * near - far * far + base * base) / (2 * base)
+    side = 1 if "left" in lines[-1] else -1
+    return lines, mpmath.mpc(x, side * mpmath.sqrt(near * near - x * x))
