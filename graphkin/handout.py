@@ -21,6 +21,7 @@ from graphkin.paper.scale import (
 )
 from graphkin.steps.program import PLACES, Target
 from graphkin.steps.solution import FAIR, Curve, Solution, Verdict
+from graphkin.steps.trying import Closer
 from graphkin.text import LANGUAGES, Words, words
 
 if TYPE_CHECKING:
@@ -229,7 +230,7 @@ def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
     """The centrodes and paths that are asked, over a turn or the whole range of the driver."""
     ask = mechanism.scene.ask
     if not ask.centrodes and not ask.curves:
-        return ()
+        return loci_of(mechanism)
     from graphkin.motion.cycle import cycle
 
     whole = followed(cycle(mechanism, steps=STEPS))
@@ -237,7 +238,41 @@ def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
     for point in ask.curves:
         path = whole.solution.points[point].position
         curves.append(Curve("trajectory", point, runs_of(whole, path)))
+    return (*loci_of(mechanism), *curves)
+
+
+def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """The locus by which each group of higher class is closed, where a point shows the fit."""
+    steps = mechanism.program.steps
+    closing = [n for n, step in enumerate(steps) if step.action and is_closer(step.action.value)]
+    if not closing:
+        return ()
+    trace = mechanism.trace([t for t in mechanism.program.targets if t[0] == "position"])
+    curves = []
+    for number in closing:
+        step = steps[number]
+        assert step.action is not None and isinstance(step.action.value, Closer)
+        _, *signs, _ = trace.values[number]
+        found = step.action.value.locus([trace.values[arg] for arg in step.args], signs)
+        if found is not None:
+            curves.append(Curve("locus", step.says["l"], unbroken(found)))
     return tuple(curves)
+
+
+def is_closer(value: object) -> bool:
+    """Whether an action closes a group of higher class."""
+    return isinstance(value, Closer)
+
+
+def unbroken(points: Any) -> tuple[tuple[complex, ...], ...]:
+    """The runs of points without a NaN between them."""
+    runs: list[list[complex]] = [[]]
+    for point in points:
+        if point == point:  # noqa: PLR0124
+            runs[-1].append(complex(point))
+        elif runs[-1]:
+            runs.append([])
+    return tuple(tuple(run) for run in runs if len(run) > 1)
 
 
 def followed(whole: Cycle) -> Cycle:

@@ -35,16 +35,14 @@ def where_it_closes(scene: Scene) -> str:
     ]
     if len(scene.drivers) == 1:
         ((driver, words),) = known
-        if words:
-            return (
-                f"it closes for driver {'angles' if driver.kind == 'turn' else 'positions'} {words}"
-            )
         noun = "angle" if driver.kind == "turn" else "position"
+        if words:
+            return f"it closes for driver {noun}s {words}"
         return f"it closes for no {noun} of the driver: check the lengths"
     told = [f"{driver_words(driver)} from {words}" for driver, words in known if words]
     if not told:
         return "no driver alone can close it: check lengths, sides and the drivers' positions"
-    return f"the other drivers as they stand, it closes for {'; or for '.join(told)}"
+    return f"it closes, the other drivers as they stand, for {'; or for '.join(told)}"
 
 
 def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:

@@ -36,7 +36,7 @@ def does_not_close(
     return ClosureError(
         Problem(
             what,
-            f"{step.name or 'a value'} cannot be found: {why(program, failed)}",
+            f"{step.name or 'a value'} cannot be found: {why(scene, program, failed)}",
             "loci that cross",
             where_it_closes(scene) if early else DEAD,
         )
@@ -70,7 +70,7 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
         f"branches.{branch_of(scene, links)}",
         f"links {links} close in {ways} here, closure {error.asked} is asked",
         '"closure 1"' if error.ways == 1 else f'"closure 1" to "closure {error.ways}"',
-        "graphkin check lists them, with where each puts the links",
+        f"graphkin check lists them; with closure {error.asked} {where_it_closes(scene)}",
     )
 
 
@@ -102,7 +102,7 @@ def least_miss(failed: StepFailed) -> str:
     return f": they miss each other by {millimetres(least)}"
 
 
-def why(program: Program, failed: StepFailed) -> str:
+def why(scene: Scene, program: Program, failed: StepFailed) -> str:
     """Words for what hinders a step: loci that miss each other, or parallel lines."""
     step = failed.step
     key = step.action.key if step.action else ""
@@ -110,9 +110,9 @@ def why(program: Program, failed: StepFailed) -> str:
         return f"{step.says['q']} stands nearer to {step.says['p']} than the guide passes it"
     missed = miss(step, failed.args_found)
     if missed is None:
-        return in_line(program, failed.number)
+        return in_line(scene, program, failed.number)
     if missed < TOUCH * size(failed.args_found):
-        return f"{in_line(program, failed.number)}, a dead point"
+        return f"{in_line(scene, program, failed.number)}, a dead point"
     loci = "the arcs miss each other" if "q" in step.says else "the arc misses the guide"
     return f"{loci} by {millimetres(missed)}"
 
@@ -130,7 +130,7 @@ def millimetres(length: float) -> str:
 # --- which lines are parallel or in line ---------------------------------------------------------
 
 
-def in_line(program: Program, number: int, nearly: str = "") -> str:
+def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> str:
     """Which bars and guides are in line, parallel or square where a crossing fails or is flat.
 
     ``nearly`` is put before these words where the crossing is flat only.
@@ -145,9 +145,24 @@ def in_line(program: Program, number: int, nearly: str = "") -> str:
     if key == "swing":
         return f"{says['p']}{says['q']} is {nearly}square to the guide of {says['g']}"
     if key.startswith(("close", "part", "share")) and "list" in says:
-        verb = "nearly meet" if nearly else "meet"
-        return f"two closures of links {says['list']} {verb}"
+        bars = arms(scene, says["list"].split(", "))
+        if bars:
+            return f"the lines {', '.join(bars[:-1])} and {bars[-1]} {nearly}meet in one point"
+        return f"two closures of links {says['list']} {nearly}meet"
     return parallel(program, step, nearly)
+
+
+def arms(scene: Scene, links: Sequence[str]) -> list[str]:
+    """The three bars that hold the middle link of a group of class III; empty for other groups.
+
+    That link can move although the driver stands where the three lines meet in one point.
+    """
+    for middle in links:
+        points = set(scene.links[middle].points)
+        bars = [scene.links[name].points for name in links if name != middle]
+        if len(bars) == 3 and all(len(bar) == 2 and len(points & {*bar}) == 1 for bar in bars):
+            return ["".join(bar) for bar in bars]
+    return []
 
 
 def parallel(program: Program, step: Step, nearly: str = "") -> str:
@@ -196,7 +211,7 @@ def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
     needed = set(needed_of(program, (number,)))
     causes = [driver for driver, drive in drivers if drive.position in needed]
     places = [f"{driver_words(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
-    words = in_line(program, number, "nearly ")
+    words = in_line(scene, program, number, "nearly ")
     return f"{words}: move {' or '.join(places)} to another position" if places else words
 
 

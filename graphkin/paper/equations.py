@@ -8,11 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.paper.drawing import TAGS, Drawing
-from graphkin.paper.naming import is_driven, rate_symbol, way_of
+from graphkin.paper.naming import is_driven, rate_symbol, vector_of, way_of
 from graphkin.paper.relation import Relation, answer, figure, length_of
-from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
-from graphkin.scene.model import FRAME
 from graphkin.steps.program import Step
 
 
@@ -45,7 +43,7 @@ def of_step(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
         case "driven-tangential" if not tried and not is_pin_of_driver(drawing, step, step.args[3]):
             yield turned(drawing, step, "a", "ε")
         case "driven-slide" if not tried:
-            yield given_along(drawing, step, "v" if velocity else "a")
+            yield given_along(drawing, number, step, "v" if velocity else "a")
 
 
 def is_pin_of_driver(drawing: Drawing, step: Step, rate: int) -> bool:
@@ -100,14 +98,14 @@ def turned(drawing: Drawing, step: Step, letter: str, rate: str) -> Relation:
 
 def along(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
     """The motion along a guide: alone where that stands still, else on top of its point's."""
-    names = slider(drawing, number, step)
-    if names is None:
+    sought = found_on(drawing, number)
+    if not sought:
         return
-    point, beneath = names
+    point, beneath = slider(drawing, sought, step)
     velocity, guide = drawing.kind == "velocity", way_of(drawing, step.says["g"])
     letter = "v" if velocity else "a"
     if drawing.trace.program.steps[step.args[0]].name == drawing.pole:
-        name = symbol(f"{letter}_{point}")
+        name = symbol(f"{letter}_{beneath if '@' in sought else point}")
         yield Relation(drawing.words("calculation.along_guide", name=name, guide=guide))
         return
     fields = {
@@ -121,36 +119,31 @@ def along(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
     yield Relation(drawing.words(f"calculation.{key}", guide=guide, **fields))
 
 
-def slider(drawing: Drawing, number: int, step: Step) -> tuple[str, str] | None:
-    """The point that slides and the one beneath it on the guide, as the index of symbols."""
+def found_on(drawing: Drawing, number: int) -> str:
+    """The point whose image is found on a line of a plan; nothing where none is."""
     users = [drawing.trace.program.steps[child] for child in drawing.children.get(number, ())]
-    found = next((user.says["q"] for user in users if "q" in user.says), None)
-    if found is None:
-        return None
-    point, _, link = found.partition("@")
+    return next((user.says["q"] for user in users if "q" in user.says), "")
+
+
+def slider(drawing: Drawing, sought: str, step: Step) -> tuple[str, str]:
+    """The point that slides and the one beneath it on the guide, as the index of symbols."""
+    point, _, link = sought.partition("@")
     block = drawing.scene.links[step.says["g"]]
     if not link:
-        ways = [*(slide.on for slide in block.slides), *(rolls.on for rolls in block.rolls), FRAME]
+        ways = [*(slide.on for slide in block.slides), *(rolls.on for rolls in block.rolls)]
         link = ways[0] if point in block.points else block.name
-    return point, point + ("" if link.isdigit() else ",") + link
+    return point, point + ("" if link.isdigit() and point[-1].isalpha() else ",") + link
 
 
-def given_along(drawing: Drawing, step: Step, letter: str) -> Relation:
+def given_along(drawing: Drawing, number: int, step: Step, letter: str) -> Relation:
     """The given motion of a driven slider along its guide."""
-    values, start = drawing.trace.values, drawing.trace.program.steps[step.args[0]]
-    point = step.says["q"]
-    block = drawing.scene.links[step.says["g"]]
-    ways = [*(slide.on for slide in block.slides), *(rolls.on for rolls in block.rolls)]
-    fixed = start.name == drawing.pole
-    beneath = "" if fixed else point + ("" if ways[0].isdigit() else ",") + ways[0]
-    kind = "^r" if letter == "a" and not fixed else ""
-    unit = "m/s" if letter == "v" else "m/s^2"
+    vector = vector_of(drawing, step.args[0], number, symbol(f"{letter}_{step.says['q']}"))
     return Relation(
-        symbol(f"{letter}_{point}{beneath}{kind}"),
-        symbol(f"{letter}_{escape(block.name)}"),
+        vector,
+        symbol(f"{letter}_{step.says['g']}"),
         "",
-        answer(drawing, abs(float(values[step.args[2]]))),
-        unit,
+        answer(drawing, abs(float(drawing.trace.values[step.args[2]]))),
+        "m/s" if letter == "v" else "m/s^2",
         f"∥ {way_of(drawing, step.says['g'])}",
     )
 

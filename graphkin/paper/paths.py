@@ -52,10 +52,13 @@ def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
     """The points of curves for which the drawing makes room.
 
     Paths and centrodes of the mechanism's size are drawn whole; of wider ones where they touch.
+    Of a locus what lies in the field will do.
     """
     found: list[complex] = []
     most = ROOMY * max(mechanism.width, mechanism.height)
     for curve in curves:
+        if curve.kind == "locus":
+            continue
         points = [point for run in curve.runs for point in run]
         box = extent_of(points) if points else mechanism
         if curve.kind == "trajectory" or max(box.width, box.height) <= most:
@@ -82,7 +85,7 @@ def draw_curves(board: Board, drawing: Drawing, field: Field, rect: Rect) -> Non
             board.labels.append(Label(words, cls, subject, 2.5, name, led=True))
 
 
-SHARES = {"fixed-centrode": 0.5, "moving-centrode": 0.3, "trajectory": 0.15}
+SHARES = {"fixed-centrode": 0.5, "moving-centrode": 0.3, "trajectory": 0.15, "locus": 0.6}
 """How far along its longest part a curve is named, so that names do not meet."""
 
 

@@ -29,7 +29,7 @@ def sentences(drawing: Drawing) -> list[Sentence]:
     found += [
         Sentence(-1, curve.kind, drawing.words(f"step.{curve.kind}", of=symbol(curve.of)))
         for curve in drawing.curves
-        if curve.kind != "fixed-centrode"
+        if curve.kind not in ("fixed-centrode", "locus")
     ]
     last = Sentence(-1, "", drawing.words(f"step.read-{drawing.kind}"))
     found = with_centres_together(drawing, with_trials_together(drawing, found))

@@ -79,6 +79,7 @@ STYLES: dict[str, Style] = {
     "dimension": Style(0.25, fill="ink"),
     "angle": Style(0.25),
     "sense": Style(0.35, NEXT),
+    "locus": Style(0.18, GREY, DASHED),
     "trajectory": Style(0.25, GREY, DOUBLE_CHAIN),
     "centre-line": Style(0.25, GREY, CHAIN),
     # construction

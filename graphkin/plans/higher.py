@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.plans import rolling
-from graphkin.plans.branches import closure_of
+from graphkin.plans.branches import closure_of, has_two_ways
 from graphkin.plans.guides import axis, known_guide, path_of, standing_guide
 from graphkin.plans.links import Base, bases, ending, trial_base
 from graphkin.plans.pen import Pen, Says
@@ -34,7 +34,7 @@ from graphkin.steps.program import Part, Plane
 from graphkin.steps.trying import Trying
 from graphkin.steps.vocabulary import coordinate
 from graphkin.structure.graph import Contact, Pin, Sliding
-from graphkin.structure.groups import Dyad, Group, Higher, Tie
+from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie
 from graphkin.structure.joints import partner
 
 Each = Callable[[Pen, Shapes, Group, tuple[Base, ...]], None]
@@ -46,13 +46,11 @@ def position(pen: Pen, shapes: Shapes, group: Higher, each: Each) -> None:
     trying, inputs = trial_of(pen, group, each)
     number = closure_of(pen.scene, group)
     says: Says = {"k": group.trial.link, "n": str(number), "list": ", ".join(group.links)}
-    says |= cut_at(group.last)
+    says |= cut_at(group.last) | {"l": traced_point(pen, group.last) or ""}
     with pen.on(Part.POSITION, Plane.NUMBERS):
         closing = pen.draw(trying.action(number), *inputs, **says)
         tried = pen.draw(part, closing, extra=(0,), **says)
-        dyads = [dyad for dyad in group.chain if chooses(dyad)]
-        for k, dyad in enumerate(dyads, 1):
-            assert isinstance(dyad, Dyad)
+        for k, dyad in enumerate(choosing_dyads(group), 1):
             pen.chosen[dyad.links] = pen.draw(part, closing, extra=(k,))
     build(pen, shapes, group, each, tried)
 
@@ -69,9 +67,10 @@ def cut_at(last: Tie | Driver) -> Says:
     raise AssertionError(last)
 
 
-def chooses(group: Group) -> bool:
-    """Whether a group of the chain can close in two ways."""
-    return isinstance(group, Dyad) and group.type in ("RRR", "RRP", "RPR", "RRW")
+def choosing_dyads(group: Higher) -> list[Dyad]:
+    """The dyads of the chain that can close in two ways."""
+    dyads = [each.dyad if isinstance(each, Stretched) else each for each in group.chain]
+    return [d for d in dyads if isinstance(d, Dyad) and (d.type == "RRR" or has_two_ways(d))]
 
 
 def build(pen: Pen, shapes: Shapes, group: Higher, each: Each, tried: int) -> None:
@@ -103,7 +102,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     fork = TrialPen(pen)
     shapes = Shapes(fork)
     tried = fork.input_step()
-    dyads = [dyad for dyad in group.chain if isinstance(dyad, Dyad) and chooses(dyad)]
+    dyads = choosing_dyads(group)
     signs = [fork.input_step() for _ in dyads]
     fork.chosen |= {dyad.links: sign for dyad, sign in zip(dyads, signs, strict=True)}
     turns = isinstance(group.trial.pair, Pin)
@@ -113,6 +112,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
         written = [name for name in pen.scene.links if name in group.links]
         axes = tuple(axis(fork, shapes, name) for name in written)
         reach = None if turns else reach_of(fork, shapes, group)
+    point = traced_point(pen, group.last)
     trying = Trying(
         fork.program(),
         pen.scene.values,
@@ -125,8 +125,27 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
         fit.facing,
         axes,
         reach,
+        None if point is None else fork.the("position", point),
     )
     return trying, list(fork.inputs.values())
+
+
+def traced_point(pen: Pen, last: Tie | Driver) -> str | None:
+    """The point whose locus the hand draws; None where none shows the fit.
+
+    The last link's other end, or what guides it, must stand already.
+    """
+    match last:
+        case Tie(_, Pin(point=p), Pin(point=q)) if pen.has("position", p) != pen.has("position", q):
+            return q if pen.has("position", p) else p
+        case Tie(link, Pin(point=p), Sliding() as pair) if stands(pen, partner(pair, link)):
+            return p
+    return None
+
+
+def stands(pen: Pen, link: str) -> bool:
+    """Whether a link stands already."""
+    return link == FRAME or pen.has("axis", link)
 
 
 @dataclass(frozen=True, slots=True)

@@ -135,7 +135,7 @@ def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
 def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joint, str]]) -> None:
     """The image of a point where the lines meet that two pairs leave it free on."""
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        lines = [ray(pen, shapes, pair, link, point) for pair, link in sides]
+        lines = [ray(pen, shapes, *side, name, point) for side in sides]
         found = pen.draw(meet, *lines, name=image(name), q=name)
     pen.want("velocity", name, found)
     for pair, link in sides:
@@ -153,10 +153,10 @@ def source(pair: Joint, point: str) -> str | None:
     return point.partition("@")[0] if "@" in point else None
 
 
-def ray(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str) -> int:
+def ray(pen: Pen, shapes: Shapes, pair: Joint, link: str, name: str, point: str) -> int:
     """The line on which a pair of a link leaves the image of a point free."""
     if isinstance(pair, Pin):
-        return square(pen, pair.point, point)
+        return square(pen, pair.point, name)
     line, known = line_of(pen, shapes, pair, link, point), partner(pair, link)
     own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
     start = pen.the("velocity", point) if own else image_under(pen, known, point)

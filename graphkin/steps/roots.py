@@ -79,7 +79,7 @@ def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array,
     here, near = size[:, 1:-1], np.sign(value[:, 1:-1])
     turns = (here <= size[:, :-2]) & (here <= size[:, 2:])
     turns &= (near == np.sign(value[:, :-2])) & (near == np.sign(value[:, 2:]))
-    element, at = np.nonzero(turns)
+    element, at = (np.asarray(part) for part in np.nonzero(turns))
     low, best, high = (grid[element, at + k] for k in (0, 1, 2))
     sign, least = near[element, at], here[element, at]
     ends = low, high

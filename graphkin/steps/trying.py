@@ -56,6 +56,8 @@ class Trying:
     axes: tuple[int, ...]
     reach: int | None
     """The step that holds how far a coordinate may have to be tried, in metres."""
+    traced: int | None = None
+    """The step that holds the point whose locus a hand draws."""
 
     def action(self, number: int) -> Action:
         """The step that closes the group in the closure of a number, counted from one."""
@@ -66,8 +68,8 @@ class Trying:
     @cached_property
     def results(self) -> tuple[int, ...]:
         """The steps whose values are looked at."""
-        facing = () if self.facing is None else (self.facing,)
-        return (self.misfit, self.locus, *facing, *self.axes)
+        others = [step for step in (self.facing, self.traced) if step is not None]
+        return (self.misfit, self.locus, *others, *self.axes)
 
     @cached_property
     def ready(self) -> Ready:
@@ -213,6 +215,22 @@ class Closer:
     def __call__(self, *known: Any) -> tuple[Any, ...]:
         """Trial value, signs and the sine of crossing."""
         return self.trying.closed(known, self.number)
+
+    def locus(self, known: Sequence[Any], signs: Sequence[float]) -> Any:
+        """Where the traced point goes while the link is tried, (N,); NaN where it breaks off.
+
+        None where no point shows the fit.
+        """
+        import numpy as np
+
+        trying = self.trying
+        if trying.traced is None:
+            return None
+        arrays = [np.atleast_1d(value) for value in known]
+        tried = trying.grid(arrays, 1)[0]
+        here = [np.broadcast_to(array, tried.shape) for array in arrays]
+        rows = np.broadcast_to(np.asarray(signs, dtype=float), (tried.size, len(trying.signs)))
+        return trying.found(here, tried, rows)[trying.traced]
 
     def ways(self, known: Sequence[Any]) -> int:
         """In how many ways the group closes on known values."""

@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import cos, hypot, radians, sin
+from pathlib import Path
 
 import shapely
 from shapely.geometry.base import BaseGeometry
 
 from graphkin.errors import PageError
 from graphkin.handout import drawings_of, proved
-from graphkin.mechanism import Mechanism
+from graphkin.mechanism import Mechanism, load
 from graphkin.paper.calculation import calculation
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import Layout, lay_out
@@ -29,7 +30,15 @@ STUDENTS = range(1, 31)
 EVERY = [(lab, n) for lab in SHIPPED for n in STUDENTS]
 """All variants of the shipped labs."""
 
-VECTORS = ("velocity", "relative-velocity", "acceleration", "normal", "tangential")
+VECTORS = (
+    "velocity",
+    "relative-velocity",
+    "acceleration",
+    "normal",
+    "tangential",
+    "coriolis",
+    "sliding",
+)
 PAPER = ("frame", "border", "field", "title", "table", "check-bar", "caption", "panel", "shade")
 """Classes of what belongs to the paper, not to a drawing."""
 
@@ -198,6 +207,31 @@ centres = [2]
 }
 """Scenes beside the shipped ones."""
 
+FOLDER = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+SCENES = tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+"""The example scenes."""
+DRAWN = (
+    "crank-fixed-slot",
+    "crank-slot",
+    "excavator-relative",
+    "gears-planet",
+    "gears-rack",
+    "gears-ring",
+    "jumper",
+    "lifter",
+    "oldham",
+    "oscillating-slide",
+    "rapid-return",
+    "rapid-return-slider",
+    "rod-and-wheel",
+    "roller",
+    "roller-plates",
+    "stephenson-2-binary",
+    "stephenson-3-crank",
+    "two-loops",
+)
+"""Those of them whose sheets are looked at closely."""
+
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
@@ -262,7 +296,9 @@ def mechanism_named(name: str, n: int | None = None) -> Mechanism:
     """A shipped lab for a student's number, or another scene by its name."""
     if n is not None:
         return shipped(name, n)
-    return Mechanism(read_text(HEAD.format(title=name) + OTHERS[name], name, None, {}))
+    if name in OTHERS:
+        return Mechanism(read_text(HEAD.format(title=name) + OTHERS[name], name, None, {}))
+    return load(str(FOLDER / f"{name}.toml"))
 
 
 @cache
@@ -442,7 +478,7 @@ def relation_lines(pages: Sequence[Page]) -> list[tuple[str, str]]:
         for row in rows.values():
             number = row["end"].markup.strip("()") if "end" in row else ""
             text = row["start"].markup
-            if found and text.startswith("= ") and not found[-1][0]:
+            if found and text.startswith(("= ", "(")) and not found[-1][0]:
                 text = f"{found.pop()[1]} {text}"
             found.append((number, text))
     return found

@@ -20,6 +20,7 @@ from graphkin.paper.symbols import SHORT
 from graphkin.scene.read import read_text
 from tests.mechanisms import SHIPPED
 from tests.paper.sheet_tools import (
+    DRAWN,
     EVERY,
     KINDS,
     OTHERS,
@@ -57,7 +58,7 @@ OFF = (0.8, 1.6)
 """Farthest a leader begins from its text, or from the corner of the box around a ring, in mm."""
 
 SHEETS = [(lab, n, kind) for lab, n in EVERY for kind in KINDS]
-SHEETS += [(name, None, kind) for name in OTHERS for kind in KINDS]
+SHEETS += [(name, None, kind) for name in (*OTHERS, *DRAWN) for kind in KINDS]
 
 
 @pytest.fixture(params=SHEETS, ids=named)

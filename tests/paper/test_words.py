@@ -27,6 +27,7 @@ from tests.paper.sheet_tools import (
     HEAD,
     KINDS,
     OTHERS,
+    SCENES,
     attempt,
     calculations,
     mechanism_named,
@@ -241,6 +242,75 @@ acceleration = ["C"]
 centres = [1, 2, 3]
 poles = [1, 2, 3]
 """,
+    "slider driven along a turning arm": """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 200
+[links.2]
+B = [0, 0]
+slides = { on = 1, along = "O-A" }
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[[drivers]]
+slide = 2
+against = 1
+position = 120
+speed = 300
+acceleration = 900
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+slides = [2]
+""",
+    "sleeve driven along a turning bar": """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 200
+slides = { on = 2, through = [0, 0], angle = 0 }
+[links.2]
+P = [0, 0]
+Q = [60, 20]
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[[drivers]]
+slide = 1
+against = 2
+position = -90
+speed = 300
+acceleration = 900
+[ask]
+velocity = ["Q"]
+acceleration = ["Q"]
+""",
+    "bar through a swivelling block that stands beside its pin": """
+[frame]
+O = [0, 0]
+Q = [220, -30]
+[links.1]
+O-A = 70
+[links.2]
+A-B = 320
+[links.3]
+Q = [0, 0]
+slides = { on = 2, along = "A-B", offset = 25 }
+[[drivers]]
+turn = 1
+angle = 75
+speed = 10
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+omega = [2]
+slides = [3]
+""",
     "crank with its own axes": """
 [frame]
 O = [0, 0]
@@ -327,9 +397,9 @@ def literals() -> set[str]:
 
 
 def spoken_keys() -> set[str]:
-    """Every string that stands in the code as the key of words(...)."""
+    """Every string that stands in the code of the pages as the key of words(...)."""
     found = set()
-    for path in CODE.rglob("*.py"):
+    for path in (CODE / "paper").rglob("*.py"):
         text = path.read_text(encoding="utf-8")
         found |= set(re.findall(r'\bwords\(\s*"([^"{}]+)"', text))
     return found - set(LANGUAGES)
@@ -362,7 +432,8 @@ def test_every_sentence_is_used():
     USED.clear()
     spoken = Recording("en", words("en").sentences)
     every = [mechanism_named(lab, n) for lab in SHIPPED for n in (7,)]
-    every += [mechanism_named(name) for name in OTHERS] + [rare(name) for name in RARE]
+    every += [mechanism_named(name) for name in (*OTHERS, *SCENES)]
+    every += [rare(name) for name in RARE]
     for mechanism in every:
         every_page(mechanism, spoken)
     unused = words("en").sentences.keys() - USED - literals()

@@ -26,6 +26,9 @@ class Geometry(Protocol):
     def guide(self, slide: Slide) -> tuple[Any, Any, Any]:
         """A point of a guide and its direction on its body, and the block's offset."""
 
+    def facing(self, slide: Slide) -> Any:
+        """The direction of a block's own axes that lies along its guide."""
+
     def track(self, straight: Straight) -> tuple[Any, Any, Any, Any]:
         """Start and direction of a track on its body, radius, and start angle of its wheel."""
 
@@ -116,7 +119,8 @@ def sliding(standing: Standing, slide: Slide) -> Callable[[Moved, Any], list[Any
 
     def off(moved: Moved, time: Any) -> list[Any]:
         _, along, offset = moved.geometry.guide(slide)
-        lean = moved.units[slide.block] * (moved.units[slide.on] * along).conjugate()
+        ahead = moved.units[slide.block] * moved.geometry.facing(slide)
+        lean = ahead * (moved.units[slide.on] * along).conjugate()
         return [moved.slid(standing, slide).imag - offset, lean.imag]
 
     return off
@@ -132,7 +136,8 @@ def rolling(straight: Straight) -> Callable[[Moved, Any], list[Any]]:
         way = way * (moved.units[on] * along).conjugate()
         turned = moved.units[wheel] * moved.units[on].conjugate()
         rolled = moved.geometry.cis(start - side * way.real / radius)
-        return [way.imag - side * radius, (turned * rolled.conjugate()).imag]
+        slip = (turned * rolled.conjugate()).imag
+        return [slip] if straight.kept else [way.imag - side * radius, slip]
 
     return slip
 

@@ -111,8 +111,8 @@ class Closing:
 def motion(written: Written) -> Motion:
     """Positions, velocities and accelerations of everything. Raises NotClosed."""
     with mpmath.workdps(DIGITS):
-        closing = Closing(written)
-        standing, h = written.standing, INSTANT * period(standing)
+        closing, standing = Closing(written), written.standing
+        h = INSTANT * period(standing)
         here = closing.closed(closing.first, mpmath.mpf(0))
         ends = [closing.closed(here, way * h) for way in (-1, 1)]
         off = max(abs(a - b) for a, b in zip(here, closing.first, strict=True))

@@ -40,6 +40,8 @@ class Straight:
     along: complex
     side: int
     start: float | None
+    kept: bool = False
+    """Whether other bodies keep the wheel at its distance from the track."""
 
 
 @dataclass

@@ -171,6 +171,10 @@ class Exact:
         """A guide on its body, and the block's offset."""
         return self.written.numbers[id(slide)]
 
+    def facing(self, slide: Slide) -> Any:
+        """A block's x axis lies along its guide."""
+        return mpmath.mpc(1)
+
     def track(self, straight: Straight) -> tuple[Any, ...]:
         """A track on its body, radius and start angle."""
         return self.written.numbers[id(straight)]

@@ -1,0 +1,129 @@
+"""What a scene has to say so that its groups close as they stand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from graphkin.arithmetic import FLOAT
+from graphkin.mechanism import Mechanism
+from graphkin.plane import cross, dot
+from graphkin.scene.model import Closure
+from graphkin.scene.read import read_text
+from graphkin.steps.trying import Closer
+from graphkin.steps.run import run
+from graphkin.structure.graph import Pin
+from graphkin.structure.groups import Dyad, Group, Higher, Stretched
+from tests.random.records import Standing
+from tests.random.written import Written
+
+SAME = 1e-6
+"""How far a closure may be from where its links stand, in radians, or parts of the mechanism."""
+
+
+class NoSuchClosure(LookupError):
+    """A position that is not among the closures that were found."""
+
+
+def branches_of(written: Written) -> dict[str, str]:
+    """[branches] of a mechanism: sides and ways from the places, closures by looking."""
+    found: dict[str, str] = {}
+    open_scene = Mechanism(read_text(written.text({}), "made", None, {}))
+    higher = []
+    for group in open_scene.groups:
+        if isinstance(group, Higher):
+            first = next(name for name in open_scene.scene.links if name in group.links)
+            found[first] = "closure 1"
+            higher.append((first, group))
+        else:
+            found |= words_of(written.standing, group)
+    for count, (first, group) in enumerate(higher):
+        scene = read_text(written.text(found), "made", None, {})
+        number = closure_number(written.standing, Mechanism(scene), group, count)
+        found[first] = f"closure {number}"
+    return found
+
+
+def words_of(standing: Standing, group: Group) -> dict[str, str]:
+    """The branch of a dyad, if it has two."""
+    dyad = group.dyad if isinstance(group, Stretched) else group
+    if not isinstance(dyad, Dyad):
+        return {}
+    pins = [
+        standing.place(pair.point.partition("@")[0]) if isinstance(pair, Pin) else None
+        for pair in (dyad.left, dyad.inner, dyad.right)
+    ]
+    left, inner, right = pins
+    if dyad.type == "RRR":
+        ends = dyad.left.point.partition("@")[0], dyad.right.point
+        side = "left" if cross(right - left, inner - left) > 0 else "right"
+        return {dyad.inner.point: f"{side} of {ends[0]}-{ends[1]}"}
+    if dyad.type == "RRP":
+        block = dyad.right.links[0]
+        ahead = dot(standing.slides[block].along, inner - left)
+        return way(block, ahead if block in dyad.links else -ahead)
+    if dyad.type == "RPR":
+        block, carrier = dyad.inner.links
+        by_link = dict(zip(dyad.links, (left, right), strict=True))
+        along = standing.slides[block].along
+        return way(block, dot(along, by_link[block] - by_link[carrier]))
+    if dyad.type == "RRW":
+        wheel = dyad.right.links[0]
+        track = next(each for each in standing.straights if each.wheel == wheel)
+        return way(wheel, dot(track.along, inner - left))
+    return {}
+
+
+def way(name: str, ahead: float) -> dict[str, str]:
+    """A way by its sign."""
+    return {name: "forward" if ahead > 0 else "backward"}
+
+
+def closure_number(standing: Standing, mechanism: Mechanism, group: Higher, count: int) -> int:
+    """The number of the closure in which a group stands as generated."""
+    program = mechanism.program
+    closers = [
+        step
+        for step in program.steps
+        if step.action is not None and isinstance(step.action.value, Closer)
+    ]
+    step = closers[count]
+    alone = replace(program, targets={("", str(arg)): arg for arg in step.args})
+    needed = alone.needed(alone.targets)
+    values = run(alone, needed, mechanism.scene.values, FLOAT).values
+    trying = step.action.value.trying
+    known = [np.atleast_1d(values[arg]) for arg in step.args]
+    table = trying.closures(known).table
+    signs = table[:, 2 : 2 + len(trying.signs)]
+    here = [np.broadcast_to(each, len(table)) for each in known]
+    found = trying.found(here, table[:, 1], signs)
+    links = [name for name in mechanism.scene.links if name in group.links]
+    off = np.max(
+        [
+            abs(found[step] - standing.bodies[name].axis)
+            for name, step in zip(links, trying.axes, strict=True)
+        ],
+        axis=0,
+        initial=0.0,
+    )
+    near = np.flatnonzero(off < SAME)
+    if len(near) == 1:
+        return int(near[0]) + 1
+    for number in near:
+        if stands(standing, mechanism, group, int(number) + 1):
+            return int(number) + 1
+    raise NoSuchClosure(f"{len(table)} closures, the nearest off by {off.min(initial=9):.1e}")
+
+
+def stands(standing: Standing, mechanism: Mechanism, group: Higher, number: int) -> bool:
+    """Whether all points of a group stand as generated in a closure."""
+    branches = {**mechanism.scene.branches}
+    first = next(name for name in mechanism.scene.links if name in group.links)
+    branches[first] = Closure(number)
+    other = Mechanism(replace(mechanism.scene, branches=branches))
+    points = [p for link in group.links for p in mechanism.scene.links[link].points]
+    trace = other.trace([("position", p) for p in points])
+    return all(
+        abs(trace.value("position", p) - standing.place(p)) < SAME * standing.size for p in points
+    )

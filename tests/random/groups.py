@@ -1,0 +1,509 @@
+"""Every kind of group that can be hung on what stands: drivers, dyads, higher groups, wheels."""
+
+from __future__ import annotations
+
+import math
+from cmath import phase, rect
+from random import Random
+
+from tests.random.maker import Loose, Maker
+from tests.random.records import FRAME, Gear, Standing, Straight
+
+
+# --- drivers -------------------------------------------------------------------------------------
+
+
+def crank(m: Maker) -> None:
+    """A bar about a pin of any body, driven against the frame or any other."""
+    on = m.any_body()
+    pivot, place = m.anchor(on)
+    tip = place + m.vector()
+    name = m.body({pivot: place, m.name(): tip})
+    against = on if m.coin() else m.any_body(but=[name])
+    if against != FRAME and m.coin(0.2):
+        m.turn(against, name)
+    else:
+        m.turn(name, against)
+
+
+def driven_slide(m: Maker) -> None:
+    """A block driven along a guide of a body, or a body whose guide slides over a known block."""
+    on = m.any_body()
+    place = m.somewhere() + m.vector()
+    if m.may_be_block(on) and m.coin(0.3):
+        along = m.standing.bodies[on].axis
+        name = m.body({m.name(): place})
+        m.guide(on, name, along)
+        m.drive("slide", on, name, m.slide_coordinate(on))
+        return
+    along = m.direction()
+    name = m.block({m.name(): place}, on, along)
+    m.drive("slide", name, on, m.slide_coordinate(name))
+
+
+# --- pairs ---------------------------------------------------------------------------------------
+
+
+def led(m: Maker, points: dict[str, complex], wish, but: list[str]) -> tuple[str, str]:
+    """A new body with some points that slides on a known one, or over it: names of both.
+
+    ``wish`` makes directions for the guide; a known block has its own, which may not do.
+    """
+    known = m.any_body(but)
+    if m.may_be_block(known) and m.coin(0.35):
+        name = m.body(points)
+        m.guide(known, name, m.standing.bodies[known].axis)
+    else:
+        name = m.block(points, known, wish())
+    return name, known
+
+
+def bar(m: Maker, start: tuple[str, complex], end: tuple[str, complex]) -> str:
+    """A bar between two points."""
+    return m.body(dict([start, end]))
+
+
+# --- dyads ---------------------------------------------------------------------------------------
+
+
+def rrr(m: Maker) -> None:
+    """Two bars."""
+    a = m.any_body()
+    left = m.anchor(a)
+    way = m.vector()
+    pin = m.name(), left[1] + way
+    b = m.any_body(but=[a])
+    place = pin[1] + m.length() * m.across(way)
+    right = m.point(b, place), place
+    bar(m, left, pin)
+    bar(m, right, pin)
+
+
+def rrp(m: Maker) -> None:
+    """A bar and a slide."""
+    a = m.any_body()
+    left = m.anchor(a)
+    way = m.vector()
+    pin = m.name(), left[1] + way
+    bar(m, left, pin)
+    led(m, dict([pin]), lambda: m.beside(way), [a, bar_of(m)])
+
+
+def bar_of(m: Maker) -> str:
+    """The body that was made last."""
+    return list(m.standing.bodies)[-1]
+
+
+def rpr(m: Maker) -> None:
+    """A swivelling block and the bar that slides in it."""
+    a = m.any_body()
+    left = m.anchor(a)
+    b = m.any_body(but=[a])
+    place = left[1] + m.vector()
+    right = m.point(b, place), place
+    straight = m.coin(0.4)
+    way = place - left[1]
+    along = way / abs(way) * m.sign() if straight else m.beside(way)
+    first, second = (left, right) if m.coin() else (right, left)
+    carrier = m.body(dict([first]))
+    if straight:
+        name = m.body(dict([second]), along)
+        m.guide(name, carrier, along, first[0] if m.coin() else None)
+    else:
+        m.block(dict([second]), carrier, along)
+
+
+def prp(m: Maker) -> None:
+    """Two slides and a pin between them."""
+    pin = m.name(), m.somewhere() + m.vector()
+    along = m.direction()
+    first, a = led(m, dict([pin]), lambda: along, [])
+    led(m, dict([pin]), lambda: m.across(along), [a, first])
+
+
+def rpp(m: Maker) -> None:
+    """A link on a pin slides on one that slides."""
+    a = m.any_body()
+    left = m.anchor(a)
+    along = m.direction()
+    place = left[1] + m.vector()
+    second, _ = led(m, {m.name(): place}, lambda: along, [a])
+    if second not in m.standing.slides and m.coin():
+        first = m.body(dict([left]))
+        m.guide(second, first, m.standing.bodies[second].axis)
+    else:
+        m.block(dict([left]), second, m.across(along))
+
+
+def cylinder(m: Maker) -> None:
+    """A driven cylinder as a bar of a dyad, its rod pinned to a bar or to a block."""
+    a = m.any_body()
+    left = m.anchor(a)
+    way = m.vector()
+    pin = m.name(), left[1] + way
+    along = way / abs(way) * m.sign() if m.coin() else m.beside(way)
+    near, far = dict([left]), dict([pin])
+    if m.coin():
+        near, far = far, near
+    on = m.body(far)
+    block = m.block(near, on, along)
+    m.drive("slide", block, on, m.slide_coordinate(block))
+    if m.coin():
+        b = m.any_body(but=[a, on, block])
+        place = pin[1] + m.length() * m.across(way)
+        bar(m, (m.point(b, place), place), pin)
+    else:
+        led(m, dict([pin]), lambda: m.beside(way), [a, on, block])
+
+
+# --- higher groups -------------------------------------------------------------------------------
+
+
+def leg(m: Maker, plate: str, place: complex, but: list[str]) -> None:
+    """What holds a plate at one place: a bar, a block on a guide, or a block of its own guide."""
+    kind = m.rng.choice(("bar", "bar", "block", "guide"))
+    if kind == "bar":
+        pin = m.point(plate, place), place
+        end = place + m.vector()
+        b = m.any_body(but)
+        bar(m, (m.point(b, end), end), pin)
+    elif kind == "block":
+        led(m, {m.point(plate, place): place}, m.direction, but)
+    else:
+        b = m.any_body(but)
+        m.block({m.point(b, place): place}, plate, m.direction())
+
+
+def three_legs(m: Maker) -> None:
+    """A plate on three legs: class III, order 3."""
+    known = m.bodies()
+    place = m.somewhere() + m.vector()
+    plate = m.body({m.name(): place, m.name(): place + m.vector()})
+    for _ in range(3):
+        spot = place + m.vector()
+        leg(m, plate, spot, [n for n in m.bodies() if n not in known])
+
+
+def two_plates(m: Maker) -> None:
+    """Two plates pinned together, each on two legs: class III, order 4."""
+    known = m.bodies()
+    pin = m.name(), m.somewhere() + m.vector()
+    for _ in range(2):
+        plate = m.body({pin[0]: pin[1], m.name(): pin[1] + m.vector()})
+        for _ in range(2):
+            leg(m, plate, pin[1] + m.vector(), [n for n in m.bodies() if n not in known])
+
+
+def loop_of_four(m: Maker) -> None:
+    """Two plates on a pin or a guide each, and two bars between them: class IV."""
+    known = m.bodies()
+    plates = []
+    for _ in range(2):
+        but = [name for name in m.bodies() if name not in known]
+        place = m.somewhere() + m.vector()
+        if m.coin(0.75):
+            plates.append(m.body(dict([m.anchor(m.any_body(but))])))
+        else:
+            plates.append(led(m, {m.name(): place}, m.direction, but)[0])
+    middle = m.somewhere()
+    for _ in range(2):
+        ends = []
+        for plate in plates:
+            place = middle + m.vector()
+            ends.append((m.point(plate, place), place))
+        bar(m, *ends)
+
+
+def inner_turn(m: Maker) -> None:
+    """Three bars in a row, the second turned by a driver against the first or the frame."""
+    a = m.any_body()
+    left = m.anchor(a)
+    places = [left[1] + m.vector()]
+    places.append(places[0] + m.vector())
+    pins = [(m.name(), place) for place in places]
+    first = bar(m, left, pins[0])
+    second = bar(m, *pins)
+    b = m.any_body(but=[a, first, second])
+    place = places[1] + m.vector()
+    bar(m, (m.point(b, place), place), pins[1])
+    m.turn(second, m.rng.choice([first, first, FRAME]))
+
+
+def inner_slide(m: Maker) -> None:
+    """A plate on two legs, and a driven cylinder between it and what is known."""
+    known = m.bodies()
+    place = m.somewhere() + m.vector()
+    plate = m.body({m.name(): place, m.name(): place + m.vector()})
+    new = lambda: [n for n in m.bodies() if n not in known]  # noqa: E731
+    leg(m, plate, place + m.vector(), new())
+    leg(m, plate, place + m.vector(), new())
+    spot = place + m.vector()
+    pin = m.point(plate, spot), spot
+    b = m.any_body(new())
+    end = m.anchor(b)
+    on = m.body(dict([end]))
+    block = m.block(dict([pin]), on, m.beside(spot - end[1]))
+    m.drive("slide", block, on, m.slide_coordinate(block))
+
+
+# --- idle bars -----------------------------------------------------------------------------------
+
+
+def parallel_cranks(m: Maker) -> None:
+    """A driven crank, a coupler parallel to the frame, and two more cranks, the last idle."""
+    way, arm = m.length(), m.length() * rect(1, m.sign() * m.rng.uniform(0.6, 2.5))
+    start = m.somewhere() + m.vector()
+    spots = [start, start + way, start + way * m.rng.choice((2.0, 0.5, -1.0))]
+    pins = [(m.point(FRAME, z), z) for z in spots]
+    tips = [(m.name(), z + arm) for z in spots]
+    first = bar(m, pins[0], tips[0])
+    m.turn(first, FRAME)
+    coupler = m.body(dict(tips))
+    bar(m, pins[1], tips[1])
+    last = bar(m, pins[2], tips[2])
+    assert coupler
+    m.standing.idle[last] = (pins[2][0], tips[2][0])
+
+
+# --- wheels --------------------------------------------------------------------------------------
+
+
+def straight(m: Maker, wheel: str, centre: str, on: str, along: complex, radius: float) -> Straight:
+    """A wheel that stands on a straight track of a body, turned as it has rolled."""
+    body = m.standing.bodies[wheel]
+    side, way = m.sign(), m.length() * m.sign()
+    through = body.points[centre] - along * (way + 1j * side * radius)
+    zero = phase(body.axis * m.standing.bodies[on].axis.conjugate()) + side * way / radius
+    start = math.degrees(math.remainder(zero, 2 * math.pi))
+    body.wheels.append((centre, radius))
+    found = Straight(wheel, on, centre, radius, through, along, side, start)
+    m.standing.straights.append(found)
+    return found
+
+
+def wheel_body(m: Maker, centre: tuple[str, complex]) -> str:
+    """A body about a centre, with another point."""
+    return m.body({centre[0]: centre[1], m.name(): centre[1] + m.vector()}, m.direction())
+
+
+def rolled(m: Maker) -> None:
+    """A wheel driven along a straight track, by its way or by its turning."""
+    on = m.any_body()
+    place = m.somewhere() + m.vector()
+    name = wheel_body(m, (m.name(), place))
+    centre = next(p for p, z in m.standing.bodies[name].points.items() if z == place)
+    found = straight(m, name, centre, on, m.direction(), m.length())
+    way = ((place - found.through) * found.along.conjugate()).real
+    if m.coin():
+        m.drive("roll", name, on, way)
+    else:
+        m.drive("turn", name, on, math.radians(found.start) - found.side * way / found.radius)
+
+
+def rrw(m: Maker) -> None:
+    """A bar to the centre of a wheel on a straight track."""
+    a = m.any_body()
+    left = m.anchor(a)
+    way = m.vector()
+    pin = m.name(), left[1] + way
+    first = bar(m, left, pin)
+    on = m.any_body(but=[a, first])
+    straight(m, wheel_body(m, pin), pin[0], on, m.beside(way), m.length())
+
+
+def rim_pin(m: Maker) -> None:
+    """A bar to a point of a wheel beside its centre: position by trial."""
+    a = m.any_body()
+    left = m.anchor(a)
+    pin = m.name(), left[1] + m.vector()
+    first = bar(m, left, pin)
+    on = m.any_body(but=[a, first])
+    centre = m.name(), pin[1] + m.vector()
+    wheel = m.body(dict([centre, pin]), m.direction())
+    straight(m, wheel, centre[0], on, m.direction(), m.length())
+
+
+def gear(m: Maker) -> None:
+    """A sun about a pin of a body, driven or part of the body, and a planet on a driven arm."""
+    on = m.any_body()
+    sun_at = m.anchor(on)
+    radii = m.length(), m.length()
+    how = m.rng.choice(("outside", "outside", "ring", "within"))
+    if how != "outside":
+        small, large = sorted(radii)
+        large = max(large, 1.3 * small)
+        radii = (large, small) if how == "ring" else (small, large)
+    apart = radii[0] + radii[1] if how == "outside" else abs(radii[0] - radii[1])
+    place = sun_at[1] + apart * m.direction()
+    planet_at = m.name(), place
+    arm = bar(m, sun_at, planet_at)
+    m.turn(arm, on if m.coin() else FRAME)
+    if m.coin() and not m.standing.bodies[on].wheels:
+        sun = on
+    else:
+        sun = wheel_body(m, sun_at)
+        m.turn(sun, m.rng.choice([on, arm, FRAME]))
+    signs = (-1 if how == "ring" else 1), (-1 if how == "within" else 1)
+    m.standing.bodies[sun].wheels.append((sun_at[0], signs[0] * radii[0]))
+    planet = wheel_body(m, planet_at)
+    m.standing.bodies[planet].wheels.append((planet_at[0], signs[1] * radii[1]))
+    meshed(m, planet, sun, arm, (planet_at[0], sun_at[0]), (signs[1] * radii[1], signs[0] * radii[0]))
+    if m.coin(0.4):
+        outer(m, planet, arm)
+
+
+def outer(m: Maker, planet: str, arm: str) -> None:
+    """A further wheel on the arm, which the planet turns; the centres in any direction."""
+    (centre, own), *_ = m.standing.bodies[planet].wheels
+    if own < 0:
+        return
+    radius = m.length()
+    place = m.standing.bodies[planet].points[centre] + (abs(own) + radius) * m.direction()
+    pin = m.point(arm, place), place
+    last = wheel_body(m, pin)
+    m.standing.bodies[last].wheels.append((pin[0], radius))
+    meshed(m, last, planet, arm, (pin[0], centre), (radius, own))
+
+
+def meshed(
+    m: Maker,
+    wheel: str,
+    on: str,
+    arm: str,
+    centres: tuple[str, str],
+    radii: tuple[float, float],
+) -> None:
+    """The contact, counted from angles in which all of it is turned by less than half a turn."""
+    bodies = m.standing.bodies
+    turned = {arm: m.rng.uniform(-2, 2), on: m.rng.uniform(-2, 2)}
+    turned |= {name: 0.0 for name in turned if name == FRAME}
+    turned[wheel] = turned[arm] - radii[1] / radii[0] * (turned[on] - turned[arm])
+    start = {
+        name: math.degrees(bodies[name].angle - turned[name])
+        for name in (wheel, on, arm)
+        if name != FRAME
+    }
+    m.standing.gears.append(Gear(wheel, on, arm, centres, radii, start, turned))
+
+
+def rack(m: Maker) -> None:
+    """A pinion about a pin of a body, driven, and a rack that slides on the body."""
+    on = m.any_body()
+    centre = m.anchor(on)
+    pinion = wheel_body(m, centre)
+    m.turn(pinion, on)
+    along, radius = m.direction(), m.length()
+    name = m.block({m.name(): centre[1] + m.vector()}, on, along)
+    straight(m, pinion, centre[0], name, along * m.sign(), radius).kept = True
+
+
+def pinion(m: Maker) -> None:
+    """A rack driven along a guide of a body, and a pinion about a pin of the body."""
+    on = m.any_body()
+    centre = m.anchor(on)
+    along = m.direction()
+    name = m.block({m.name(): centre[1] + m.vector()}, on, along)
+    m.drive("slide", name, on, m.slide_coordinate(name))
+    wheel = wheel_body(m, centre)
+    straight(m, wheel, centre[0], name, along * m.sign(), m.length()).kept = True
+
+
+def roller(m: Maker) -> None:
+    """A wheel between two driven plates that slide on a body in one direction."""
+    on = m.any_body()
+    along, place = m.direction(), m.somewhere() + m.vector()
+    plates = [m.block({m.name(): place + m.vector()}, on, along) for _ in range(2)]
+    for plate in plates:
+        m.drive("slide", plate, on, m.slide_coordinate(plate))
+    centre = m.name(), place
+    wheel = wheel_body(m, centre)
+    radius = m.length()
+    first = straight(m, wheel, centre[0], plates[0], along * m.sign(), radius)
+    second = straight(m, wheel, centre[0], plates[1], along * m.sign(), radius)
+    sides = [each.side * (each.along * along.conjugate()).real for each in (first, second)]
+    if sides[0] * sides[1] > 0:
+        raise Loose
+    second.kept = True
+    m.standing.bodies[wheel].wheels.pop()
+
+
+def planet(m: Maker) -> None:
+    """A sun and a ring about one pin, both driven, and between them a planet on a free arm."""
+    on = m.any_body()
+    centre = m.anchor(on)
+    small, own = m.length(), m.length()
+    large = small + 2 * own
+    wheels = [wheel_body(m, centre) for _ in range(2)]
+    for wheel, radius in zip(wheels, (small, -large), strict=True):
+        m.turn(wheel, m.rng.choice([on, FRAME]))
+        m.standing.bodies[wheel].wheels.append((centre[0], radius))
+    place = centre[1] + (small + own) * m.direction()
+    pin = m.name(), place
+    arm = bar(m, centre, pin)
+    last = wheel_body(m, pin)
+    m.standing.bodies[last].wheels.append((pin[0], own))
+    arm_turned = m.rng.uniform(-2, 2)
+    turned = {arm: arm_turned, wheels[0]: m.rng.uniform(-2, 2)}
+    turned[last] = arm_turned - small / own * (turned[wheels[0]] - arm_turned)
+    turned[wheels[1]] = arm_turned + own / large * (turned[last] - arm_turned)
+    for wheel, radius in zip(wheels, (small, -large), strict=True):
+        bodies = m.standing.bodies
+        start = {n: math.degrees(bodies[n].angle - turned[n]) for n in (last, wheel, arm)}
+        own_turned = {n: turned[n] for n in (last, wheel, arm)}
+        m.standing.gears.append(
+            Gear(last, wheel, arm, (pin[0], centre[0]), (own, radius), start, own_turned)
+        )
+
+
+GROUPS = {
+    "crank": crank,
+    "driven slide": driven_slide,
+    "RRR": rrr,
+    "RRP": rrp,
+    "RPR": rpr,
+    "PRP": prp,
+    "RPP": rpp,
+    "cylinder": cylinder,
+    "three legs": three_legs,
+    "two plates": two_plates,
+    "loop of four": loop_of_four,
+    "inner turn": inner_turn,
+    "inner slide": inner_slide,
+    "parallel cranks": parallel_cranks,
+    "rolled": rolled,
+    "RRW": rrw,
+    "rim pin": rim_pin,
+    "gear": gear,
+    "rack": rack,
+    "pinion": pinion,
+    "roller": roller,
+    "planet": planet,
+}
+STARTS = ("crank", "crank", "driven slide", "rolled", "parallel cranks", "gear")
+TRIES = 60
+
+
+def add(m: Maker, kind: str) -> bool:
+    """Add a group of a kind; False where none was found that holds together."""
+    for _ in range(TRIES):
+        try:
+            with m.group():
+                GROUPS[kind](m)
+        except (Loose, IndexError):
+            continue
+        return True
+    return False
+
+
+def made(seed: int) -> tuple[Standing, tuple[str, ...]]:
+    """A mechanism for a seed, and the kinds of its groups in the order made."""
+    rng = Random(seed)
+    spread = rng.choice((1.0, 1.0, 2.0, 3.0))
+    m = Maker(rng, spread, 10 ** rng.uniform(-3, 3))
+    kinds = [rng.choice(STARTS)]
+    names = list(GROUPS)
+    last = names[seed % len(names)]
+    kinds += [rng.choice(names[:8]) for _ in range(rng.randint(0, 2))]
+    kinds.append(last)
+    done = tuple(kind for kind in kinds if add(m, kind))
+    return m.standing, done
