@@ -30,9 +30,8 @@ def does_not_close(
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
     if falls(step):
         return ClosureError(no_direction(step))
-    letters = "-".join(step.says[key] for key in ("p", "q") if key in step.says)
-    what = " of ".join(part for part in (step.part.value, step.name or letters) if part)
     early = step.part in (Part.SHAPE, Part.POSITION)
+    what = " of ".join(part for part in (step.part.value, sought(program, failed)) if part)
     return ClosureError(
         Problem(
             what,
@@ -41,6 +40,14 @@ def does_not_close(
             where_it_closes(scene) if early else DEAD,
         )
     )
+
+
+def sought(program: Program, failed: StepFailed) -> str:
+    """What a step was to find: its letter, else the points or the links that it is about."""
+    step = failed.step
+    if step.action is not None and step.action.key == "share":
+        return f"links {', '.join(closed_by(program, failed.number))}"
+    return step.name or "-".join(step.says[key] for key in ("p", "q") if key in step.says)
 
 
 def falls(step: Step) -> bool:
@@ -144,12 +151,21 @@ def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> st
         return f"{says['p']}{pin} is {nearly}square to {guide_under(program, step)}"
     if key == "swing":
         return f"{says['p']}{says['q']} is {nearly}square to the guide of {says['g']}"
-    if key.startswith(("close", "part", "share")) and "list" in says:
-        bars = arms(scene, says["list"].split(", "))
+    if key.startswith(("close", "part", "share")) and (links := closed_by(program, number)):
+        bars = arms(scene, links)
         if bars:
             return f"the lines {', '.join(bars[:-1])} and {bars[-1]} {nearly}meet in one point"
-        return f"two closures of links {says['list']} {nearly}meet"
+        return f"two closures of links {', '.join(links)} {nearly}meet"
     return parallel(program, step, nearly)
+
+
+def closed_by(program: Program, number: int) -> list[str]:
+    """The links of the group of higher class that a step helps to close."""
+    for earlier in reversed(needed_of(program, (number,))):
+        says = program.steps[earlier].says
+        if "list" in says:
+            return says["list"].split(", ")
+    return []
 
 
 def arms(scene: Scene, links: Sequence[str]) -> list[str]:

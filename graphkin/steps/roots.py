@@ -79,7 +79,7 @@ def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array,
     here, near = size[:, 1:-1], np.sign(value[:, 1:-1])
     turns = (here <= size[:, :-2]) & (here <= size[:, 2:])
     turns &= (near == np.sign(value[:, :-2])) & (near == np.sign(value[:, 2:]))
-    element, at = (np.asarray(part) for part in np.nonzero(turns))
+    element, at = np.nonzero(turns)
     low, best, high = (grid[element, at + k] for k in (0, 1, 2))
     sign, least = near[element, at], here[element, at]
     ends = low, high
@@ -108,8 +108,8 @@ def closed_in(misfit: Misfit, which: Array, low: Array, high: Array) -> Array:
 
     left, right = misfit(which, low), misfit(which, high)
     height = np.maximum(abs(left), abs(right))
-    best = np.where(abs(left) <= abs(right), low, high)
-    least = np.minimum(abs(left), abs(right))
+    best: Array = np.where(abs(left) <= abs(right), low, high)
+    least: Array = np.minimum(abs(left), abs(right))
     for turn in range(ROUNDS):
         with np.errstate(all="ignore"):
             trial = high - right * (high - low) / (right - left)
