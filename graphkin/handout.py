@@ -37,6 +37,8 @@ STEPS = 720
 """Positions of a turn from which a curve is drawn."""
 SIZES = (0.2, 1.2)
 """How large plans are drawn beside the mechanism where no crank says it: at least, at most."""
+NARROW = 45.0
+"""Least width of a plan in mm, so that its caption has room above it."""
 LADDER = 5
 """Preferred scales that are tried then, upwards from the least."""
 LARGE = (120.0, 80.0)
@@ -168,6 +170,8 @@ def pairs_of(
         if seconds < SIZES[0] * natural / 2:
             return
         trials = trials_of(mechanism, curves, seconds)
+        if 1000 * max(trial.mechanism_extent().width for trial in trials) > kL * (WIDTH - NARROW):
+            continue
         if fitting_scale(extents(trials), WIDTH, HEIGHT) <= kL * (1 + 1e-12):
             size = min(1000 * trial.reach / kL for trial in trials)
             vectors = [abs(trial.at_scale(trial.plane, trial.largest)) for trial in trials]

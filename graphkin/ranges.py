@@ -15,8 +15,12 @@ if TYPE_CHECKING:
 
 HALVINGS = 20
 """How often the last step at the end of a range is halved."""
+NOISE = 1e-12
+"""Sine of crossing of lines that are parallel throughout, but for rounding."""
 MOST = 3
 """Drivers told with their ranges."""
+LISTED = 6
+"""Ranges told of one driver."""
 FREE = {
     (False, False): "{0} to {1} {2}",
     (True, False): "up to {1} {2}",
@@ -51,18 +55,21 @@ def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
     Ranges of angles are told in order of their first angle from -180 to 180 degrees.
     """
     if scene.drivers[number - 1].kind == "turn":
-        turned = sorted(
-            (low - turn, high - turn) for low, high in found for turn in [360 * (high > 360)]
-        )
-        return ", ".join(f"{low:.2f}° to {high:.2f}°" for low, high in turned)
+        turned = sorted((r[0] - 360, r[1] - 360) if r[1] > 360 else r for r in found)
+        words = [f"{low:.2f}° to {high:.2f}°" for low, high in turned]
+    else:
+        words = [slid_words(scene, each, number) for each in found]
+    more = f" and {len(words) - LISTED} more ranges" if len(words) > LISTED else ""
+    return ", ".join(words[:LISTED]) + more
+
+
+def slid_words(scene: Scene, found: Range, number: int) -> str:
+    """One range of a driver that slides or rolls."""
     sweep, unit = swept(scene, number), scene.units["length"]
-    words = []
-    for low, high in found:
-        first, last = (f"{end / float(LENGTHS[unit]):.6g}" for end in (low, high))
-        free = low <= sweep.low + sweep.grid_step, high >= sweep.high - sweep.grid_step
-        form = FREE[free]
-        words.append(form.format(first, last, unit))
-    return ", ".join(words)
+    low, high = found
+    free = low <= sweep.low + sweep.grid_step, high >= sweep.high - sweep.grid_step
+    first, last = (f"{end / float(LENGTHS[unit]):.6g}" for end in found)
+    return FREE[free].format(first, last, unit)
 
 
 def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
@@ -82,8 +89,11 @@ def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
     step = sweep.grid_step
     grid = start + np.arange(GRID + (not sweep.whole)) * step
     try:
-        closed = course.closes(grid)
+        margins = course.margins(grid)
     except GraphkinError:
+        return []
+    closed = np.isfinite(margins).all(axis=0)
+    if len(margins) > 1 and np.nanmin(margins[:-1], axis=0, initial=1.0).max(initial=0.0) < NOISE:
         return []
     if closed.all():
         return [(0.0, TURN)] if sweep.whole else [(float(grid[0]), float(grid[-1]))]

@@ -44,7 +44,8 @@ def path_points(found: Sampled) -> list[str]:
         for point in link.points
     ]
     names = dict.fromkeys((*moving_points(scene, found.solution), *couplers))
-    return [n for n in names if n in found.solution.points and n not in fixed]
+    own = [name for name in names if "@" not in name and name not in fixed]
+    return [name for name in own if name in found.solution.points]
 
 
 def paths(found: Sampled) -> Figure:

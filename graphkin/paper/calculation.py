@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -23,6 +24,8 @@ LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
 BLANK = ". " * 14
 """Room to write in, on the form that is to be filled in."""
+WORD_GAP = re.compile(r"(?<!=) (?!=|(?:mm|cm|m|in|rev/min|rot/min|rad|deg)\b)")
+"""Spaces at which a long piece may be broken: not between a number and its unit, nor at =."""
 NUMBER = 12.0
 """Width kept at the right for the relation's number, in mm."""
 
@@ -65,11 +68,11 @@ def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> I
     parts = [
         piece
         for part in parts
-        for piece in (part.split(" ") if extent(part, LETTER)[0] > room else [part])
+        for piece in (WORD_GAP.split(part) if extent(part, LETTER)[0] > room else [part])
     ]
     if relation.result and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
-        if relation.unit.startswith("rad"):
+        if relation.unit.startswith("rad/"):
             parts.append(f"({drawing.words('table.sense')}: {BLANK.rstrip()})")
     lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):

@@ -142,6 +142,7 @@ def arrow_class(step: Step, desk: Desk) -> str:
     kind = KINDS.get(step.says.get("kind", ""))
     if kind:
         return kind
-    relative = len(step.says["symbol"].partition("_")[2]) > 1 and step.name[0] != desk.drawing.pole
-    starts_at_pole = step.name.startswith(desk.drawing.pole) or step.plane is Plane.MECHANISM
-    return f"relative-{desk.colour}" if relative and not starts_at_pole else desk.colour
+    tail = desk.drawing.trace.program.steps[step.args[0]].name
+    if step.plane is Plane.MECHANISM or tail == desk.drawing.pole:
+        return desk.colour
+    return f"relative-{desk.colour}"

@@ -12,7 +12,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.equations import is_laid_off, of_equations
 from graphkin.paper.naming import segment_of
 from graphkin.paper.outset import of_driver, of_scales
-from graphkin.paper.rates import of_sum, of_turning
+from graphkin.paper.rates import of_sum, of_turning, within
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.sliding import of_coriolis, of_rolling, of_slides
 from graphkin.paper.symbolic import bar, symbol
@@ -94,13 +94,14 @@ def of_trials(drawing: Drawing) -> Iterator[Relation]:
     for number, step, value in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "share" or step.part is not part:
             continue
-        first, second = (figure(drawing, float(drawing.trace.values[arg])) for arg in step.args)
+        misses = [float(drawing.trace.values[arg]) for arg in step.args]
+        first, second = figure(drawing, misses[0]), within(drawing, misses[1])
         users = (drawing.trace.program.steps[user] for user in drawing.children.get(number, ()))
         names = [symbol(user.name) for user in users if user.plane is drawing.plane]
         yield Relation(
             "*λ*",
             "*m*^1/(*m*^1 − *m*^2)",
-            f"{first}/({first} − ({second}))",
+            f"{first}/({first} − {second})",
             answer(drawing, float(value)),
             "",
             drawing.words("calculation.divided", list=", ".join(names)),

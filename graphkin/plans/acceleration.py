@@ -124,7 +124,7 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
         if isinstance(pair, Pin)
     }
     coriolis = {
-        pair: slide_coriolis(pen, pair, link, name, point)
+        pair.links: slide_coriolis(pen, pair, link, name, point)
         for pair, link in sides
         if not isinstance(pair, Pin)
     }
@@ -136,7 +136,7 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
                 corner = lay_off_normal(pen, pair.point, name, normals[pair.point])
                 lines.append(square(pen, pair.point, name, corner))
             else:
-                corner = lay_off_coriolis(pen, pair, link, name, point, coriolis[pair])
+                corner = lay_off_coriolis(pen, pair, link, name, point, coriolis[pair.links])
                 lines.append(along(pen, shapes, pair, link, point, corner))
             corners.append(corner)
         found = pen.draw(meet, *lines, name=second_image(name), q=name)

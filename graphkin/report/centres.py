@@ -32,7 +32,7 @@ def breadth_of(solution: Solution) -> float:
     return (max(xs) - min(xs) + max(ys) - min(ys) if places else 0.0) or 1.0
 
 
-def largest(values: Iterable[complex | None]) -> float:
+def largest(values: Iterable[complex | float | None]) -> float:
     """The largest magnitude among values; nought when there is none."""
     return max((abs(value) for value in values if value is not None), default=0.0)
 
@@ -40,23 +40,36 @@ def largest(values: Iterable[complex | None]) -> float:
 def completed(scene: Scene, solution: Solution) -> Solution:
     """The solution with every moving link in it: a block turns as its guide does.
 
-    A link whose points all stand still has neither centre nor pole, for each of its points is one.
+    A link at rest has neither centre nor pole, for each of its points is one.
     """
+    turning = largest(link.omega for link in solution.links.values())
+    spinning = largest(link.epsilon for link in solution.links.values())
     speeds = largest(point.velocity for point in solution.points.values())
     rates = largest(point.acceleration for point in solution.points.values())
     links = {}
     for name in scene.links:
-        motion = solution.links.get(name) or carried(scene, name, solution)
+        motion = with_pole(solution.links.get(name), carried(scene, name, solution))
         points = [solution.points[p] for p in scene.links[name].points if p in solution.points]
-        if still((p.velocity for p in points), speeds):
+        stops = still([motion.omega], turning)
+        if stops and still((p.velocity for p in points), speeds):
             motion = replace(motion, instant_centre=None)
-        if still((p.acceleration for p in points), rates):
+        unmoved = stops and still([motion.epsilon], spinning)
+        if unmoved and still((p.acceleration for p in points), rates):
             motion = replace(motion, acceleration_pole=None)
         links[name] = motion
     return replace(solution, links=links)
 
 
-def still(values: Iterable[complex | None], biggest: float) -> bool:
+def with_pole(motion: LinkMotion | None, turned: LinkMotion) -> LinkMotion:
+    """The motion of a link, its pole from its turning where no two of its points gave one."""
+    if motion is None:
+        return turned
+    if motion.acceleration_pole is not None or motion.epsilon is None:
+        return motion
+    return replace(motion, acceleration_pole=turned.acceleration_pole)
+
+
+def still(values: Iterable[complex | float | None], biggest: float) -> bool:
     """True when every value is known and nothing beside the largest of its kind."""
     found = list(values)
     return bool(found) and all(z is not None and abs(z) <= NOISE * biggest for z in found)
@@ -66,7 +79,8 @@ def carried(scene: Scene, name: str, solution: Solution) -> LinkMotion:
     """Motion of a block that turns with its guide: on the frame it does not turn."""
     point = next((p for p in scene.links[name].points if p in solution.points), None)
     motion = solution.points[point] if point is not None else PointMotion()
-    omega, epsilon = turning_of_guide(scene, name, solution)
+    own = solution.links.get(name)
+    omega, epsilon = (own.omega, own.epsilon) if own else turning_of_guide(scene, name, solution)
     if motion.position is None or omega is None:
         return LinkMotion(omega, epsilon)
     centre = pole = None

@@ -18,7 +18,12 @@ APART = 1e-9
 
 def impossible(scene: Scene) -> list[Problem]:
     """Every guide, wheel and driver that cannot do what is written."""
-    return [*lone_wheels(scene), *double_guides(scene), *unturnable(scene)]
+    return [
+        *lone_wheels(scene),
+        *double_guides(scene),
+        *unknown_leans(scene),
+        *unturnable(scene),
+    ]
 
 
 def lone_wheels(scene: Scene) -> Iterator[Problem]:
@@ -60,6 +65,25 @@ def between_guides(scene: Scene, first: Slide, second: Slide) -> str:
     return f"are parallel, {1e3 * abs(gap):.6g} mm apart: no block is on both"
 
 
+def unknown_leans(scene: Scene) -> Iterator[Problem]:
+    """Further guides of a block on links whose angle against it the scene does not say."""
+    for link in scene.links.values():
+        for slide in link.slides[1:]:
+            if slide.on in turning_with(scene, link.name, first=True):
+                continue
+            if slide.on == FRAME:
+                expected = "the guide on the frame first, the other from the other side"
+            else:
+                way = f"slides = {{ on = {link.name}, through, angle }}"
+                expected = f"the guide from the other side: {way} in links.{slide.on}"
+            yield Problem(
+                f"links.{link.name}.slides",
+                f"the angle between this block and {link_words(slide.on)} is not known, for a "
+                "block's x axis lies along its first guide",
+                expected,
+            )
+
+
 def unturnable(scene: Scene) -> Iterator[Problem]:
     """Drivers that turn a link against another to which slides hold its direction."""
     for index, driver in enumerate(scene.drivers):
@@ -73,9 +97,16 @@ def unturnable(scene: Scene) -> Iterator[Problem]:
             )
 
 
-def turning_with(scene: Scene, name: str) -> set[str]:
-    """The links that a link cannot turn against: those that slides join it to, one by one."""
-    joined = [{link.name, slide.on} for link in scene.links.values() for slide in link.slides]
+def turning_with(scene: Scene, name: str, *, first: bool = False) -> set[str]:
+    """The links that a link cannot turn against: those that slides join it to, one by one.
+
+    ``first`` leaves out all but the first guide of each block.
+    """
+    joined = [
+        {link.name, slide.on}
+        for link in scene.links.values()
+        for slide in (link.slides[:1] if first else link.slides)
+    ]
     found = {name}
     while more := {link for pair in joined if pair & found for link in pair} - found:
         found |= more

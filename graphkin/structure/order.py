@@ -152,18 +152,16 @@ def dyad_with(
 
 
 def can_close(dyad: Dyad) -> bool:
-    """False for three slides, which leave the group loose, and for wheels that roll on wheels."""
-    wheels = dyad.type.count("W")
+    """False for three slides, which leave the group loose, and for wheels pinned off their centres."""
     if isinstance(dyad.inner, Contact) or dyad.type == "PPP":
         return False
-    return not wheels or (isinstance(dyad.inner, Pin) and (wheels == 1 or both_by_centre(dyad)))
+    wheels = [pair for pair in (dyad.left, dyad.right) if isinstance(pair, Contact)]
+    return not wheels or isinstance(dyad.inner, Pin) and by_centre(dyad.inner, wheels, dyad.links)
 
 
-def both_by_centre(dyad: Dyad) -> bool:
-    """Whether the inner pin is the centre of both wheels."""
-    assert isinstance(dyad.inner, Pin)
-    pairs = (dyad.left, dyad.right)
-    return all(isinstance(p, Contact) and p.wheel.centre == dyad.inner.point for p in pairs)
+def by_centre(inner: Pin, wheels: list[Contact], links: tuple[str, str]) -> bool:
+    """Whether a pin is the centre of the wheels of some links."""
+    return all(pair.wheel.centre == inner.point for pair in wheels if pair.links[0] in links)
 
 
 def in_order(dyad: Dyad) -> Dyad:

@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 SCENES_PAGE = EXAMPLES / "SCENES.md"
 README = ROOT / "README.md"
+VERSION = "graphkin ="
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ROW = re.compile(r"^\| (\d+) \| (.+) \| `(.+)` \|$", re.MULTILINE)
 CODE = re.compile(r"`([^`]+)`")
@@ -43,6 +44,12 @@ def blocks(page: Path, language: str) -> list[Block]:
         for found in FENCE.finditer(text)
         if found[1] == language
     ]
+
+
+def whole_above(page: Path, line: int) -> str:
+    """The last whole scene of a page that begins above a line: one with the format's version."""
+    wholes = [b for b in blocks(page, "toml") if b.text.startswith(VERSION) and b.line < line]
+    return wholes[-1].text
 
 
 def heading_above(text: str) -> str:

@@ -22,19 +22,20 @@ from tests.examples.document import (
     README,
     ROOT,
     SCENES_PAGE,
+    VERSION,
     Block,
     Mistake,
     blocks,
     commands,
     mistakes,
+    whole_above,
     with_part,
 )
 
 SCRIPTS = sorted(EXAMPLES.glob("[0-9][0-9]_*.py"))
 FIRST = ("crank-rocker", "engine", "offset-slider-crank", "six-bar")  # those that the pages name
 SCENES = [EXAMPLES / "scenes" / f"{name}.toml" for name in FIRST]
-WHOLE, *PARTS = blocks(SCENES_PAGE, "toml")
-READ_ONLY = "Read, not constructed yet"
+WHOLE, *BLOCKS = blocks(SCENES_PAGE, "toml")
 DOCUMENTS = (
     "velocity-{}.svg",
     "velocity-{}.pdf",
@@ -152,12 +153,23 @@ def test_the_whole_scene_of_the_page_solves() -> None:
     assert mechanism.witness(mechanism.solve()).agrees
 
 
-@pytest.mark.parametrize("block", PARTS, ids=lambda block: f"line {block.line}")
-def test_a_part_on_the_page_fits_into_its_scene(block: Block) -> None:
-    scene = read_text(with_part(WHOLE.text, block.text), "my")
-    if block.heading != READ_ONLY:
-        mechanism = Mechanism(scene)
-        assert mechanism.witness(mechanism.solve()).agrees
+def scene_of(block: Block) -> str:
+    """A block of the page as a scene: whole, or as a part of the last whole one above it."""
+    if block.text.startswith(VERSION):
+        return block.text
+    return with_part(whole_above(SCENES_PAGE, block.line), block.text)
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: f"line {block.line}")
+def test_a_block_on_the_page_is_a_scene_or_fits_into_one(block: Block) -> None:
+    mechanism = Mechanism(read_text(scene_of(block), "my"))
+    assert mechanism.witness(mechanism.solve()).agrees
+
+
+def test_the_page_has_scenes_of_many_kinds() -> None:
+    wholes = [block for block in BLOCKS if block.text.startswith(VERSION)]
+    assert len(wholes) >= 8
+    assert len(BLOCKS) - len(wholes) >= 25
 
 
 def test_a_part_replaces_what_has_its_heading() -> None:
@@ -198,12 +210,20 @@ def test_commands_on_the_page_answer_as_it_says(
         assert run(*command.split()[1:]).output == answer
 
 
-def test_what_check_shows_on_the_page_is_what_it_shows(tmp_path: Path) -> None:
-    said = run("check", my_scene(tmp_path)).stdout
-    shown = blocks(SCENES_PAGE, "text")
-    assert shown
-    for block in shown:
-        assert block.text in said
+@pytest.mark.parametrize(
+    "block", blocks(SCENES_PAGE, "text"), ids=lambda block: f"line {block.line}"
+)
+def test_what_check_shows_on_the_page_is_what_it_shows(block: Block, tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(whole_above(SCENES_PAGE, block.line), encoding="utf-8")
+    assert block.text in run("check", path).stdout
+
+
+def test_every_scene_is_named_on_the_page_once() -> None:
+    page = SCENES_PAGE.read_text(encoding="utf-8")
+    _, table = page.split("## Scenes that come with it")
+    named = re.findall(r"\(scenes/(.+?)\.toml\)", table.split("\n## ")[0])
+    assert sorted(named) == sorted(path.stem for path in (EXAMPLES / "scenes").glob("*.toml"))
 
 
 def test_without_ask_everything_is_asked() -> None:

@@ -98,7 +98,7 @@ def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages
         symbols, dots, unit = re.fullmatch(r"(.*) =((?: \.){10,}) ?(.*)", blank).groups()
         assert solved.startswith(f"{symbols} = "), (solved, blank)
         unit, has_sense, sense = unit.partition(" (")
-        assert bool(has_sense) is unit.startswith("rad"), blank
+        assert bool(has_sense) is unit.startswith("rad/"), blank
         assert not has_sense or sense.endswith(" .)"), blank
         assert dots and not re.search(r"\d", unit.replace("^2", "")), blank
         rest = solved.removeprefix(f"{symbols} = ")
@@ -109,7 +109,7 @@ def test_a_task_has_no_figures_but_those_of_the_data_and_of_the_laws(pages):
     """What is left are the constants of a relation: pi·n/30, the powers, expressions given."""
     _, task = pages
     for number, line in relation_lines(task):
-        if number:
+        if number and "*t*" not in line:
             left = re.sub(r"_\{[^}]*\}|_\w|\^\{?\w+\}?|\d+$", "", line.partition(" .")[0])
             figures = re.findall(r"\d+[.,]\d+", left)
             assert not figures, line

@@ -9,11 +9,21 @@ import pytest
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.richtext import plain
 from graphkin.paper.sentences import sentences
+from graphkin.paper.style import style_of
 from graphkin.paper.symbolic import symbol
 from graphkin.steps.program import Part, Plane, Step
 from graphkin.text import LANGUAGES
 from tests.mechanisms import SHIPPED
-from tests.paper.sheet_tools import SCENES, calculations, drawings, named, relation_lines
+from tests.paper.sheet_tools import (
+    SCENES,
+    calculations,
+    drawings,
+    drawn,
+    is_label,
+    kind_of,
+    named,
+    relation_lines,
+)
 
 WHICH = [(lab, 7, language) for lab in SHIPPED for language in LANGUAGES]
 WHICH += [(name, None, language) for name in SCENES for language in LANGUAGES]
@@ -74,3 +84,48 @@ def test_no_relation_has_a_gap(which):
     for _, line in relation_lines(calculations(name, n, "key", language)):
         text = BREAKS.sub(" ", plain(line)).rstrip(";,")
         assert not LEFT_OPEN.search(text), text
+
+
+SLOTTED = ("crank-slot", "oscillating-slide", "oldham", "rapid-return-slider")
+TRIED = ("rapid-return", "rod-and-wheel", "stephenson-2-binary", "stephenson-3-crank")
+
+
+@pytest.mark.parametrize("name", SLOTTED)
+def test_a_coriolis_component_is_as_long_on_the_mechanism_as_in_the_plan(name):
+    """The triangles are drawn at the scale of the plan, for ka = kv²/kL, and give its direction."""
+    page = drawn(name, None, "acceleration")
+    plan, mechanism = (
+        {mark.name: mark for mark in page.vectors(field) if kind_of(mark) == "coriolis"}
+        for field in ("plan", "mechanism")
+    )
+    assert mechanism
+    for key in plan.keys() & mechanism.keys():
+        one, two = (
+            complex(mark.x2 - mark.x1, mark.y2 - mark.y1) for mark in (plan[key], mechanism[key])
+        )
+        assert abs(one - two) <= 1e-6 * abs(one), key
+
+
+@pytest.mark.parametrize("name", TRIED)
+def test_every_point_of_the_right_plan_stands_on_the_line_of_its_trials_in_one_ratio(name):
+    for drawing in drawings(name):
+        values, steps = drawing.trace.values, drawing.trace.program.steps
+        shares = set()
+        for _, step, value in drawing.steps(drawing.plane):
+            if step.action.key == "between":
+                first, second = (values[arg] for arg in step.args[:2])
+                assert {steps[arg].name[-1] for arg in step.args[:2]} == set("¹²")
+                if abs(second - first) > 1e-9:
+                    shares.add(round(((value - first) / (second - first)).real, 6))
+        assert len(shares) == 1, shares
+        tags = set(drawing.tags.values())
+        assert tags == set("¹²")
+
+
+def test_a_trial_is_drawn_thin_and_grey_and_no_vector_belongs_to_it():
+    page = drawn("rapid-return", None, "acceleration")
+    tags = page.drawing.tags
+    marks = [mark for mark in page.marks["plan"] if mark.step in tags and not is_label(mark)]
+    assert marks
+    assert {kind_of(mark) for mark in marks} == {"trial", "point"}
+    assert style_of("trial").width < style_of("acceleration").width / 2

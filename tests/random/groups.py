@@ -273,8 +273,8 @@ def straight(m: Maker, wheel: str, centre: str, on: str, along: complex, radius:
     body = m.standing.bodies[wheel]
     side, way = m.sign(), m.length() * m.sign()
     through = body.points[centre] - along * (way + 1j * side * radius)
-    zero = phase(body.axis * m.standing.bodies[on].axis.conjugate()) + side * way / radius
-    start = math.degrees(math.remainder(zero, 2 * math.pi))
+    zero = m.angle(wheel) - m.angle(on) + side * way / radius
+    start = math.degrees(zero)
     body.wheels.append((centre, radius))
     found = Straight(wheel, on, centre, radius, through, along, side, start)
     m.standing.straights.append(found)
@@ -335,10 +335,14 @@ def gear(m: Maker) -> None:
         radii = (large, small) if how == "ring" else (small, large)
     apart = radii[0] + radii[1] if how == "outside" else abs(radii[0] - radii[1])
     place = sun_at[1] + apart * m.direction()
-    planet_at = m.name(), place
-    arm = bar(m, sun_at, planet_at)
-    m.turn(arm, on if m.coin() else FRAME)
-    if m.coin() and not m.standing.bodies[on].wheels:
+    if on != FRAME and m.coin(0.3):
+        planet_at = m.point(on, place), place
+        arm = on
+    else:
+        planet_at = m.name(), place
+        arm = bar(m, sun_at, planet_at)
+        m.turn(arm, on if m.coin() else FRAME)
+    if arm != on and m.coin() and not m.standing.bodies[on].wheels:
         sun = on
     else:
         sun = wheel_body(m, sun_at)
@@ -374,12 +378,11 @@ def meshed(
     radii: tuple[float, float],
 ) -> None:
     """The contact, counted from angles in which all of it is turned by less than half a turn."""
-    bodies = m.standing.bodies
     turned = {arm: m.rng.uniform(-2, 2), on: m.rng.uniform(-2, 2)}
     turned |= {name: 0.0 for name in turned if name == FRAME}
     turned[wheel] = turned[arm] - radii[1] / radii[0] * (turned[on] - turned[arm])
     start = {
-        name: math.degrees(bodies[name].angle - turned[name])
+        name: math.degrees(m.angle(name) - turned[name])
         for name in (wheel, on, arm)
         if name != FRAME
     }
@@ -447,8 +450,7 @@ def planet(m: Maker) -> None:
     turned[last] = arm_turned - small / own * (turned[wheels[0]] - arm_turned)
     turned[wheels[1]] = arm_turned + own / large * (turned[last] - arm_turned)
     for wheel, radius in zip(wheels, (small, -large), strict=True):
-        bodies = m.standing.bodies
-        start = {n: math.degrees(bodies[n].angle - turned[n]) for n in (last, wheel, arm)}
+        start = {n: math.degrees(m.angle(n) - turned[n]) for n in (last, wheel, arm)}
         own_turned = {n: turned[n] for n in (last, wheel, arm)}
         m.standing.gears.append(
             Gear(last, wheel, arm, (pin[0], centre[0]), (own, radius), start, own_turned)

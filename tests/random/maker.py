@@ -207,6 +207,22 @@ class Maker:
                 of, axis = (p, q), way / abs(way)
         self.drive("turn", body, against, phase(axis * bodies[against].axis.conjugate()), of)
 
+    def angle(self, body: str) -> float:
+        """The angle of a body's x axis, with the whole turns that its driver is written with."""
+        bodies = self.standing.bodies
+        for drive in self.standing.drives:
+            if (drive.kind, drive.body) == ("turn", body) and body not in self.rolling():
+                line = 1 + 0j
+                if drive.of:
+                    p, q = (bodies[body].points[point] for point in drive.of)
+                    line = (q - p) * bodies[body].axis.conjugate()
+                return self.angle(drive.against) + drive.position - phase(line)
+        return bodies[body].angle
+
+    def rolling(self) -> set[str]:
+        """The wheels on straight tracks."""
+        return {each.wheel for each in self.standing.straights}
+
     def slide_coordinate(self, block: str) -> float:
         """Where a block stands on its guide."""
         slide = self.standing.slides[block]
