@@ -99,7 +99,10 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
     }
     points = [p for link in group.links for p in scene.links[link].points]
     free = [p for p in points if p not in outside]
-    return next(iter((*free, *points)))
+    outer = (group.left, group.right) if isinstance(group, Dyad) else ()
+    known = {pair.point for pair in outer if isinstance(pair, Pin)}  # the same in every closure
+    led = [p for p in points if p not in known]
+    return next(iter((*free, *led, *points)))
 
 
 def dyad_closure(

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import GraphkinError
+from graphkin.scene.known import quoted
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
 
@@ -134,4 +135,4 @@ def refined(course: Course, at: Any, step: float) -> Any:
 
 def driver_words(driver: Driver) -> str:
     """A driver in short, as it is written: turn = 1."""
-    return f"{driver.kind} = {driver.link}"
+    return f"{driver.kind} = {quoted(driver.link)}"

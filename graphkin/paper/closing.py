@@ -1,13 +1,15 @@
-"""The words for a group that is cut: its locus, where it closes, and in which of its ways."""
+"""The words for groups that are cut until they close, and for links that fit by themselves."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import way_of
 from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
-from graphkin.steps.program import Step
+from graphkin.steps.program import Part, Plane, Step
 
 
 def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
@@ -26,3 +28,18 @@ def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
     fields |= {"p": symbol(says[fixed]), "q": symbol(says[moving])}
     key = "step.close-bar" if any(known) else "step.close-gap"
     return drawing.words(key, bar=bar(says["p"], says["q"]), **fields)
+
+
+def idle_sentences(drawing: Drawing) -> Iterator[str]:
+    """Each bar that no step lays off, because its pins stand without it: an idle link."""
+    told = [
+        {str(step.says.get(key, "")) for key in "pqr"} | {step.name}
+        for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS)
+        if step.part is Part.POSITION and step.says
+    ]
+    for link in drawing.scene.links.values():
+        points = set(link.points)
+        laid = any(len(points & names) > 1 for names in told)
+        if len(points) > 1 and not laid and not link.slides and not link.wheels:
+            names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
+            yield drawing.words("step.idle", **names)

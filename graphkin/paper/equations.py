@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.paper.drawing import TAGS, Drawing
-from graphkin.paper.naming import is_driven, rate_symbol, vector_of, way_of
+from graphkin.paper.naming import index_of, is_driven, rate_symbol, vector_of, way_of
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import Step
@@ -51,12 +51,6 @@ def is_pin_of_driver(drawing: Drawing, step: Step, rate: int) -> bool:
     return is_driven(drawing, rate) and step.says["p"] in drawing.scene.frame.points
 
 
-def index_of(drawing: Drawing, step: Step) -> str:
-    """Index of a motion about a pin: B about a fixed pivot, BA about a moving one."""
-    says = step.says
-    return says["q"] + ("" if says["p"] in drawing.scene.frame.points else says["p"])
-
-
 # --- about a pin ---------------------------------------------------------------------------------
 
 
@@ -77,7 +71,7 @@ def euler(drawing: Drawing, p: str, q: str) -> Relation:
 
 def turned(drawing: Drawing, step: Step, letter: str, rate: str) -> Relation:
     """What a known turning gives a point: rate times bar, or its square for the normal part."""
-    p, q, index = step.says["p"], step.says["q"], index_of(drawing, step)
+    p, q, index = step.says["p"], step.says["q"], index_of(drawing, step.says)
     value, length = abs(float(drawing.trace.values[step.args[3]])), length_of(drawing, p, q)
     kind = {"v": "", "a": "^ν" if rate == "ω" else "^τ"}[letter]
     square = "^2" if kind == "^ν" else ""

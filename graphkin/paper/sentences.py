@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from graphkin.paper.centre_words import with_centres_together
-from graphkin.paper.closing import closing_sentence
+from graphkin.paper.closing import closing_sentence, idle_sentences
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import amount, height_above, plan_amount, rate_symbol, vector_of
 from graphkin.paper.phrases import SWINGS, point_sentence
@@ -26,6 +26,10 @@ def sentences(drawing: Drawing) -> list[Sentence]:
     if drawing.again:
         found.append(Sentence(-1, "again", drawing.words("step.again")))
     found += said_of_steps(drawing)
+    if not drawing.again:
+        steps = drawing.trace.program.steps
+        place = sum(said.step >= 0 and steps[said.step].part is Part.POSITION for said in found)
+        found[place:place] = [Sentence(-1, "idle", said) for said in idle_sentences(drawing)]
     found += [
         Sentence(-1, curve.kind, drawing.words(f"step.{curve.kind}", of=symbol(curve.of)))
         for curve in drawing.curves

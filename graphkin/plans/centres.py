@@ -9,6 +9,7 @@ from __future__ import annotations
 from itertools import combinations
 
 from graphkin.plane import cross
+from graphkin.plans.carried import omega_of
 from graphkin.plans.kennedy import relative
 from graphkin.plans.links import Base
 from graphkin.plans.pen import Pen, Says, named
@@ -21,6 +22,7 @@ from graphkin.steps.centres import (
     inflection_square,
     normals_meet,
     relative_centre,
+    turned_pole,
 )
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
@@ -110,6 +112,7 @@ def pole(pen: Pen, base: Base) -> None:
     """The acceleration pole of a link: on base AB a triangle similar to o′a′b′ (Mehmke)."""
     points = two_points(pen, base)
     if points is None:
+        pole_by_turning(pen, base)
         return
     o = pen.pole(Plane.ACCELERATIONS)
     places = [pen.the("position", point) for point in points]
@@ -130,6 +133,19 @@ def pole(pen: Pen, base: Base) -> None:
             by_hand=by_hand,
             **says,
         )
+    pen.want("pole", base.link, found)
+
+
+def pole_by_turning(pen: Pen, base: Base) -> None:
+    """The pole of a link that turns and of which one point is known: by its ω and ε."""
+    if not pen.turns(base.link) or not pen.has("acceleration", base.start):
+        return
+    ends = [pen.the(what, base.start) for what in ("position", "acceleration")]
+    rates = omega_of(pen, base.link), omega_of(pen, base.link, "epsilon")
+    says: Says = {"k": base.link, "p": base.start, "how": "turned"}
+    with pen.on(Part.POLE, Plane.MECHANISM):
+        name = centre_name("J", base.link)
+        found = pen.draw(turned_pole, *ends, *rates, name=name, **says)
     pen.want("pole", base.link, found)
 
 

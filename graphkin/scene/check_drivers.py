@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from graphkin.scene.findings import Findings
-from graphkin.scene.known import known_link, known_point, named, place_of
+from graphkin.scene.known import known_link, known_point, named, place_of, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene
 
 
@@ -41,16 +41,16 @@ def check_led(scene: Scene, driver: Driver, link: Link, place: str, findings: Fi
     verb = "slides" if driver.kind == "slide" else "rolls straight"
     if tracks:
         found = f"link {link.name} {verb} on {named(tracks[0])}, not on {named(driver.against)}"
-        findings.add(place, found, f"against = {tracks[0]}")
+        findings.add(place, found, f"against = {quoted(tracks[0])}")
         return
-    can = [each.name for each in scene.links.values() if each.slides]
+    can = [quoted(each.name) for each in scene.links.values() if each.slides]
     if driver.kind == "slide":
         found = f"link {link.name} has no guide to slide along"
         expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
         findings.add(f"{place}.slide", found, expected)
     elif link.rolls:
         found = f"link {link.name} rolls on a wheel, which has no coordinate"
-        findings.add(f"{place}.roll", found, f"turn = {link.name}, or a straight track")
+        findings.add(f"{place}.roll", found, f"turn = {quoted(link.name)}, or a straight track")
     else:
         found = f"link {link.name} has no straight track to roll on"
         findings.add(f"{place}.roll", found, "rolls = { on, through, angle } in that link")

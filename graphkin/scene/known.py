@@ -41,3 +41,8 @@ def place_of(name: str) -> str:
 def named(link: str) -> str:
     """A link in words."""
     return "the frame" if link == FRAME else f"link {link}"
+
+
+def quoted(link: str) -> str:
+    """The name of a link as a scene writes it as a value: 2, but "arm"."""
+    return link if link.isdigit() else f'"{link}"'

@@ -22,6 +22,12 @@ def guide_centre(point: Point, guide: Line) -> Ratio:
     return Ratio(point, 1j * guide.along, 0.0)
 
 
+@action("acceleration-pole")
+def turned_pole(p: Point, image: Point, omega: Real, epsilon: Real) -> Ratio:
+    """The point of a link without acceleration from one point's and the link's turning."""
+    return Ratio(p, image, omega * omega - 1j * epsilon)
+
+
 @action("relative-centre")
 def relative_centre(
     p: Point, image_p: Point, omega_p: Real, q: Point, image_q: Point, omega_q: Real

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.errors import Problem, StructureError
+from graphkin.scene.known import quoted
 from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
 from graphkin.structure.graph import contacts, pairs, sharers
 from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
@@ -80,7 +81,7 @@ def too_few_hint(scene: Scene) -> str:
     if loose:
         return f"add a driver, or a pin is missing: only one link has the points {', '.join(loose)}"
     free = drivable(scene)
-    return f"add a driver, such as turn = {free[0]}" if free else "add a driver"
+    return f"add a driver, such as turn = {quoted(free[0])}" if free else "add a driver"
 
 
 def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
@@ -202,4 +203,4 @@ def points_used(link: Link) -> Iterator[str]:
 
 def driver_name(driver: Driver) -> str:
     """A driver in short, as it is written: turn = 1."""
-    return f"{driver.kind} = {driver.link}"
+    return f"{driver.kind} = {quoted(driver.link)}"

@@ -7,6 +7,7 @@ from itertools import combinations
 
 from graphkin.errors import Problem
 from graphkin.plane import cross
+from graphkin.scene.known import quoted
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.structure.bodies import guide_line, metres
 from graphkin.structure.rolling import link_words
@@ -34,7 +35,7 @@ def lone_wheels(scene: Scene) -> Iterator[Problem]:
         if link.wheels and not link.rolls and link.name not in tracks:
             place = "frame.wheel" if link.name == FRAME else f"links.{link.name}.wheel"
             found = "a wheel without a track: it rolls on nothing, and nothing rolls on it"
-            there = f"rolls = {{ on = {link.name} }} in a link with a wheel"
+            there = f"rolls = {{ on = {quoted(link.name)} }} in a link with a wheel"
             here = "" if link.name == FRAME else "rolls = { on, … } in this link, or "
             yield Problem(place, found, here + there)
 
@@ -74,7 +75,7 @@ def unknown_leans(scene: Scene) -> Iterator[Problem]:
             if slide.on == FRAME:
                 expected = "the guide on the frame first, the other from the other side"
             else:
-                way = f"slides = {{ on = {link.name}, through, angle }}"
+                way = f"slides = {{ on = {quoted(link.name)}, through, angle }}"
                 expected = f"the guide from the other side: {way} in links.{slide.on}"
             yield Problem(
                 f"links.{link.name}.slides",
@@ -93,7 +94,7 @@ def unturnable(scene: Scene) -> Iterator[Problem]:
                 f"drivers[{index}].turn",
                 f"link {driver.link} cannot turn against {link_words(driver.against)}: slides "
                 "join them",
-                f"slide = {driver.link}" if link.slides else "a link that a pin joins",
+                f"slide = {quoted(driver.link)}" if link.slides else "a link that a pin joins",
             )
 
 

@@ -56,6 +56,44 @@ def test_both_closures_of_each_dyad_are_shown(run: Run) -> None:
     ]
 
 
+WHITWORTH = """graphkin = 1
+title = "Whitworth"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[frame]
+O1 = [0, 0]
+O2 = [0, -30]
+[links.1]
+O1-A = 80
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "O2-B" }
+[links.3]
+O2-B = 60
+[links.4]
+B-C = 200
+[links.5]
+C = [0, 0]
+slides = { on = 0, through = "O2", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 60
+speed = 30
+[branches]
+2 = "forward"
+5 = "forward"
+"""
+
+
+def test_closures_of_a_swivelling_lever_are_told_apart_by_its_end(run: Run, tmp_path: Path) -> None:
+    """Its pins O2 and A are where they are in both; its end B lies on the other side of O2."""
+    path = tmp_path / "whitworth.toml"
+    path.write_text(WHITWORTH, encoding="utf-8")
+    lines = part(run("check", path).stdout, "closures")
+    assert lines[0] == "B of links 2 and 3:"
+    ends = [complex(*map(float, re.findall(r"-?[0-9.]+", line)[:2])) for line in lines[1:3]]
+    assert abs(sum(ends) / 2 + 30j) < 1e-3
+
+
 def test_closures_are_mirrored_in_the_line_of_the_known_pins() -> None:
     pump = load("pump", n=7)
     b, d = choices(pump.scene, pump.groups, pump.program)

@@ -1,0 +1,149 @@
+"""What fills the gaps of a sentence about a step: symbols, lengths, angles and figures."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Mapping
+from math import degrees
+
+from graphkin.paper.data import angle_symbol
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.naming import (
+    amount,
+    drawn_between,
+    index_of,
+    names_in,
+    rate_symbol,
+    vector_of,
+    way_of,
+)
+from graphkin.paper.pairs import heading
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.steps.program import Plane, Step
+
+LAID_OFF = ("turned-velocity", "driven-slide", "centripetal", "driven-tangential")
+"""Actions that lay off a vector from a point of a plan."""
+
+
+def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str, str]:
+    """The symbols that a sentence needs: its names, its bar, its vector, its similar figures."""
+    fields = names_in(says)
+    if "p" in says and "q" in says:
+        fields["bar"] = bar(says["p"], says["q"])
+    if "g" in says:
+        fields["guide"] = way_of(drawing, says["g"])
+    if step.plane is Plane.MECHANISM:
+        return fields | on_mechanism(drawing, step, fields, says)
+    return fields | on_plan(drawing, step, fields, says)
+
+
+def on_mechanism(
+    drawing: Drawing, step: Step, fields: Mapping[str, str], says: Mapping[str, str]
+) -> dict[str, str]:
+    """What fills the gaps of a sentence about the mechanism."""
+    assert step.action is not None
+    values, words = drawing.trace.values, drawing.words
+    match step.action.key:
+        case "ray" if "k" in says:
+            driver = next(d for d in drawing.scene.drivers if d.link == says["k"])
+            return {"angle": angle_symbol(drawing.scene, driver)}
+        case "compass":
+            return {"bar": fields["bar"] + derived(drawing, step.args[1])}
+        case "arcs-meet":
+            side = round(step.extra[0] if step.extra else values[step.args[2]])
+            return {"side": words(f"step.arcs-meet.side{side:+d}", **fields)}
+        case "arc-cuts-line":
+            sense = step.extra[0] if step.extra else values[step.args[2]]
+            return {"side": words(f"page.{heading(values[step.args[0]].along * sense)}")}
+        case "guide-back":
+            return {"q": symbol(drawing.scene.links[says["g"]].points[0])}
+        case "set-at" | "set-back":
+            return {"what": coordinate(drawing, step)}
+        case "beside":
+            way = drawing.standing.spot(step.name) - drawing.standing.spot(says["p"])
+            return {"angle": words.fixed(degrees(phase(way)), 1)}
+        case "inflection-point":
+            away = abs(values[drawing.number_of(step)] - values[step.args[0]])
+            drawn = words.fixed(1000 * away / drawing.scales.kL, 1)
+            names = {"a": symbol(f"a_{says['p']}"), "omega": symbol(f"ω_{says['k']}")}
+            return {"drawn": drawn, **names}
+        case "inflection-pole":
+            return {"omega": symbol(f"ω_{says['k']}")}
+        case "velocity-normal":
+            return {"v": symbol(f"v_{says['p']}")}
+        case "acceleration-pole" if "a" in says:
+            return {"figure": symbol(drawing.pole) + symbol(says["a"]) + symbol(says["b"])}
+        case "similar-point":
+            return figures(drawing, step, fields)
+    return {}
+
+
+def on_plan(
+    drawing: Drawing, step: Step, fields: Mapping[str, str], says: Mapping[str, str]
+) -> dict[str, str]:
+    """What fills the gaps of a sentence about a plan."""
+    assert step.action is not None
+    key, number = step.action.key, drawing.number_of(step)
+    found = {}
+    if key in LAID_OFF:
+        drawn = drawn_between(drawing, step.args[0], number, step.plane)
+        found["drawn"] = drawing.words.fixed(drawn, 2)
+    match key:
+        case "square-to" if "i" in says:
+            found["vector"] = symbol(f"a_{says['i']}^τ")
+        case "parallel-to" | "driven-slide":
+            found["vector"] = sliding_vector(drawing, step, number)
+        case "turned-velocity":
+            default = symbol(f"v_{index_of(drawing, says)}")
+            found["vector"] = vector_of(drawing, step.args[0], number, default)
+            found["omega"] = rate_symbol(drawing, step.args[3])
+        case "centripetal":
+            kind = "" if step.name else "^ν"
+            found["vector"] = symbol(f"a_{index_of(drawing, says)}{kind}")
+        case "driven-tangential":
+            found["vector"] = symbol(f"a_{index_of(drawing, says)}^τ")
+            found["epsilon"] = rate_symbol(drawing, step.args[3], "ε")
+        case "lay-off":
+            found["vector"] = symbol(f"a_{says['i']}^ν")
+        case "lay-off-coriolis" | "lay-back-coriolis":
+            found["vector"] = symbol(f"a_{says['i']}^c")
+        case "along-bar":
+            found["bar"] = bar(says["p"], says["q"])
+        case "similar-point":
+            found |= figures(drawing, step, fields)
+    return found
+
+
+def figures(drawing: Drawing, step: Step, fields: Mapping[str, str]) -> dict[str, str]:
+    """The two similar figures of a plate point."""
+    names = [drawing.trace.program.steps[arg].name for arg in step.args]
+    images = symbol(names[0]) + symbol(names[1])
+    image = images + symbol(step.name)
+    return {"images": images, "image": image, "figure": fields["bar"] + fields["r"]}
+
+
+def sliding_vector(drawing: Drawing, step: Step, number: int) -> str:
+    """The vector along a guide: from its line's or its own beginning to the point found."""
+    tips = [number, *drawing.children.get(number, ())]
+    found = (vector_of(drawing, step.args[0], tip) for tip in tips)
+    before = drawing.trace.program.steps[step.args[0]].says
+    default = symbol(f"a_{before['i']}^r") if "i" in before else ""
+    return next((name for name in found if name), default)
+
+
+def coordinate(drawing: Drawing, step: Step) -> str:
+    """The coordinate at which a driven link stands along its guide or track."""
+    number = step.args[1]
+    size = amount(drawing, float(drawing.trace.values[number]))
+    drivers = drawing.scene.drivers
+    given = drawing.trace.program.steps[number]
+    if given.given is None or given.name != "s":
+        return size
+    return f"{angle_symbol(drawing.scene, drivers[int(given.says['d'])])} = {size}"
+
+
+def derived(drawing: Drawing, number: int) -> str:
+    """The length of a bar that the scene does not state but that follows from its plate."""
+    if drawing.trace.program.steps[number].given is not None:
+        return ""
+    return f" = {amount(drawing, float(drawing.trace.values[number]))}"
