@@ -12,13 +12,12 @@ from graphkin.plans.coriolis import (
     slide_coriolis,
 )
 from graphkin.plans.guides import known_guide
-from graphkin.plans.links import Base, crank_tip
+from graphkin.plans.links import Base, crank_tip, sides_of
 from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
 from graphkin.plans.pen import Pen, Says, about, letter, named, second_image
 from graphkin.plans.plates import crosses_well
 from graphkin.plans.shape import Shapes
 from graphkin.plans.velocity import driven_rate, line_of
-from graphkin.scene.model import FRAME
 from graphkin.steps.guides import driven_slide, lay_off_turned
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
@@ -100,20 +99,7 @@ def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, rate:
 
 def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
     """Second image of the point that closes a dyad: known components laid off, others crossed."""
-    first, second = group.links
-    match group.left, group.inner, group.right:
-        case _, Pin(point=pin), _:
-            cross(pen, shapes, pin, pin, [(group.left, first), (group.right, second)])
-        case Pin(), Sliding() as inner, Pin():
-            block, carrier = inner.links
-            base = pen.bases[carrier]
-            assert base.end is not None
-            pivot = Pin(base.start, (carrier, FRAME))
-            pin = pen.bases[block].start
-            cross(pen, shapes, base.end, pin, [(pivot, carrier), (inner, carrier)])
-        case Pin(), Sliding() as inner, Sliding() as right:
-            led = pen.bases[second].start
-            cross(pen, shapes, led, led, [(inner, second), (right, second)])
+    cross(pen, shapes, *sides_of(pen.bases, group))
 
 
 def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joint, str]]) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.errors import Problem, StructureError
-from graphkin.scene.model import Scene
+from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.program import CONTACT
 from graphkin.structure.graph import Contact, Pin, Sliding
 from graphkin.structure.groups import (
@@ -174,6 +175,27 @@ def dyad_bases(scene: Scene, dyad: Dyad) -> tuple[Base, ...]:
             led = scene.link(second).points[0]
             return base_of(scene, first, left, None), base_of(scene, second, led, None)
     raise no_construction(dyad)
+
+
+def sides_of(known: Mapping[str, Base], dyad: Dyad) -> tuple[str, str, list[tuple[Joint, str]]]:
+    """The point whose images close a dyad in the plans, where it lies, and what leaves it free.
+
+    Each side is a pair with the link that it holds. Of a dyad RPR it is the point of the guide's
+    link under the block's pin: turning with the one, sliding along the other.
+    """
+    first, second = dyad.links
+    match dyad.left, dyad.inner, dyad.right:
+        case left, Pin(point=pin), right:
+            return pin, pin, [(left, first), (right, second)]
+        case Pin(), Sliding() as inner, Pin():
+            block, carrier = inner.links
+            base = known[carrier]
+            assert base.end is not None
+            pivot = Pin(base.start, (carrier, FRAME))
+            return base.end, known[block].start, [(pivot, carrier), (inner, carrier)]
+        case _, inner, right:
+            led = known[second].start
+            return led, led, [(inner, second), (right, second)]
 
 
 def led_base(scene: Scene, link: str, pin: str, pair: Joint) -> Base:

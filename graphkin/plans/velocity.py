@@ -6,12 +6,11 @@ from graphkin.plans import wheels
 from graphkin.plans.arrows import arrow_between, velocity_arrows
 from graphkin.plans.carried import image_under, omega_of
 from graphkin.plans.guides import known_guide
-from graphkin.plans.links import Base, crank_tip, under
+from graphkin.plans.links import Base, crank_tip, sides_of, under
 from graphkin.plans.pen import Pen, Says, image, letter, named
 from graphkin.plans.plates import crosses_well
 from graphkin.plans.position import led_path
 from graphkin.plans.shape import Shapes
-from graphkin.scene.model import FRAME
 from graphkin.steps.guides import driven_slide
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
@@ -115,21 +114,7 @@ def line_of(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, point:
 
 def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
     """Image of the point that closes a dyad: each relative velocity has its known direction."""
-    first, second = group.links
-    match group.left, group.inner, group.right:
-        case _, Pin(point=pin), _:
-            sides = [(group.left, first), (group.right, second)]
-            cross(pen, shapes, pin, pin, sides)
-        case Pin(), Sliding() as inner, Pin():
-            block, carrier = inner.links
-            base = pen.bases[carrier]
-            pin = pen.bases[block].start
-            assert base.end is not None
-            pivot = Pin(base.start, (carrier, FRAME))
-            cross(pen, shapes, base.end, pin, [(pivot, carrier), (inner, carrier)])
-        case Pin(), Sliding() as inner, Sliding() as right:
-            led = pen.bases[second].start
-            cross(pen, shapes, led, led, [(inner, second), (right, second)])
+    cross(pen, shapes, *sides_of(pen.bases, group))
 
 
 def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joint, str]]) -> None:

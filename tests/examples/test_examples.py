@@ -87,7 +87,7 @@ def test_a_script_runs_and_has_something_to_show(script: Path, tmp_path: Path) -
 
 
 def test_there_are_scripts_and_scenes_to_test() -> None:
-    assert len(SCRIPTS) == 4
+    assert len(SCRIPTS) == 5
     assert all(scene.is_file() for scene in SCENES)
 
 
