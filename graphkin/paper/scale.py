@@ -72,8 +72,8 @@ class Extent:
 
 
 def extent_of(points: Sequence[complex]) -> Extent:
-    """The upright box around points."""
-    xs, ys = [p.real for p in points], [p.imag for p in points]
+    """The upright box around points; the origin where there are none."""
+    xs, ys = [p.real for p in points or [0j]], [p.imag for p in points or [0j]]
     return Extent(min(xs), min(ys), max(xs), max(ys))
 
 

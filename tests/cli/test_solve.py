@@ -216,3 +216,14 @@ def test_a_mechanism_that_does_not_close_gives_status_2(
     assert result.stdout == ""
     assert "B cannot be found: the arcs miss each other by" in result.stderr
     assert "Traceback" not in result.stderr
+
+
+def test_an_open_chain_of_which_no_velocity_is_asked_is_solved(run: Run, tmp_path: Path) -> None:
+    """Its velocity plan is empty, and takes no room where the scale is chosen."""
+    text = (ROOT / "examples/scenes/excavator-relative.toml").read_text(encoding="utf-8")
+    asked = 'velocity = ["A", "B", "C"]\n'
+    assert asked in text
+    path = tmp_path / "chain.toml"
+    path.write_text(text.replace(asked, ""), encoding="utf-8")
+    result = run("solve", path)
+    assert result.exit_code == 0, result.stderr

@@ -128,6 +128,7 @@ speed = 9
 [ask]
 velocity = ["E"]
 centres = [2, "0-2"]
+poles = [2]
 """
 
 
