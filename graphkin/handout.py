@@ -43,6 +43,12 @@ LADDER = 5
 """Preferred scales that are tried then, upwards from the least."""
 LARGE = (120.0, 80.0)
 """Sizes in mm above which a mechanism or a plan is read no better."""
+SMALL = 20.0
+"""A longest vector in mm below which a plan is not drawn at the scale of its crank."""
+LITTLE = 45.0
+"""Breadth of a mechanism in mm below which its crank does not say how its plans are drawn."""
+LARGER = (1.5, 5.0)
+"""How many times larger it is then drawn: at least, at most."""
 AWAY = 20.0
 """Breadths of the mechanism beyond which a centrode is not followed."""
 
@@ -148,17 +154,44 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     curves = curves_of(mechanism) if curves is None else curves
     stated = mechanism.scene.sheet.scale
     wanted = float(stated.number(mechanism.scene.values)) if stated is not None else 0.0
-    crank = the_crank(mechanism)
+    crank, own = the_crank(mechanism), None
     if crank:
-        kL = fitting_scale(extents(trials_of(mechanism, curves, 1 / crank)), WIDTH, HEIGHT)
-        return Scales(kept_scale(wanted, kL) if wanted else kL, 1 / crank)
+        trials = trials_of(mechanism, curves, 1 / crank)
+        kL = fitting_scale(extents(trials), WIDTH, HEIGHT)
+        kL = kept_scale(wanted, kL) if wanted else kL
+        own = Scales(kL, 1 / crank)
+        if wanted or min(1000 * trial.reach / kL for trial in trials) >= LITTLE:
+            larger = enlarged(mechanism, curves, kL, crank) if are_small(trials, kL) else None
+            return larger or own
     natural = natural_seconds(mechanism)
     smallest = trials_of(mechanism, curves, natural * SIZES[0])
     least = fitting_scale(extents(smallest), WIDTH, HEIGHT)
     lengths = [kept_scale(wanted, least)] if wanted else list(islice(preferred(least), LADDER))
     tried = [pair for kL in lengths for pair in pairs_of(mechanism, curves, kL, natural)]
     _, kL, kv = max(tried, default=(0.0, least, next(preferred(least / natural / SIZES[0]))))
-    return Scales(kL, kL / kv, from_driver=False)
+    return own if own and own.kL <= kL else Scales(kL, kL / kv, from_driver=False)
+
+
+def are_small(trials: list[Drawing], kL: float) -> bool:
+    """True when the longest vector of a plan that is not nought is too short beside a scale."""
+    vectors = [abs(trial.at_scale(trial.plane, trial.largest)) for trial in trials]
+    return any(0 < 1000 * vector / kL < SMALL for vector in vectors)
+
+
+def enlarged(
+    mechanism: Mechanism, curves: tuple[Curve, ...], kL: float, crank: float
+) -> Scales | None:
+    """The least preferred kv at which plans fit beside a kL, larger than the crank draws them.
+
+    None where no larger ones fit.
+    """
+    for kv in preferred(kL * crank / LARGER[1]):
+        if kv > kL * crank / LARGER[0]:
+            return None
+        trials = trials_of(mechanism, curves, kL / kv)
+        if fitting_scale(extents(trials), WIDTH, HEIGHT) <= kL * (1 + 1e-12):
+            return Scales(kL, kL / kv, from_driver=False)
+    return None
 
 
 def pairs_of(

@@ -40,11 +40,13 @@ def shown_before(desk: Desk, number: int, step: Step) -> int | None:
 
 
 def no_base(desk: Desk, number: int) -> bool:
-    """True when twice the relative velocity, or the Coriolis component, is too short to be seen."""
+    """True when twice the relative velocity, or the component, is too short to be seen."""
     drawing = desk.drawing
     for user in sorted(drawing.trace.program.descendants(number)):
         step = drawing.trace.program.steps[user]
         if step.action is not None and step.action.key == "coriolis-by-hand":
+            if user not in drawing.trace.values:
+                return True
             base, top = (drawing.trace.values[arg] for arg in step.args[:2])
             lean = drawing.trace.program.steps[step.args[1]]
             pivot = drawing.trace.values[drawing.trace.program.steps[lean.args[1]].args[1]]
@@ -104,8 +106,12 @@ def name_corner(desk: Desk, number: int, step: Step, at: XY) -> None:
     """The small letter of a corner: e or f, with its index where there are several triangles."""
     drawing = desk.drawing
     base = step.name.partition("_")[0]
-    alike = [s for _, s, _ in drawing.mechanism_steps() if s.name.partition("_")[0] == base]
-    name = base if len([s for s in alike if is_coriolis(s)]) == 1 else step.name
+    alike = [
+        other
+        for other, s, _ in drawing.mechanism_steps()
+        if s.name.partition("_")[0] == base and is_coriolis(s) and not no_base(desk, other)
+    ]
+    name = base if len(alike) == 1 else step.name
     desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
     desk.board.labels.append(
         Label(symbol(name), "construction", at, 2.5, step.name, number, radius=0.5)

@@ -13,8 +13,6 @@ from graphkin.paper.layout import Layout
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
-NOTHING = 1e-6
-"""Vectors shorter than this, in mm, are nought."""
 FOOT = 6.5
 """Height kept free of construction lines at the foot of a field, in mm."""
 
@@ -58,8 +56,10 @@ def middle(tail: XY, tip: XY) -> XY:
 
 def note_tiny(desk: Desk, name: str, length: float) -> None:
     """Name a vector that is too short to be seen at the foot of its field."""
-    words = desk.drawing.words
-    key = "page.tiny" if length > NOTHING else "page.nought"
-    note = words(key, name=name, length=words.fixed(length, 2))
+    words, drawing = desk.drawing.words, desk.drawing
+    factor = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+    key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
+    short = words.fixed(length, 2) if length >= 0.005 else f"< {words.fixed(0.01, 2)}"
+    note = words(key, name=name, length=short)
     if note not in desk.board.notes:
         desk.board.notes.append(note)

@@ -10,6 +10,7 @@ from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import (
     amount,
+    beyond,
     drawn_between,
     index_of,
     names_in,
@@ -59,6 +60,8 @@ def on_mechanism(
             return {"q": symbol(drawing.scene.links[says["g"]].points[0])}
         case "set-at" | "set-back":
             return {"what": coordinate(drawing, step)}
+        case "step-along":
+            return {"start": symbol(beyond(drawing, step))}
         case "beside":
             way = drawing.standing.spot(step.name) - drawing.standing.spot(says["p"])
             return {"angle": words.fixed(degrees(phase(way)), 1)}

@@ -6,13 +6,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from math import ceil, cos, radians, sin
 
-from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import Rect
+from graphkin.paper.crowd import HELPERS, by_need
 from graphkin.paper.doubt import with_leaders
 from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, box, reach
 from graphkin.paper.place import Spot, Wish, place
-from graphkin.paper.richtext import extent, flowed, plain
+from graphkin.paper.richtext import extent, flowed
 
 NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
@@ -20,8 +20,8 @@ NUMBER = 2.3
 
 ROUNDS = 4
 """How often labels are placed anew with more key numbers before a field counts as full."""
-HELPERS = ("construction", "trial")
-"""Classes of letters that a drawing can do without where there is no room for them."""
+ASIDE = 15
+"""How far a note is moved aside at a time, in mm, where it would stand on lines."""
 SMALL = 1.8
 """Height of the smallest lettering in mm."""
 KEY = 4
@@ -34,7 +34,8 @@ GAP, LED = 0.9, 3.4
 class Label:
     """A text that wants a place at a subject.
 
-    ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader.
+    ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader; ``spare``
+    may be left out in a crowd, for the construction and the tables name it too.
     """
 
     markup: str
@@ -48,6 +49,7 @@ class Label:
     radius: float = 0.0
     ring: bool = False
     led: bool = False
+    spare: bool = False
 
     def size(self) -> tuple[float, float]:
         """Width and height of the label's box."""
@@ -110,7 +112,8 @@ class Board:
     """One field of the page while it is drawn: its marks, and the labels still to be placed.
 
     ``taken`` are boxes that labels keep clear of, ``notes`` what is said at the field's foot,
-    ``lettered`` the places of the labels that are letters of points.
+    ``lettered`` the places of the labels that are letters of points; ``unnamed`` begins the note
+    that lists the vectors for whose names there is no room.
     """
 
     rect: Rect
@@ -119,21 +122,29 @@ class Board:
     taken: list[Rect] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     lettered: dict[int, XY] = field(default_factory=dict)
+    unnamed: str = ""
 
     def finish(self) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
 
-        Raises PageError when a label finds no place even so.
+        In a worse one letters of the construction are left out, then names of vectors, and a note
+        says which. Raises PageError when another label finds no place even so.
         """
         meanings: list[str] = []
+        wished = list(self.labels)
         for rounds_left in reversed(range(ROUNDS)):
             foot = self.footed([*self.notes, *meanings])
             spots = self.spots(foot)
             if all(spot.free for spot in spots) and not self.unled(spots):
                 break
             if not rounds_left:
-                spots = self.without_helpers(spots)
-                refuse_crowds(self.labels, spots)
+                if all(
+                    spot.free or label.cls in HELPERS
+                    for label, spot in zip(self.labels, spots, strict=True)
+                ):
+                    spots = self.without_helpers(spots)
+                else:
+                    foot, spots = by_need(self, wished, meanings)
                 break
             self.shorten([spot.free for spot in spots], meanings)
         clear = with_leaders(self.labels, spots, self.marks)
@@ -177,12 +188,26 @@ class Board:
                 self.labels[i] = replace(label, markup=key, height=SMALL, priority=KEY)
 
     def footed(self, notes: Sequence[str]) -> list[Mark]:
-        """Notes in lines at the foot of the field."""
+        """Notes in lines at the foot of the field, where they cross the fewest lines."""
         lines = flowed(notes, "; ", self.rect[2] - self.rect[0] - 6, 2.5)
-        x, y = self.rect[0] + 3, self.rect[3] - 2.5 - 4.2 * (len(lines) - 1)
-        return [
-            Text(x, y + 4.2 * i, line, "caption", 2.5, name="note") for i, line in enumerate(lines)
+        if not lines:
+            return []
+        y = self.rect[3] - 2.5 - 4.2 * (len(lines) - 1)
+        room = self.rect[2] - self.rect[0] - 6 - max(extent(line, 2.5)[0] for line in lines)
+        tried: list[list[Text]] = [
+            [
+                Text(self.rect[0] + 3 + away, y + 4.2 * i, line, "caption", 2.5, name="note")
+                for i, line in enumerate(lines)
+            ]
+            for away in range(0, max(1, int(room)), ASIDE)
         ]
+        return [*min(tried, key=self.crossed)]
+
+    def crossed(self, texts: Sequence[Text]) -> int:
+        """How many drawn lines some texts would stand on."""
+        ends = [segment for mark in self.marks for segment in segments(mark)]
+        boxes = [reach(text) for text in texts]
+        return sum(bool(clipped(s[:2], s[2:], box)) for s in ends for box in boxes)
 
     def placed(self) -> list[Mark]:
         """Only the labels that find a free place, without the other marks."""
@@ -190,12 +215,13 @@ class Board:
         free = [(label, spot) for label, spot in zip(self.labels, spots, strict=True) if spot.free]
         return marks_of([label for label, _ in free], [spot for _, spot in free])
 
-    def spots(self, more: Sequence[Mark] = ()) -> list[Spot]:
-        """The places of all labels, clear of marks, of taken boxes and of each other."""
+    def spots(self, more: Sequence[Mark] = (), some: Sequence[Label] | None = None) -> list[Spot]:
+        """The places of all labels, or of some, clear of marks, taken boxes and each other."""
         marks = [*self.marks, *more]
         lines = [segment for mark in marks for segment in segments(mark)]
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
-        return place([label.wish() for label in self.labels], lines, boxes, self.rect)
+        labels = self.labels if some is None else some
+        return place([label.wish() for label in labels], lines, boxes, self.rect)
 
 
 def marks_of(labels: Sequence[Label], spots: Sequence[Spot]) -> list[Mark]:
@@ -214,24 +240,6 @@ def near(box: Rect, x: float, y: float) -> bool:
     """True when a box lies within reach of a short leader that starts at a place."""
     far = 2 * LED
     return box[0] - far < x < box[2] + far and box[1] - far < y < box[3] + far
-
-
-def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:
-    """Raise PageError naming every label for which there was no free place."""
-    crowded = [
-        label.name or plain(label.markup)
-        for label, spot in zip(labels, spots, strict=True)
-        if not spot.free
-    ]
-    if crowded:
-        raise PageError(
-            Problem(
-                "labels",
-                "does not fit: no free place for " + ", ".join(crowded),
-                "room for every name",
-                "ask for less on one sheet, or choose a position in which less falls together",
-            )
-        )
 
 
 def segments(mark: Mark) -> list[tuple[float, float, float, float]]:

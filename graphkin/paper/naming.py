@@ -94,6 +94,14 @@ def share_of(drawing: Drawing, start: complex, end: complex, point: complex) -> 
     return float(dot(way, point - start) / dot(way, way))
 
 
+def beyond(drawing: Drawing, step: Step) -> str:
+    """The end of its bar beyond which a point of the line lies; nothing for one between them."""
+    first, second = step.says["p"], step.says["q"]
+    spot = drawing.standing.spot
+    share = share_of(drawing, spot(first), spot(second), spot(step.says["r"]))
+    return first if share < 0 else second if share > 1 else ""
+
+
 def names_in(says: Mapping[str, str]) -> dict[str, str]:
     """The names of a step as markup."""
     found = {key: symbol(str(value)) for key, value in says.items()}

@@ -30,7 +30,8 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
         if quantity.uses():
             value = written(scene, words, quantity)
             amount, _, unit = value.partition(" ")
-            figures = expression(drawing, quantity, values=True)
+            derived = "/dt" in quantity.text  # figures are put in only after it is derived
+            figures = "" if derived else expression(drawing, quantity, values=True)
             yield Relation(
                 letter,
                 expression(drawing, quantity, values=False),

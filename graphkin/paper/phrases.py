@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from graphkin.paper.centre_words import CENTRES, OWN_WORDS, SAID, far_end, oddity
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.gaps import LAID_OFF, fields_of
-from graphkin.paper.naming import NAUGHT, drawn_between, is_driven
+from graphkin.paper.naming import NAUGHT, beyond, drawn_between, is_driven
 from graphkin.paper.symbolic import symbol
 from graphkin.steps.program import Part, Plane, Step
 
@@ -138,6 +138,8 @@ def mechanism_key(drawing: Drawing, step: Step, key: str) -> str:
         return "beside-turned"
     if key == "mark-off" and is_lever(drawing, step.args[0]):
         return "mark-off-lever"
+    if key == "step-along" and beyond(drawing, step):
+        return "step-along-beyond"
     if key == "set-at" and is_tried(steps[step.args[1]]):
         return "set-at-found"
     return f"{key}.say" if key == "arcs-meet" else key

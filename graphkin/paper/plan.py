@@ -133,7 +133,7 @@ def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
     name, short = symbol(step.says["symbol"]), length < SHORT
     subject = middle(tail, tip) if short else (tail, tip)
     desk.board.labels.append(
-        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short)
+        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short, spare=True)
     )
 
 

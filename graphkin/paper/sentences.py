@@ -35,9 +35,18 @@ def sentences(drawing: Drawing) -> list[Sentence]:
         for curve in drawing.curves
         if curve.kind not in ("fixed-centrode", "locus")
     ]
-    last = Sentence(-1, "", drawing.words(f"step.read-{drawing.kind}"))
+    last = Sentence(-1, "", read_off(drawing))
     found = with_centres_together(drawing, with_trials_together(drawing, found))
     return [*with_normals_together(drawing, found), last]
+
+
+def read_off(drawing: Drawing) -> str:
+    """What is read off at the end; how a link turns only where the sheet says that one does."""
+    words = drawing.words
+    spin = "omega" if drawing.kind == "velocity" else "epsilon"
+    turns = any(drawing.turning(link) is not None for link in drawing.scene.links)
+    turning = words(f"step.read-{spin}") if turns else ""
+    return words(f"step.read-{drawing.kind}", turning=turning)
 
 
 def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:

@@ -128,8 +128,8 @@ def mechanism_marks(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
 def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     """The mechanism's field."""
     field = layout.mechanism
-    board = Board(field.rect)
     words = drawing.words
+    board = Board(field.rect, unnamed=words("page.unnamed"))
     kL = words.decimal(f"{drawing.scales.kL:g}")
     caption = words("page.mechanism_heading", scale=drawing.scales.words, kL=kL)
     board.marks.append(headline(field.rect, caption, layout))
@@ -152,8 +152,8 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
 def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     """The plan's field."""
     field = layout.plan
-    board = Board(field.rect)
     words, scales = drawing.words, drawing.scales
+    board = Board(field.rect, unnamed=words("page.unnamed"))
     factor = scales.kv if drawing.kind == "velocity" else scales.ka
     k = words.significant(factor / 1000, 5)
     if view == "task" and scales.from_driver:

@@ -31,7 +31,9 @@ def set_vector(
     desk.board.marks += arrow(tail, tip, look, name, number)
     short = hypot(tip[0] - tail[0], tip[1] - tail[1]) < SHORT
     subject = middle(tail, tip) if short else (tail, tip)
-    desk.board.labels.append(Label(symbol(name), look, subject, 2.5, name, number, led=short))
+    desk.board.labels.append(
+        Label(symbol(name), look, subject, 2.5, name, number, led=short, spare=True)
+    )
 
 
 def is_tiny(desk: Desk, step: Step, tip: complex) -> bool:
@@ -87,7 +89,9 @@ def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
         return
     short = radius < SHORT
     subject = middle(at, end) if short else (at, end)
-    desk.board.labels.append(Label(symbol(name), "normal", subject, 2.5, name, number, led=short))
+    desk.board.labels.append(
+        Label(symbol(name), "normal", subject, 2.5, name, number, led=short, spare=True)
+    )
     put_construction_point(desk, number, step, value)
 
 

@@ -150,7 +150,10 @@ def along(pen: Pen, shapes: Shapes, pair: Joint, link: str, point: str, corner: 
 
 
 def tie(pen: Pen, shapes: Shapes, group: Tie) -> None:
-    """A link between two known points: both second images are there."""
+    """A link between two known ones: on two guides it is crossed, at pins it is there."""
+    if isinstance(group.first, Sliding):
+        point = pen.bases[group.link].start
+        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
 
 
 # --- the rest of a link --------------------------------------------------------------------------

@@ -146,6 +146,8 @@ def move(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> Non
             wheels.geared(pen, group)
         case Train():
             wheels.train(pen, group)
+        case Tie():
+            velocity.tie(pen, shapes, group)
         case Higher():
             trials.velocity(pen, shapes, group, move)
             return
@@ -183,6 +185,8 @@ def accelerate(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) 
             wheels.second_geared(pen, shapes, group)
         case Train():
             wheels.second_train(pen, group)
+        case Tie():
+            acceleration.tie(pen, shapes, group)
         case Higher():
             trials.acceleration(pen, shapes, group, accelerate)
             return

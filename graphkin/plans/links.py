@@ -90,6 +90,8 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             return base_of(scene, arm, pivot, centre), base_of(scene, wheel, centre, rim)
         case Tie(link, Pin(point=first), Pin(point=second)):
             return (base_of(scene, link, first, second),)
+        case Tie(link, Sliding(), Sliding()):
+            return (base_of(scene, link, scene.link(link).points[0], None),)
         case Tie(link, Pin(point=first), _):
             return (base_of(scene, link, first, None),)
         case Higher():

@@ -261,7 +261,10 @@ def tangent(pen: Pen, places: list[int], height: int, way: int, says: Says) -> i
 
 def tie(pen: Pen, shapes: Shapes, group: Tie) -> None:
     """A link between two known points: only its turning is left to know, on a guide."""
-    if isinstance(group.second, Sliding):
+    if isinstance(group.first, Sliding):
+        point = pen.bases[group.link].start
+        two_guides(pen, shapes, point, (group.first, group.second), (group.link, group.link))
+    elif isinstance(group.second, Sliding):
         assert isinstance(group.first, Pin)
         path_of(pen, shapes, group.second, group.link, group.first.point)
 

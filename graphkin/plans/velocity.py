@@ -156,7 +156,10 @@ def square(pen: Pen, pivot: str, pin: str) -> int:
 
 
 def tie(pen: Pen, shapes: Shapes, group: Tie) -> None:
-    """A link between two known points: both images are there."""
+    """A link between two known ones: on two guides its image is found, at two pins it is there."""
+    if isinstance(group.first, Sliding):
+        point = pen.bases[group.link].start
+        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
 
 
 # --- the rest of a link --------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from graphkin.report.table import labelled, listed
 from graphkin.scene.findings import natural
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.quantity import SI
-from graphkin.structure.graph import Contact, Pair, Pin, contacts, pairs, sharers
+from graphkin.structure.graph import Contact, Pair, Pin, Sliding, contacts, pairs, sharers
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
 from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Group, Higher, Tie, Train
 from graphkin.structure.joints import partner
@@ -212,6 +212,8 @@ def group_words(group: Group) -> str:
             return f"arm {arm} on {pair_name(pivot)} with wheel {wheel}, which rolls on {others}"
         case Tie(link, first, second):
             held = listed(map(pair_name, (first, second)))
+            if isinstance(first, Sliding):
+                return f"link {link} led by {held}: both tell how it is turned, so that one is idle"
             return f"link {link} between {held}, which stand already: it must be idle"
         case Higher():
             return higher_words(group)

@@ -145,7 +145,7 @@ class Train:
 
 @dataclass(frozen=True, slots=True)
 class Tie:
-    """A link that two pairs join to known links: it closes a loop and moves nothing."""
+    """A link that two pairs join to known links: at two pins it is idle, on two guides a wedge."""
 
     link: str
     first: Joint
@@ -159,6 +159,8 @@ class Tie:
     @property
     def title(self) -> str:
         """What it is called."""
+        if isinstance(self.first, Sliding):
+            return "led by two guides"
         return "idle: joins what moves together without it"
 
 

@@ -49,6 +49,8 @@ def tried(
     chain: list[Group] = []
     while True:
         last = over_given(joints, known, grown, left) or next_tie(joints, grown)
+        if isinstance(last, Tie) and not isinstance(last.first, Pin):
+            return
         if last is not None:
             break
         group = (

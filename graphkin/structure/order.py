@@ -22,7 +22,7 @@ from graphkin.structure.groups import (
     Train,
     Unresolved,
 )
-from graphkin.structure.joints import Joint, Joints, taken
+from graphkin.structure.joints import Joint, Joints, partner, taken
 
 
 def decompose(scene: Scene) -> tuple[Group, ...]:
@@ -152,11 +152,11 @@ def dyad_with(
 
 
 def can_close(dyad: Dyad) -> bool:
-    """False for three slides, which leave the group loose, and for wheels pinned off their centres."""
+    """False for three slides, which leave the group loose, and for wheels pinned off centre."""
     if isinstance(dyad.inner, Contact) or dyad.type == "PPP":
         return False
     wheels = [pair for pair in (dyad.left, dyad.right) if isinstance(pair, Contact)]
-    return not wheels or isinstance(dyad.inner, Pin) and by_centre(dyad.inner, wheels, dyad.links)
+    return not wheels or (isinstance(dyad.inner, Pin) and by_centre(dyad.inner, wheels, dyad.links))
 
 
 def by_centre(inner: Pin, wheels: list[Contact], links: tuple[str, str]) -> bool:
@@ -210,11 +210,15 @@ def stretched_dyad(
 
 
 def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
-    """The first link, as written, that two pins, or a pin and a slide, join to known links."""
+    """The first link, as written, that two pins or slides join to known links.
+
+    Two slides on one link leave it free to go along them, if it can go at all.
+    """
     for link in joints.unknown(known):
         pairs = joints.between(link, known)
         if len(pairs) == 2 and all(taken(pair) == 2 for pair in pairs):
             first, second = sorted(pairs, key=lambda pair: not isinstance(pair, Pin))
-            if isinstance(first, Pin) and isinstance(second, Pin | Sliding):
+            on_two = isinstance(first, Pin) or partner(first, link) != partner(second, link)
+            if on_two and not isinstance(first, Contact) and not isinstance(second, Contact):
                 return Tie(link, first, second)
     return None

@@ -73,7 +73,7 @@ def test_a_wheel_turns_about_its_contact(s: int) -> None:
 
 def test_a_wheel_on_a_rod_of_changing_length() -> None:
     """x_C = r(90° - θ); the rod's length fixes θ, its rate θ′."""
-    found = motion("rod-and-wheel")
+    found = motion("rod-and-wheel", q=190)
     fixed = mpmath.mpc(-250, 40)
 
     def pin(theta: mpmath.mpf) -> mpmath.mpc:

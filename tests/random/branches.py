@@ -11,8 +11,8 @@ from graphkin.mechanism import Mechanism
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Closure
 from graphkin.scene.read import read_text
-from graphkin.steps.trying import Closer
 from graphkin.steps.run import run
+from graphkin.steps.trying import Closer
 from graphkin.structure.graph import Pin
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from tests.random.records import Standing
@@ -22,7 +22,7 @@ SAME = 1e-6
 """How far a closure may be from where its links stand, in radians, or parts of the mechanism."""
 
 
-class NoSuchClosure(LookupError):
+class NoSuchClosureError(LookupError):
     """A position that is not among the closures that were found."""
 
 
@@ -113,7 +113,7 @@ def closure_number(standing: Standing, mechanism: Mechanism, group: Higher, coun
     for number in near:
         if stands(standing, mechanism, group, int(number) + 1):
             return int(number) + 1
-    raise NoSuchClosure(f"{len(table)} closures, the nearest off by {off.min(initial=9):.1e}")
+    raise NoSuchClosureError(f"{len(table)} closures, the nearest off by {off.min(initial=9):.1e}")
 
 
 def stands(standing: Standing, mechanism: Mechanism, group: Higher, number: int) -> bool:

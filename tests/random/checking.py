@@ -12,7 +12,7 @@ from graphkin.structure.groups import Dyad, Higher, Stretched
 from tests.random.branches import branches_of
 from tests.random.exact import Motion, motion
 from tests.random.groups import made
-from tests.random.records import FRAME, Standing
+from tests.random.records import Standing
 from tests.random.written import Written
 
 EPS = 2.0**-52
@@ -115,10 +115,14 @@ def differences(solution: Solution, exact: Motion) -> Iterator[tuple[float, str]
     sizes = [each or 1.0 for each in (length, speed, push)]
     for name, states in points.items():
         ours = solution.points[name]
-        yield from over(f"point {name}", states, (ours.position, ours.velocity, ours.acceleration), sizes)
+        yield from over(
+            f"point {name}", states, (ours.position, ours.velocity, ours.acceleration), sizes
+        )
     for name, (_, *states) in links.items():
         ours = solution.links[name]
-        yield from over(f"link {name}", states, (ours.omega, ours.epsilon), (omega or 1, twist or 1))
+        yield from over(
+            f"link {name}", states, (ours.omega, ours.epsilon), (omega or 1, twist or 1)
+        )
     for name, states in slides.items():
         ours = solution.slides[name]
         values = ours.position, ours.speed, ours.acceleration

@@ -23,7 +23,7 @@ ENOUGH = 1e-44
 """A correction, in parts of the mechanism, after which nothing more is gained."""
 
 
-class NotClosed(ArithmeticError):
+class NotClosedError(ArithmeticError):
     """Positions that Newton's method does not settle in."""
 
 
@@ -88,12 +88,12 @@ class Closing:
             columns.append([float((after - before) / step) for after, before in pairs])
         matrix = np.array(columns).T
         if matrix.shape[0] != matrix.shape[1]:
-            raise NotClosed(f"{matrix.shape[0]} equations for {matrix.shape[1]} unknowns")
+            raise NotClosedError(f"{matrix.shape[0]} equations for {matrix.shape[1]} unknowns")
         scale = abs(matrix).max(axis=1, keepdims=True)
         return np.linalg.inv(matrix / scale) / scale.T
 
     def closed(self, start: list[Any], time: Any) -> list[Any]:
-        """The unknowns at a time. Raises NotClosed."""
+        """The unknowns at a time. Raises NotClosedError."""
         unknowns, before = [*start], 1.0
         for _ in range(40):
             missed = self.missed(unknowns, time)
@@ -105,11 +105,11 @@ class Closing:
             if moved < ENOUGH or (moved < 1e-40 and moved > before / 4):
                 return unknowns
             before = moved
-        raise NotClosed(f"still moves by {moved:.1e}")
+        raise NotClosedError(f"still moves by {moved:.1e}")
 
 
 def motion(written: Written) -> Motion:
-    """Positions, velocities and accelerations of everything. Raises NotClosed."""
+    """Positions, velocities and accelerations of everything. Raises NotClosedError."""
     with mpmath.workdps(DIGITS):
         closing, standing = Closing(written), written.standing
         h = INSTANT * period(standing)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from cmath import phase, rect
+from cmath import rect
 from random import Random
 
-from tests.random.maker import Loose, Maker
+from tests.random.maker import LooseError, Maker
 from tests.random.records import FRAME, Gear, Standing, Straight
-
 
 # --- drivers -------------------------------------------------------------------------------------
 
@@ -351,7 +350,9 @@ def gear(m: Maker) -> None:
     m.standing.bodies[sun].wheels.append((sun_at[0], signs[0] * radii[0]))
     planet = wheel_body(m, planet_at)
     m.standing.bodies[planet].wheels.append((planet_at[0], signs[1] * radii[1]))
-    meshed(m, planet, sun, arm, (planet_at[0], sun_at[0]), (signs[1] * radii[1], signs[0] * radii[0]))
+    meshed(
+        m, planet, sun, arm, (planet_at[0], sun_at[0]), (signs[1] * radii[1], signs[0] * radii[0])
+    )
     if m.coin(0.4):
         outer(m, planet, arm)
 
@@ -425,7 +426,7 @@ def roller(m: Maker) -> None:
     second = straight(m, wheel, centre[0], plates[1], along * m.sign(), radius)
     sides = [each.side * (each.along * along.conjugate()).real for each in (first, second)]
     if sides[0] * sides[1] > 0:
-        raise Loose
+        raise LooseError
     second.kept = True
     m.standing.bodies[wheel].wheels.pop()
 
@@ -491,7 +492,7 @@ def add(m: Maker, kind: str) -> bool:
         try:
             with m.group():
                 GROUPS[kind](m)
-        except (Loose, IndexError):
+        except (LooseError, IndexError):
             continue
         return True
     return False

@@ -19,7 +19,7 @@ STIFF = 0.03
 NAMES = {1: "A", -1: "B"}
 
 
-class Loose(ValueError):
+class LooseError(ValueError):
     """A group that hardly holds together where it stands."""
 
 
@@ -231,15 +231,15 @@ class Maker:
 
     @contextmanager
     def group(self) -> Iterator[None]:
-        """What is added must hold together well; else all of it is taken away (Loose)."""
+        """What is added must hold together well; else all of it is taken away (LooseError)."""
         before, count = deepcopy(self.standing), self.count
         try:
             yield
             if stiffness(self.standing, set(before.bodies)) < STIFF:
-                raise Loose
-        except (Loose, ZeroDivisionError):
+                raise LooseError
+        except (LooseError, ZeroDivisionError):
             self.standing, self.count = before, count
-            raise Loose from None
+            raise LooseError from None
 
 
 def stiffness(standing: Standing, known: set[str]) -> float:
@@ -249,7 +249,7 @@ def stiffness(standing: Standing, known: set[str]) -> float:
     spots = {name: list(standing.bodies[name].points.values()) for name in standing.bodies}
     size = {n: max([abs(z - spots[n][0]) for z in spots[n]], default=0) for n in new}
     most = max(size.values(), default=1.0) or 1.0
-    poses = {name: (0.0, 0.0, 0.0) for name in standing.bodies}
+    poses = dict.fromkeys(standing.bodies, (0.0, 0.0, 0.0))
     geometry = AsPlaced(standing)
 
     def missed(body: str, k: int, by: float):
@@ -302,8 +302,11 @@ class AsPlaced:
         """A track; turnings are counted from here."""
         centre = self.standing.bodies[straight.wheel].points[straight.centre]
         way = ((centre - straight.through) * straight.along.conjugate()).real
-        return straight.through, straight.along, straight.radius, straight.side * way / (
-            straight.radius
+        return (
+            straight.through,
+            straight.along,
+            straight.radius,
+            straight.side * way / (straight.radius),
         )
 
     def gear(self, gear):

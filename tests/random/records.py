@@ -111,7 +111,9 @@ class Body:
 class Standing:
     """A whole mechanism in one position."""
 
-    bodies: dict[str, Body] = field(default_factory=lambda: {FRAME: Body(FRAME, {}, "", 0j, 1 + 0j)})
+    bodies: dict[str, Body] = field(
+        default_factory=lambda: {FRAME: Body(FRAME, {}, "", 0j, 1 + 0j)}
+    )
     slides: dict[str, Slide] = field(default_factory=dict)
     straights: list[Straight] = field(default_factory=list)
     gears: list[Gear] = field(default_factory=list)

@@ -127,9 +127,10 @@ class Written:
     def meshed(self, gear: Gear) -> str:
         """A wheel on another."""
         radii = tuple(mpmath.mpf(repr(each)) for each in gear.radii)
-        self.numbers[id(gear)] = radii, {
-            name: degrees(gear.start.get(name, 0.0)) for name in (gear.wheel, gear.on, gear.arm)
-        }
+        self.numbers[id(gear)] = (
+            radii,
+            {name: degrees(gear.start.get(name, 0.0)) for name in (gear.wheel, gear.on, gear.arm)},
+        )
         said = ", ".join(f"{name} = {number(angle)}" for name, angle in gear.start.items())
         start = f", start = {{ {said} }}" if said else ""
         return f"{{ on = {gear.on}{start} }}"
