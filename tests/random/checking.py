@@ -1,4 +1,4 @@
-"""The construction of a mechanism made at random against the loops and against exact differences."""
+"""The construction of a random mechanism against the loops and against exact differences."""
 
 from __future__ import annotations
 
