@@ -87,7 +87,9 @@ def followed(sweep: Sweep, branches: Branches | None = None) -> Path:
         found, _, _ = from_start(course, seed(grid, free))
         ranges.append(found)
         here = covered(sweep, found, grid)
-        free &= ~here if here.any() else False
+        if not (free & here).any():
+            break
+        free &= ~here
     if not ranges:
         raise ClosureError(
             Problem(
@@ -152,7 +154,8 @@ def seed(grid: Reals, free: np.ndarray) -> float:
 def covered(sweep: Sweep, found: Range, grid: Reals) -> np.ndarray:
     """Which positions of the grid a range passes, whole turns apart."""
     low, high, half = found[0].low.at, found[-1].high.at, sweep.grid_step
-    turns = (-TURN, 0.0, TURN) if sweep.what == "turn" and sweep.whole else (0.0,)
+    whole = sweep.what == "turn" and sweep.whole
+    turns = [k * TURN for k in range(-2, 3)] if whole else [0.0]
     passed = np.zeros(len(grid), dtype=bool)
     for turn in turns:
         passed |= (low - half <= grid + turn) & (grid + turn <= high + half)

@@ -175,6 +175,7 @@ def settle(
 ) -> None:
     """Every point of the right plan, on the lines through its two trials."""
     first, second = layers
+    settled: list[str] = []
     for (quantity, of), one in first.items():
         two = second[quantity, of]
         if quantity == kind.rate and own_rate(pen, of):
@@ -190,8 +191,10 @@ def settle(
                     between, one, two, divided, name=kind.named(of), by_hand=by_hand, **says
                 )
             pen.want(quantity, of, found)
-            if "@" not in of:
-                finish(pen, kind, of)
+            settled.append(of)
+    for point in settled:
+        if "@" not in point:
+            finish(pen, kind, point)
 
 
 def crossing(pen: Pen, group: Higher, kind: Kind, of: str, one: int, two: int) -> int | None:
