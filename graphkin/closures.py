@@ -12,7 +12,7 @@ from graphkin.steps.program import Part, Program, Step
 from graphkin.steps.run import StepFailed, Trace, run
 from graphkin.steps.trying import Closer
 from graphkin.structure.graph import Pin
-from graphkin.structure.groups import Dyad, Group, Higher
+from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,8 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
     """The closures of every group that closes in more than one way."""
     found: list[Choice] = []
     taken: set[int] = set()
-    for group in groups:
+    for whole in groups:
+        group = whole.dyad if isinstance(whole, Stretched) else whole
         number = choosing_step(scene, group, program, taken)
         if number is None:
             continue

@@ -368,3 +368,45 @@ speed = 4
         "2 more than the count: 2 constraints are idle, taking what others take already",
         "without the guide of block 1 on the frame the motion is the same",
     ]
+
+
+def test_the_closures_of_a_driven_cylinder_are_those_of_its_dyad(run: Run, tmp_path: Path) -> None:
+    """The rod's pin is mirrored in the line of the two fixed ones; the next group has its own."""
+    path = tmp_path / "press.toml"
+    path.write_text(
+        """
+graphkin = 1
+title = "Press"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+A = [300, 0]
+[links.arm]
+O-B = 400
+[links.barrel]
+A = [0, 0]
+slides = { on = "rod", along = "B-E" }
+[links.rod]
+B-E = 300
+[links.bar]
+B-C = 500
+[links.ram]
+C = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+slide = "barrel"
+against = "rod"
+position = 250
+speed = 40
+[branches]
+B = "left of O-A"
+ram = "forward"
+""",
+        encoding="utf-8",
+    )
+    shown = part(run("check", path).stdout, "closures")
+    assert shown[0].startswith("B of links")
+    assert shown[1].startswith("* left of O-A")
+    height = 1e3 * load(path).solve().points["B"].position.imag
+    assert f"{-height:.3f}) mm" in shown[2]
+    assert shown[3].startswith("C of links bar and ram")
