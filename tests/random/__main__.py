@@ -1,0 +1,40 @@
+"""Many mechanisms made at random, as many as the first argument says: which routes differ."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+
+from tests.random.checking import case, checked
+
+
+def judged(seed: int) -> tuple[str, str]:
+    """How the three routes stand on one seed, with where they differ."""
+    try:
+        made = case(seed)
+        if made is None:
+            return "none", ""
+        found = checked(made)
+    except Exception as error:
+        return "fails", f"{seed}: {type(error).__name__}: {error}"
+    if found.agrees:
+        return "agree", ""
+    where = f"loops {found.loops:.1e} {found.where_loops}"
+    where += f", exact {found.exact:.1e} {found.where_exact}"
+    return "differ", f"{seed}: {where} ({', '.join(made.types)})"
+
+
+def main() -> None:
+    """Print every seed at which the routes differ, and how many agree."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 2000
+    with ProcessPoolExecutor() as pool:
+        rows = list(pool.map(judged, range(count), chunksize=10))
+    for _, words in rows:
+        if words:
+            print(words)
+    print(dict(Counter(verdict for verdict, _ in rows)))
+
+
+if __name__ == "__main__":
+    main()
