@@ -49,7 +49,7 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
     several = len(cycle.path.ranges) > 1
     for i in range(len(cycle.path.ranges)):
         found = [line for each in followers(cycle, i) for line in follower_words(cycle, each)]
-        yield from labelled("followers" + (f" {i + 1}" if several else ""), found)
+        yield from labelled(f"in range {i + 1}" if several else "followers", found)
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
