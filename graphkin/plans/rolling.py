@@ -31,6 +31,7 @@ from graphkin.steps.wheels import (
 )
 from graphkin.structure.graph import Contact, Pin, Sliding
 from graphkin.structure.groups import Geared, Train
+from graphkin.structure.joints import partner
 
 
 def track_of(pen: Pen, shapes: Shapes, contact: Contact) -> int:
@@ -296,7 +297,10 @@ def rack(pen: Pen, shapes: Shapes, group: Geared, slide: Sliding) -> None:
     with pen.on(Part.POSITION, Plane.NUMBERS):
         turn = angle_of(pen, shapes, contact, wheel)
         if pen.turns(link):
-            turn = pen.draw(difference, turn, angle_of(pen, shapes, contact, link))
+            known = partner(slide, link)
+            lean = pen.draw(turned_since, axis_, axis(pen, shapes, known))
+            own = pen.draw(sum_of, angle_of(pen, shapes, contact, known), lean)
+            turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)
         way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)

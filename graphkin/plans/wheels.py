@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.carried import carried, omega_of, second_image_under
 from graphkin.plans.guides import known_guide
-from graphkin.plans.links import contact_name, no_construction, under
+from graphkin.plans.links import contact_name, under
 from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
 from graphkin.plans.pen import Pen, Says, image, letter, named, second_image
 from graphkin.plans.rolling import radius_of
@@ -15,6 +15,8 @@ from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
     along_bar,
+    centripetal,
+    driven_tangential,
     epsilon,
     in_proportion,
     lay_off,
@@ -182,7 +184,8 @@ def second_rack(pen: Pen, shapes: Shapes, group: Geared, slide: Sliding) -> None
     """Second image of a rack's point: on the line of its guide, and square to it from the wheel."""
     link, contact = group.link, group.contact
     if pen.turns(link):
-        raise no_construction(group)
+        turning_rack(pen, group)
+        return
     point, wheel = pen.bases[link].start, contact.links[0]
     name = contact_name(contact)
     start = second_image_under(pen, partner(slide, link), point)
@@ -199,6 +202,35 @@ def second_rack(pen: Pen, shapes: Shapes, group: Geared, slide: Sliding) -> None
             q=point,
             name=second_image(point),
         )
+    pen.want("acceleration", point, found)
+    acceleration_arrow(pen, point)
+
+
+def turning_rack(pen: Pen, group: Geared) -> None:
+    """Second image of the point of a rack that turns with its guide: from its point of contact.
+
+    That moves against the wheel's straight away from the wheel's centre, as the wheel's to it.
+    """
+    link, contact, point = group.link, group.contact, pen.bases[group.link].start
+    name, wheel, centre = contact_name(contact), contact.links[0], contact.wheel.centre
+    start = carried(pen, wheel, name, "acceleration")
+    ends = pen.the("position", name), pen.the("position", centre)
+    rates = omega_of(pen, wheel), omega_of(pen, link)
+    says: Says = {"p": centre, "q": letter(name), "s": named(pen, start)}
+    says["i"] = letter(name) + centre
+    with pen.on(Part.NORMAL, Plane.NUMBERS):
+        vector = pen.draw(rolling_normal, *ends, *rates, name=f"a_{says['i']}^ν", **says)
+    called = second_image(under(name, link))
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = pen.draw(lay_off, start, vector, name=called, **says)
+    pen.want("acceleration", under(name, link), corner)
+    ends = pen.the("position", name), pen.the("position", point)
+    turning, twist = omega_of(pen, link), omega_of(pen, link, "epsilon")
+    says = {"p": letter(under(name, link)), "q": point, "s": called, "k": link}
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = pen.draw(centripetal, corner, *ends, turning, **says)
+        named_ = second_image(point)
+        found = pen.draw(driven_tangential, corner, *ends, twist, name=named_, **says)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
 

@@ -18,6 +18,8 @@ from tests.random.written import Written
 EPS = 2.0**-52
 CLOSE = 1e-10
 """What the routes may differ by away from singular positions, in parts of the largest."""
+TINY = 1e-9
+"""What counts as rest, in parts of what the drivers could do."""
 
 
 @dataclass
@@ -108,11 +110,13 @@ def differences(solution: Solution, exact: Motion) -> Iterator[tuple[float, str]
     twist = max(abs(each[2]) for each in links.values())
     speed = max(abs(each[1]) for each in (*points.values(), *slides.values()))
     push = max(abs(each[2]) for each in (*points.values(), *slides.values()))
+    time = exact.period
     natural = max(speed**2 / length, omega**2 * length)
-    speed, omega = max(speed, 1e-3 * omega * length), max(omega, 1e-3 * speed / length)
-    push = max(push, 1e-3 * max(natural, twist * length))
+    speed = max(speed, 1e-3 * omega * length, TINY * length / time)
+    omega = max(omega, 1e-3 * speed / length)
+    push = max(push, 1e-3 * max(natural, twist * length), TINY * length / time**2)
     twist = max(twist, 1e-3 * max(natural, push) / length)
-    sizes = [each or 1.0 for each in (length, speed, push)]
+    sizes = length, speed, push
     for name, states in points.items():
         ours = solution.points[name]
         yield from over(
@@ -120,9 +124,7 @@ def differences(solution: Solution, exact: Motion) -> Iterator[tuple[float, str]
         )
     for name, (_, *states) in links.items():
         ours = solution.links[name]
-        yield from over(
-            f"link {name}", states, (ours.omega, ours.epsilon), (omega or 1, twist or 1)
-        )
+        yield from over(f"link {name}", states, (ours.omega, ours.epsilon), (omega, twist))
     for name, states in slides.items():
         ours = solution.slides[name]
         values = ours.position, ours.speed, ours.acceleration

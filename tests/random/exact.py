@@ -36,6 +36,8 @@ class Motion:
     slides: dict[str, tuple[float, float, float, complex]]
     off: float
     """How far the generated places are from the exact ones, in parts of the mechanism."""
+    period: float
+    """The time in which the fastest driver comes about as far as it is long (s)."""
 
 
 class Closing:
@@ -118,16 +120,16 @@ def motion(written: Written) -> Motion:
         off = max(abs(a - b) for a, b in zip(here, closing.first, strict=True))
         states = [states_of(closing, unknowns) for unknowns in (ends[0], here, ends[1])]
         found = {key: rates([state[key] for state in states], h) for key in states[0]}
-        return gathered(standing, closing, here, found, float(off))
+        return gathered(standing, closing, here, found, (float(off), float(h / INSTANT)))
 
 
 def period(standing: Standing) -> Any:
     """The time in which the fastest driver comes about as far as it is long."""
-    rates = [1e-30]
+    rates = [0.0]
     for drive in standing.drives:
         size = 1.0 if drive.kind == "turn" else standing.size
         rates += [abs(drive.speed) / size, (abs(drive.acceleration) / size) ** 0.5]
-    return 1 / mpmath.mpf(max(rates))
+    return 1 / mpmath.mpf(max(rates) or 1.0)
 
 
 def states_of(closing: Closing, unknowns: list[Any]) -> dict[tuple[str, str], Any]:
@@ -150,7 +152,11 @@ def rates(values: list[Any], h: Any) -> tuple[Any, Any, Any]:
 
 
 def gathered(
-    standing: Standing, closing: Closing, here: list[Any], found: dict[Any, Any], off: float
+    standing: Standing,
+    closing: Closing,
+    here: list[Any],
+    found: dict[Any, Any],
+    ends: tuple[float, float],
 ) -> Motion:
     """The records, and the Coriolis acceleration of each block by its definition."""
     moved = closing.moved(here)
@@ -165,4 +171,4 @@ def gathered(
             turning = links[slide.on][1] if slide.on != FRAME else 0.0
             speed = float(each[1])
             slides[name] = (*map(float, each), 2j * turning * speed * along)
-    return Motion(points, links, slides, off)
+    return Motion(points, links, slides, *ends)

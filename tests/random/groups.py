@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from cmath import rect
+from cmath import phase, rect
 from random import Random
 
 from tests.random.maker import LooseError, Maker
@@ -398,6 +398,9 @@ def rack(m: Maker) -> None:
     m.turn(pinion, on)
     along, radius = m.direction(), m.length()
     name = m.block({m.name(): centre[1] + m.vector()}, on, along)
+    lean = phase(along * m.standing.bodies[on].axis.conjugate())
+    if abs(m.angle(on) + lean - phase(along)) > 1:
+        raise LooseError
     straight(m, pinion, centre[0], name, along * m.sign(), radius).kept = True
 
 

@@ -216,6 +216,8 @@ class Maker:
                 if drive.of:
                     p, q = (bodies[body].points[point] for point in drive.of)
                     line = (q - p) * bodies[body].axis.conjugate()
+                    straight = abs(line.imag) < 1e-12 * abs(line)
+                    line = complex(line.real, 0.0) if straight else line
                 return self.angle(drive.against) + drive.position - phase(line)
         return bodies[body].angle
 
