@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import A4_AREA, A4_SIZE
-from graphkin.paper.data import parameters
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import page_frame
 from graphkin.paper.marks import Mark, Page, Text
 from graphkin.paper.relation import Relation
 from graphkin.paper.relations import relations
-from graphkin.paper.richtext import escape, extent, flowed
+from graphkin.paper.richtext import escape, extent, flowed, words_of
+from graphkin.paper.settings import parameters
 from graphkin.paper.sheet import title_of
 
 LETTER = 2.5
@@ -24,8 +23,6 @@ LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
 BLANK = ". " * 14
 """Room to write in, on the form that is to be filled in."""
-WORD_GAP = re.compile(r"(?<!=) (?!=|(?:mm|cm|m|in|rev/min|rot/min|rad|deg)\b)")
-"""Spaces at which a long piece may be broken: not between a number and its unit, nor at =."""
 NUMBER = 12.0
 """Width kept at the right for the relation's number, in mm."""
 
@@ -68,7 +65,7 @@ def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> I
     parts = [
         piece
         for part in parts
-        for piece in (WORD_GAP.split(part) if extent(part, LETTER)[0] > room else [part])
+        for piece in (words_of(part) if extent(part, LETTER)[0] > room else [part])
     ]
     if relation.result and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
@@ -107,7 +104,7 @@ def paged(rows: Sequence[Row]) -> Iterator[list[tuple[float, Row]]]:
 def page_of(drawing: Drawing, rows: Sequence[tuple[float, Row]], view: str, number: str) -> Page:
     """One A4 page."""
     words = drawing.words
-    title = "; ".join([escape(title_of(drawing)), *parameters(drawing)])
+    title = "; ".join([escape(title_of(drawing)), *parameters(drawing.scene, words)])
     name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
     sheet = drawing.scene.sheet
     marks: list[Mark] = [

@@ -99,6 +99,8 @@ PUTS: dict[
     (Plane.NUMBERS, "square-to"): put_line,
     (Plane.NUMBERS, "parallel-to"): put_line,
     (Plane.NUMBERS, "join"): put_arrow,
+    (Plane.NUMBERS, "to-corner"): put_arrow,
+    (Plane.NUMBERS, "from-corner"): put_arrow,
     (Plane.NUMBERS, "turned-velocity"): put_point,
     (Plane.NUMBERS, "meet"): put_point,
     (Plane.NUMBERS, "similar-point"): put_point,

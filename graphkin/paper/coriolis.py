@@ -12,6 +12,7 @@ from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import square_mark
 from graphkin.paper.triangle import set_vector
 from graphkin.steps.program import Step
+from graphkin.steps.run import Trace
 
 SIDE = 6.0
 """Shortest side of a triangle, in mm, at whose corner a right angle is marked."""
@@ -20,6 +21,20 @@ SIDE = 6.0
 def is_coriolis(step: Step) -> bool:
     """True for a step on the mechanism that belongs to a Coriolis component."""
     return "k" in step.says and "i" in step.says
+
+
+def without_triangles(trace: Trace) -> Trace:
+    """A trace without the steps that only the triangles of Coriolis components need."""
+    steps = trace.program.steps
+    left = dict(trace.values)
+    waiting = [s.by_hand for s in steps if s.action and s.action.key == "coriolis" and s.by_hand]
+    while waiting:
+        number = waiting.pop()
+        used = any(number in steps[other].args for other in left)
+        if number in left and steps[number].hand and not used:
+            del left[number]
+            waiting += steps[number].args
+    return Trace(trace.program, left, trace.margins)
 
 
 def put_lever_velocity(desk: Desk, number: int, step: Step, value: Any) -> None:

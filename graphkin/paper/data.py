@@ -8,8 +8,8 @@ from graphkin.paper.amounts import written
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.pairs import closures, of_guide, tracks, wheels
 from graphkin.paper.richtext import escape
+from graphkin.paper.settings import after_parameter, other_parameters
 from graphkin.paper.symbolic import bar, symbol
-from graphkin.scene.expression import TIME
 from graphkin.scene.model import (
     FRAME,
     Angled,
@@ -21,7 +21,7 @@ from graphkin.scene.model import (
     Side,
     Triangle,
 )
-from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.quantity import Quantity
 from graphkin.text import MINUS, Words
 
 
@@ -29,7 +29,7 @@ def given(drawing: Drawing) -> list[str]:
     """The data of a scene as short pieces of markup, in the order of the scene."""
     scene, words = drawing.scene, drawing.words
     return [
-        *parameters(drawing),
+        *other_parameters(scene, words),
         *(piece for driver in scene.drivers for piece in of_driver(scene, words, driver)),
         *lengths(scene, words),
         *fixed_points(scene, words),
@@ -43,25 +43,13 @@ def given(drawing: Drawing) -> list[str]:
     ]
 
 
-def parameters(drawing: Drawing) -> list[str]:
-    """The parameters as set."""
-    values = drawing.scene.values
-    return [parameter(drawing.words, name, value) for name, value in values.items()]
-
-
-def parameter(words: Words, name: str, value: object) -> str:
-    """A parameter as set; t is the moment of laws of time, in seconds."""
-    unit = " s" if name == TIME else ""
-    return f"*{escape(name)}* = {words.decimal(shortest(value))}{unit}"
-
-
 def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
     """Position, speed and acceleration of a driver."""
     speed = "*v*"
     if driver.kind == "turn":
         speed = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
     index = f"_{{{driver_index(driver)}}}"
-    yield f"{angle_symbol(scene, driver)} = {written(scene, words, driver.position)}"
+    yield f"{angle_symbol(scene, driver)} = {after_parameter(scene, words, driver.position)}"
     steady = driver.acceleration.is_zero()
     tail = f" = {words('page.constant')}" if steady else ""
     yield f"{speed}{index} = {with_sense(scene, words, driver, driver.speed, tail)}"
@@ -80,11 +68,15 @@ def with_sense(
     scene: Scene, words: Words, driver: Driver, quantity: Quantity, tail: str = ""
 ) -> str:
     """A driver's speed or acceleration; of a crank the magnitude, and its sense in words."""
-    text, value = written(scene, words, quantity), float(quantity.si(scene.values))
+    value = float(quantity.si(scene.values))
     if driver.kind != "turn" or not value:
-        return text + tail
-    key = "page.turning_anticlockwise" if value > 0 else "page.turning_clockwise"
-    return f"{text.removeprefix(MINUS)}{tail}, {words(key)}"
+        return after_parameter(scene, words, quantity) + tail
+    if value > 0:
+        size, key = after_parameter(scene, words, quantity), "page.turning_anticlockwise"
+    else:
+        size = written(scene, words, quantity).removeprefix(MINUS)
+        key = "page.turning_clockwise"
+    return f"{size}{tail}, {words(key)}"
 
 
 def angle_symbol(scene: Scene, driver: Driver) -> str:
@@ -100,7 +92,7 @@ def lengths(scene: Scene, words: Words) -> Iterator[str]:
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             for p, q, length in placing.lengths():
-                equal.setdefault(written(scene, words, length), []).append(bar(p, q))
+                equal.setdefault(after_parameter(scene, words, length), []).append(bar(p, q))
     for text, bars in equal.items():
         yield " = ".join([*bars, text])
 

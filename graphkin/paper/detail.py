@@ -57,16 +57,22 @@ def source(marks: Sequence[Mark]) -> Source | None:
 
 def with_detail(board: Board) -> list[Mark]:
     """A finished field, with a detail circle for very short vectors where there is room for it."""
+    marks, detail = parted(board)
+    return [*marks, *detail]
+
+
+def parted(board: Board) -> tuple[list[Mark], list[Mark]]:
+    """A finished field, and apart from it the detail circle; no marks where there is none."""
     spot = source(board.marks)
     if spot is None:
-        return board.finish()
+        return board.finish(), []
     small = spot.circle()
     board.marks.append(small)
     marks = board.finish()
     place = free_place(marks, board.rect, spot.at, RADIUS + 4)
     if place is None:
-        return [mark for mark in marks if mark is not small]
-    return [*marks, *circled(marks, spot.at, place, spot.times)]
+        return [mark for mark in marks if mark is not small], []
+    return marks, list(circled(marks, spot.at, place, spot.times))
 
 
 def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY | None:

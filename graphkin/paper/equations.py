@@ -14,14 +14,15 @@ from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import Step
 
 
-def of_equations(drawing: Drawing) -> list[Relation]:
-    """The equations of a plan in the order of drawing, each of them once."""
-    found: dict[str, Relation] = {}
+def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
+    """The equations of a plan in the order of drawing, each once, with the rate that it takes."""
+    found: dict[str, tuple[str, Relation]] = {}
     for number, step, _ in drawing.steps(drawing.plane):
         if drawing.tags.get(number) == TAGS[1]:
             continue
         for relation in of_step(drawing, number, step):
-            found.setdefault(relation.left + relation.symbols, relation)
+            taken = rate_taken(drawing, step) if relation.symbols else ""
+            found.setdefault(relation.left + relation.symbols, (taken, relation))
     return list(found.values())
 
 
@@ -44,6 +45,16 @@ def of_step(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
             yield turned(drawing, step, "a", "ε")
         case "driven-slide" if not tried:
             yield given_along(drawing, number, step, "v" if velocity else "a")
+
+
+def rate_taken(drawing: Drawing, step: Step) -> str:
+    """The symbol of the rate of this sheet by which a step computes its vector."""
+    match step.action.key if step.action else "":
+        case "turned-velocity":
+            return rate_symbol(drawing, step.args[3])
+        case "driven-tangential":
+            return rate_symbol(drawing, step.args[3], "ε")
+    return ""
 
 
 def is_pin_of_driver(drawing: Drawing, step: Step, rate: int) -> bool:

@@ -11,6 +11,7 @@ from zlib import crc32
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.marks import Page
+from graphkin.paper.style import Ink
 
 RESERVED = frozenset(
     ["CON", "PRN", "AUX", "NUL"] + [f"{port}{i}" for port in ("COM", "LPT") for i in range(10)]
@@ -40,7 +41,11 @@ def file_stem(name: str, settings: Mapping[str, str]) -> str:
 
 
 def rendered(
-    stem: str, kind: str, pages: Sequence[Page], formats: Sequence[str]
+    stem: str,
+    kind: str,
+    pages: Sequence[Page],
+    formats: Sequence[str],
+    ink: Ink = "colour",
 ) -> dict[str, bytes]:
     """The files of one sheet by name: an SVG for each drawing, one PDF for all its pages."""
     files: dict[str, bytes] = {}
@@ -49,11 +54,11 @@ def rendered(
 
         for number, page in enumerate(pages, 1):
             tail = f"-{number}" if len(pages) > 1 else ""
-            files[f"{stem}{tail}.svg"] = write_svg(page).encode("utf-8")
+            files[f"{stem}{tail}.svg"] = write_svg(page, ink).encode("utf-8")
     if "pdf" in formats:
         from graphkin.paper.pdf import write_pdf
 
-        files[f"{stem}.pdf"] = write_pdf(pages, title=pages[0].title)
+        files[f"{stem}.pdf"] = write_pdf(pages, ink, title=pages[0].title)
     return files
 
 

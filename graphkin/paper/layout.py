@@ -13,7 +13,7 @@ from math import degrees
 from typing import Any
 
 from graphkin.errors import PageError, Problem
-from graphkin.paper.areas import AREA, MARGIN, WIDTH, Rect
+from graphkin.paper.areas import AREA, HEIGHT, MARGIN, WIDTH, Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field
 from graphkin.paper.scale import Extent
@@ -51,7 +51,7 @@ def lay_out(drawing: Drawing) -> Layout:
     wider = with_poles(drawing, mechanism, mm, left)
     seconds = drawing.scales.seconds ** (1 if drawing.plane is Plane.VELOCITIES else 2)
     fields = Layout(
-        Field(left, mm, wider.middle, centre(left)),
+        Field(left, mm, wider.middle, raised(left, wider.height * mm - HEIGHT)),
         Field(right, mm * seconds, plan.middle / seconds, centre(right)),
         {},
     )
@@ -78,6 +78,15 @@ def shared_width(mechanism: float, plan: float) -> float:
 def centre(rect: Rect) -> tuple[float, float]:
     """The middle of a rectangle."""
     return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
+
+
+def raised(rect: Rect, excess: float) -> tuple[float, float]:
+    """The middle of a field, higher where a drawing takes up some of the margin above it.
+
+    Fixed pivots need the margin below for their ground.
+    """
+    x, y = centre(rect)
+    return x, y - max(excess, 0.0) / 2
 
 
 def with_poles(drawing: Drawing, extent: Extent, mm: float, rect: Rect) -> Extent:

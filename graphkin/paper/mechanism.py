@@ -119,7 +119,8 @@ def draw_track_line(board: Board, drawing: Drawing, field: Field, link: Link) ->
 def draw_line(board: Board, field: Field, line: tuple[complex, complex], name: str) -> None:
     """A line across the field, chain-dotted."""
     start, along = line
-    part = clipped(*stretched(field(start), field(start + along)), field.rect)
+    seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
+    part = clipped(*stretched(field(start), field(seen)), field.rect)
     if part:
         board.marks.append(Line(*part[0], *part[1], "centre-line", name))
 

@@ -38,6 +38,8 @@ def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
 def segment_of(drawing: Drawing, step: Step) -> str:
     """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
     ends = [drawing.trace.program.steps[arg].name for arg in step.args]
+    if step.action is None or step.action.key != "join":
+        return ""  # a component, whose corner has no letter
     return "".join(symbol(end) for end in ends) if all(ends) else ""
 
 

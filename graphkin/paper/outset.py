@@ -11,6 +11,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.rates import of_sum
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.richtext import escape
+from graphkin.paper.settings import lone
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import sense
 from graphkin.scene.model import FRAME, Driver
@@ -26,8 +27,13 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
     words, scene = drawing.words, drawing.scene
     index = f"_{{{driver_index(driver)}}}"
     angle, speed = angle_symbol(scene, driver), speed_letter(driver)
-    for letter, quantity in ((angle, driver.position), (f"{speed}{index}", driver.speed)):
-        if quantity.uses():
+    rate = "*ε*" if driver.kind == "turn" else "*a*"
+    for letter, quantity in (
+        (angle, driver.position),
+        (f"{speed}{index}", driver.speed),
+        (f"{rate}{index}", driver.acceleration),
+    ):
+        if quantity.uses() and not lone(scene, quantity):
             value = written(scene, words, quantity)
             amount, _, unit = value.partition(" ")
             derived = "/dt" in quantity.text  # figures are put in only after it is derived
@@ -53,20 +59,22 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
             sense(words, omega),
         )
     elif driver.speed.unit == "deg/s":
-        degrees = words.decimal(driver.speed.written(scene.values).lstrip("-"))
-        yield Relation(
-            f"*ω*{index}",
-            "",
-            f"π·{degrees}/180",
-            figure(drawing, abs(omega), OMEGA),
-            "rad/s",
-            sense(words, omega),
-        )
+        yield in_radians(drawing, f"*ω*{index}", driver.speed, "rad/s")
+    if driver.acceleration.unit == "deg/s²" and not driver.acceleration.is_zero():
+        yield in_radians(drawing, f"*ε*{index}", driver.acceleration, "rad/s^2")
     if driver.against == FRAME:
         for p, q in driven_bars(drawing, driver):
             yield from of_pin(drawing, driver, p, q)
     if drawing.kind == "velocity":
         yield from of_sum(drawing, driver)
+
+
+def in_radians(drawing: Drawing, name: str, quantity: Quantity, unit: str) -> Relation:
+    """A rate that is given in degrees, with its sense."""
+    degrees = drawing.words.decimal(quantity.written(drawing.scene.values).lstrip("-"))
+    rate = float(quantity.si(drawing.scene.values))
+    size = figure(drawing, abs(rate), OMEGA)
+    return Relation(name, "", f"π·{degrees}/180", size, unit, sense(drawing.words, rate))
 
 
 def speed_letter(driver: Driver) -> str:
@@ -123,7 +131,7 @@ def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relatio
 
 def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
     """The text of a quantity as markup, its parameters as symbols or as figures."""
-    text = quantity.text.replace("**", "^")
+    text = re.sub(r"^d\(d\((.*)\)/dt\)/dt$", r"d**2(\1)/dt**2", quantity.text).replace("**", "^")
     known = drawing.scene.values
 
     def replaced(match: re.Match[str]) -> str:

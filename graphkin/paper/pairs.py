@@ -9,7 +9,9 @@ from math import degrees
 from graphkin.paper.amounts import written
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.richtext import escape
+from graphkin.paper.settings import after_parameter
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.scene.contacts import contact_letters
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.text import MINUS, Words
@@ -99,8 +101,8 @@ def of_wheel(scene: Scene, words: Words, wheel: Wheel) -> dict[str, str]:
     assert wheel.radius is not None
     fields = {"centre": symbol(wheel.centre)}
     if wheel.teeth is None:
-        return {**fields, "radius": written(scene, words, wheel.radius)}
-    teeth = wheel.teeth.written(scene.values)
+        return {**fields, "radius": after_parameter(scene, words, wheel.radius, "r")}
+    teeth = after_parameter(scene, words, wheel.teeth, "z")
     return {**fields, "teeth": teeth, "module": module(scene, words, wheel)}
 
 
@@ -117,10 +119,12 @@ def link_name(words: Words, name: str) -> str:
 
 
 def tracks(scene: Scene, words: Words) -> Iterator[str]:
-    """What rolls on what, and the start from which it counts; then that there is no slip."""
+    """What rolls on what in which point, and the start it counts from; that there is no slip."""
+    letters = contact_letters(scene)
     for link in scene.links.values():
-        for rolling in link.rolls:
+        for rolling, letter in zip(link.rolls, letters.get(link.name, ()), strict=True):
             fields = {"k": escape(link.name), "start": start_of(scene, words, link, rolling)}
+            fields["touch"] = symbol(letter)
             if rolling.angle is None:
                 toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
                 key = ROLLS[rolling.on == FRAME, toothed]

@@ -38,6 +38,8 @@ FOLLOWING = (
     "lay-off-coriolis",
 )
 """Those of them that begin where another one ended."""
+COMPONENTS = ("lay-off", "lay-off-coriolis", "lay-back-coriolis")
+"""Those that lay off a component of an acceleration."""
 WHOLE = (
     "acceleration-pole",
     "beside",
@@ -71,12 +73,24 @@ def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
     step = drawing.trace.program.steps[number]
     if step.action is None or step.action.key not in LINES or step.name:
         return
+    if is_nought(drawing, number):
+        return
     if step.plane is not plane or is_lever(drawing, number):
         return
     if step.action.key in FOLLOWING:
         for arg in step.args:
             yield from clauses(drawing, arg, plane)
     yield phrase(drawing, step, step.name, step)
+
+
+def is_nought(drawing: Drawing, number: int) -> bool:
+    """True for a component that is nought where it is laid off from a named point: not drawn."""
+    step = drawing.trace.program.steps[number]
+    if step.action is None or step.action.key not in COMPONENTS:
+        return False
+    if not drawing.trace.program.steps[step.args[0]].name:
+        return False
+    return drawn_between(drawing, step.args[0], number, step.plane) < NAUGHT
 
 
 def is_lever(drawing: Drawing, number: int) -> bool:
@@ -90,6 +104,9 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
     """The words of one step with the symbols of its names."""
     says = {**words_of.says, **step.says}
     fields = fields_of(drawing, step, says)
+    if step.action and step.action.key in FOLLOWING and is_nought(drawing, step.args[0]):
+        start = drawing.trace.program.steps[step.args[0]].args[0]
+        fields["s"] = symbol(drawing.trace.program.steps[start].name)
     key = key_of(drawing, step, words_of, fields)
     return drawing.words(f"step.{key}", **{"name": symbol(name), **fields})
 
@@ -153,6 +170,8 @@ def is_tried(step: Step) -> bool:
 def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     """The key of the sentence of a step that draws a plan."""
     number = drawing.number_of(step)
+    if key in ("square-to", "parallel-to") and is_nought(drawing, step.args[0]):
+        return key
     if key == "square-to" and step.plane is Plane.ACCELERATIONS:
         return "square-to-end"
     if key == "along-bar":

@@ -13,6 +13,7 @@ from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import sense
 from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.program import Step
+from graphkin.text import MINUS
 
 SUMS = {"sum": "+", "difference": "−"}
 """Rates that follow from two others."""
@@ -21,7 +22,25 @@ FINE = 6
 
 
 def of_turning(drawing: Drawing) -> Iterator[Relation]:
-    """Angular velocities or accelerations: relative motion over length, with the sense."""
+    """Angular velocities or accelerations: relative motion over length, with the sense.
+
+    A link that turns as another does comes after that one.
+    """
+    found = list(of_links(drawing))
+    names = {relation.left for relation in found}
+    waiting: list[Relation] = []
+    for relation in found:
+        names.discard(relation.left)
+        if relation.symbols in names:
+            waiting.append(relation)
+            continue
+        yield relation
+        yield from (other for other in waiting if other.symbols == relation.left)
+    yield from of_gears(drawing)
+
+
+def of_links(drawing: Drawing) -> Iterator[Relation]:
+    """The rate of each link by the step that gives it, in the order of the links."""
     key, letter, unit = rate_of(drawing)
     program = drawing.trace.program
     for link in drawing.scene.links:
@@ -38,7 +57,6 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
             yield by_bar(drawing, step, name, tail)
         elif action == "between":
             yield by_trials(drawing, step, name, letter, tail)
-    yield from of_gears(drawing)
 
 
 def rate_of(drawing: Drawing) -> tuple[str, str, str]:
@@ -51,8 +69,11 @@ def rate_of(drawing: Drawing) -> tuple[str, str, str]:
 def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) -> Relation:
     """A rate from the relative motion of two points of the link."""
     p, q = step.says["p"], step.says["q"]
-    index = q if p in drawing.scene.frame.points else q + p
-    relative = symbol(f"v_{index}" if drawing.kind == "velocity" else f"a_{index}^τ")
+    indices = [q] if p in drawing.scene.frame.points else [q + p, p + q]
+    form = "v_{}" if drawing.kind == "velocity" else "a_{}^τ"
+    drawn = {step.says["symbol"] for _, step, _ in drawing.steps(drawing.plane) if step.arrow}
+    vectors = [form.format(index) for index in indices]
+    relative = symbol(next((vector for vector in vectors if vector in drawn), vectors[0]))
     length = length_of(drawing, p, q)
     size = abs(float(drawing.trace.values[drawing.number_of(step)])) * length
     size = 0.0 if drawing.turning(step.name) == 0 else size
@@ -66,11 +87,12 @@ def by_trials(
     """A rate that was tried itself, divided as every line of the two trials is."""
     first, second, share = (float(drawing.trace.values[arg]) for arg in step.args)
     figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
-    figures += f"({figure(drawing, second, FINE)} − {figure(drawing, first)})"
+    figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
     whole = f"*{letter}*^1 + *λ*·(*{letter}*^2 − *{letter}*^1)"
+    result, unit, turning = tail
     if first + share * (second - first) < 0:
-        return Relation(name, whole, "", *tail)
-    return Relation(name, whole, figures, *tail)
+        result = f"{MINUS}{result}"
+    return Relation(name, whole, figures, result, unit, turning)
 
 
 def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:

@@ -12,7 +12,10 @@ DIGITS = 5
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """left = symbols = figures = result unit, remark; ``more`` are further words after ``left``."""
+    """left = symbols = figures = result unit, remark; ``more`` are further words after ``left``.
+
+    ``equals``: what stands before a result, nothing where it is said in words.
+    """
 
     left: str
     symbols: str = ""
@@ -21,6 +24,7 @@ class Relation:
     unit: str = ""
     remark: str = ""
     more: tuple[str, ...] = ()
+    equals: str = "="
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""
@@ -33,7 +37,7 @@ class Relation:
             return [*pieces, "="]
         if self.figures:
             pieces.append(f"= {self.figures}")
-        pieces.append(f"= {self.result} {self.unit}".rstrip())
+        pieces.append(f"{self.equals} {self.result} {self.unit}".strip())
         if self.remark:
             pieces.append(f"({self.remark})")
         return pieces

@@ -37,31 +37,47 @@ def relations(drawings: Sequence[Drawing]) -> list[Section]:
 
 def sections_of(drawing: Drawing) -> list[Section]:
     """The sections of one sheet."""
+    plan = list(of_plan(drawing))
+    turning = [relation for relation in of_turning(drawing) if relation not in plan]
     if drawing.kind == "velocity":
         return [
-            ("velocities", list(of_plan(drawing))),
-            ("turning", list(of_turning(drawing))),
+            ("velocities", plan),
+            ("turning", turning),
             ("slides", list(of_slides(drawing))),
             ("centres", list(of_centres(drawing))),
         ]
     return [
         ("normals", list(of_normals(drawing))),
         ("coriolis_components", list(of_coriolis(drawing))),
-        ("accelerations", list(of_plan(drawing))),
-        ("spinning", list(of_turning(drawing))),
+        ("accelerations", plan),
+        ("spinning", turning),
         ("slides", list(of_slides(drawing))),
         ("poles", list(of_centres(drawing))),
     ]
 
 
-def of_plan(drawing: Drawing) -> Iterator[Relation]:
-    """What a plan is drawn from, and what is read off it."""
+def of_plan(drawing: Drawing) -> list[Relation]:
+    """What a plan is drawn from, and what is read off it, each before it is used, and once."""
+    found: list[Relation] = []
     if drawing.kind == "acceleration":
         for driver in drawing.scene.drivers:
-            yield from of_sum(drawing, driver)
-    yield from of_equations(drawing)
-    yield from of_trials(drawing)
-    yield from read_off(drawing)
+            found += of_sum(drawing, driver)
+    for rate, relation in of_equations(drawing):
+        found += before_use(drawing, rate)
+        found.append(relation)
+    found += [*of_trials(drawing), *read_off(drawing)]
+    return list(dict.fromkeys(found))
+
+
+def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
+    """How a rate is found by which a vector is computed, and what is read off for it."""
+    for relation in of_turning(drawing):
+        if relation.left == rate:
+            if "*λ*" in relation.symbols:
+                yield from of_trials(drawing)
+            yield from before_use(drawing, relation.symbols)
+            yield from (r for r in read_off(drawing) if relation.symbols.startswith(f"{r.left}/"))
+            yield relation
 
 
 def data_line(drawing: Drawing) -> Relation:
@@ -148,8 +164,10 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
             continue
         point = drawing.place(value)
         if point is None:
-            key = "everywhere" if drawing.is_everywhere(value) else "at_infinity"
-            yield Relation(symbol(step.name), result=drawing.words(f"calculation.{key}"))
+            everywhere = drawing.is_everywhere(value)
+            key, equals = ("everywhere", "=") if everywhere else ("at_infinity", "")
+            said = drawing.words(f"calculation.{key}")
+            yield Relation(symbol(step.name), result=said, equals=equals)
         else:
             x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
             yield Relation(symbol(step.name), result=f"({x}; {y})", unit=unit, remark=axes)

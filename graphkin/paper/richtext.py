@@ -1,8 +1,8 @@
 r"""A tiny markup for formulas and labels, laid out into runs at absolute places.
 
 ``*v*`` is italic, ``_{BA}`` or ``_2`` a subscript, ``^{ν}`` or ``^2`` a superscript; a subscript
-and a superscript directly after one another start at the same place. A backslash takes the next
-sign as it is.
+and a superscript directly after one another start at the same place, but an exponent stands after
+an index of more than two signs. A backslash takes the next sign as it is.
 """
 
 from __future__ import annotations
@@ -16,8 +16,13 @@ from graphkin.errors import PageError, Problem
 from graphkin.paper.glyphs import advance, ink, known, size_for
 
 SUB, SUP, SMALL = 0.24, -0.48, 0.70  # em: shifts (y down) and size of scripts
+STACKED = 2
+"""Signs of the longest index above which an exponent may stand."""
 SPECIAL = "\\*_^{}"
 TOKEN = re.compile(r"[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|.", re.DOTALL)
+UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
+GAP = re.compile(rf"(?<![=⊥∥]) (?!=)(?!(?<=[\d}}] )(?:{UNITS}))")
+"""Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥ and ∥."""
 WORDS = re.compile(r"[^ ]+(?: [^ ]+)* ?")
 
 
@@ -100,17 +105,20 @@ def laid(markup: str, height: float) -> tuple[tuple[Run, ...], float]:
     x = 0.0  # where the next piece on the line starts
     ends = {-1: 0.0, 1: 0.0}  # where each script ends
     start = 0.0  # where scripts start
+    index = ""  # the subscript that they begin with
     found: list[Run] = []
     for text, italic, level in pieces(markup):
         size = full * SMALL if level else full
         if level:
-            begin = max(start, ends[level])
+            index = text if level < 0 else index
+            after = level > 0 and text.isdigit() and len(index) > STACKED
+            begin = max(start, ends[-1 if after else level])
             ends[level] = begin + advance(text, italic) * size
             x = max(x, ends[level])
         else:
             begin = x
             x = start = begin + advance(text, italic) * size
-            ends = {-1: start, 1: start}
+            ends, index = {-1: start, 1: start}, ""
         found.append(Run(text, begin, shift[level], size, italic))
     return tuple(found), x
 
@@ -154,6 +162,11 @@ def extent(markup: str, height: float) -> tuple[float, float, float]:
             tops.append(run.y - found[1] * run.size)
             bottoms.append(run.y - found[0] * run.size)
     return width, min(tops, default=0.0), max(bottoms, default=0.0)
+
+
+def words_of(markup: str) -> list[str]:
+    """Pieces of markup between which a line may end: a number stays with its unit."""
+    return GAP.split(markup)
 
 
 def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:

@@ -13,6 +13,9 @@ from math import floor, log10
 from graphkin.errors import PageError, Problem
 
 STEPS = (1.0, 2.0, 5.0)
+"""First digits of preferred scales."""
+FINE = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
+"""First digits of scale factors that are round enough where the preferred ones lie far apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,11 +23,13 @@ class Scales:
     """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper).
 
     ``from_driver``: kv follows from the one crank that drives, so that a student can find it.
+    ``triangles``: Coriolis components are drawn by similar triangles, else computed.
     """
 
     kL: float  # noqa: N815
     seconds: float
     from_driver: bool = True
+    triangles: bool = True
 
     @property
     def kv(self) -> float:
@@ -77,11 +82,11 @@ def extent_of(points: Sequence[complex]) -> Extent:
     return Extent(min(xs), min(ys), max(xs), max(ys))
 
 
-def preferred(smallest: float) -> Iterator[float]:
+def preferred(smallest: float, digits: Sequence[float] = STEPS) -> Iterator[float]:
     """The preferred numbers 1, 2, 5 times a power of ten, upwards from one not less than given."""
     power = floor(log10(smallest)) if smallest > 0 else 0
     while True:
-        for step in STEPS:
+        for step in digits:
             number = step * 10.0**power if power >= 0 else step / 10.0**-power
             if number >= smallest * (1 - 1e-12):
                 yield number

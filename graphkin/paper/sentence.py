@@ -8,15 +8,29 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Sentence:
-    """A sentence of the construction with the number of the step that it ends with."""
+    """A sentence of the construction with the number of the step that it ends with.
+
+    ``steps`` are all the steps that it speaks of, where it stands for several sentences.
+    """
 
     step: int
     name: str
     markup: str
+    steps: tuple[int, ...] = ()
+
+    @property
+    def all_steps(self) -> tuple[int, ...]:
+        """The steps that it speaks of; none where it speaks of no single one."""
+        return self.steps or ((self.step,) if self.step >= 0 else ())
+
+
+def in_one(some: Sequence[Sentence], name: str, markup: str) -> Sentence:
+    """Several sentences said in one."""
+    return Sentence(some[-1].step, name, markup, tuple(n for said in some for n in said.all_steps))
 
 
 def together(found: list[Sentence], some: Sequence[Sentence], markup: str) -> list[Sentence]:
     """Several sentences said in one, at the place of the first of them."""
     place = found.index(some[0])
     kept = [said for said in found if said not in some]
-    return [*kept[:place], Sentence(some[-1].step, some[-1].name, markup), *kept[place:]]
+    return [*kept[:place], in_one(some, some[-1].name, markup), *kept[place:]]

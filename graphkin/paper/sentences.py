@@ -11,7 +11,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import amount, height_above, plan_amount, rate_symbol, vector_of
 from graphkin.paper.phrases import SWINGS, point_sentence
 from graphkin.paper.richtext import escape
-from graphkin.paper.sentence import Sentence, together
+from graphkin.paper.sentence import Sentence, in_one, together
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.trials import share_sentence, trial_sentence, with_trials_together
 from graphkin.steps.program import Part, Plane, Step
@@ -208,4 +208,4 @@ def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
     if not firsts:
         return together(found, rest, tail)
     place = firsts[0] + 1
-    return [*kept[:place], Sentence(rest[-1].step, "ν", tail), *kept[place:]]
+    return [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]

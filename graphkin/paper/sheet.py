@@ -9,6 +9,7 @@ from graphkin.paper.data import given
 from graphkin.paper.desk import Desk, above_foot
 from graphkin.paper.detail import with_detail
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.flattest import flattest_line
 from graphkin.paper.frame import TitleBlock, check_bar, sheet_frame
 from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
@@ -16,7 +17,7 @@ from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
-from graphkin.paper.richtext import escape, extent, flowed
+from graphkin.paper.richtext import escape, extent, flowed, words_of
 from graphkin.paper.sentences import sentences
 from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import symbol
@@ -41,12 +42,20 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
         *heading(drawing),
         *mechanism_marks(drawing, layout, view),
         *plan,
-        Line(layout.plan.rect[0], AREA[1] - 6, layout.plan.rect[0], AREA[3] - 2, "panel"),
-        Line(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
+        *panels(layout),
         *below(drawing, view),
     ]
     title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
     return Page(420, 297, tuple(marks), title, drawing.words.language)
+
+
+def panels(layout: Layout) -> list[Mark]:
+    """The lines between the mechanism, the plan and what stands below them."""
+    x = layout.plan.rect[0]
+    return [
+        Line(x, AREA[1] - 6, x, AREA[3] - 2, "panel"),
+        Line(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
+    ]
 
 
 def title_of(drawing: Drawing) -> str:
@@ -195,6 +204,8 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
     worst = words.significant(drawing.verdict.largest_difference, 2)
     text = words("page.verified", difference=worst)
     marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
+    if view == "key":
+        marks += flattest_line(drawing, left + extent(text, 1.8)[0])
     return marks
 
 
@@ -213,6 +224,7 @@ def asked(drawing: Drawing) -> list[str]:
         "epsilon": () if first else ask.epsilon,
         "poles": () if first else ask.poles,
         "inflection": () if first else ask.inflection,
+        f"slides_{drawing.kind}": ask.slides,
     }
     return [
         words(
@@ -231,7 +243,7 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
         lines = [
             (number if i == 0 else "", line)
             for number, sentence in enumerate(said, 1)
-            for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width - 7, height))
+            for i, line in enumerate(flowed(words_of(sentence.markup), " ", width - 7, height))
         ]
         if y + (len(lines) - 1) * leading <= bottom:
             break

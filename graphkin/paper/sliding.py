@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import rate_symbol, way_of
+from graphkin.paper.naming import rate_symbol
 from graphkin.paper.relation import Relation, answer, figure, length_of
-from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.tables import slid, slide_sense
 from graphkin.steps.program import Plane, Step
 
 
@@ -62,20 +62,8 @@ def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
 
 def of_slides(drawing: Drawing) -> Iterator[Relation]:
     """The motion of each block that is asked, along its guide: in its sense or against it."""
-    velocity = drawing.kind == "velocity"
-    what, letter = ("slide speed", "v") if velocity else ("slide acceleration", "a")
-    for block in drawing.scene.ask.slides:
-        value = drawing.trace.value(what, block)
-        if value is None:
-            continue
-        link = drawing.scene.links[block]
-        size = drawing.settled(abs(float(value)))
-        key = "forward" if value > 0 else "backward"
-        yield Relation(
-            f"*{letter}*_{{{escape(block)}/{escape(link.slides[0].on)}}}",
-            "",
-            "",
-            answer(drawing, size),
-            "m/s" if velocity else "m/s^2",
-            drawing.words(f"calculation.{key}", guide=way_of(drawing, block)) if size else "",
-        )
+    unit = "m/s" if drawing.kind == "velocity" else "m/s^2"
+    for block, name, value in slid(drawing):
+        size = drawing.settled(abs(value))
+        remark = slide_sense(drawing, block, value) if size else ""
+        yield Relation(name, "", "", answer(drawing, size), unit, remark)

@@ -23,6 +23,10 @@ LIGHT = "#e9edf2"
 PALE = "#f5f6f8"
 WHITE = "#ffffff"
 NEXT = ""  # the colour of the mark's next class
+NOW = "now"
+"""The class of what the sentence of a step page draws."""
+STRONGER = 0.2
+"""How much wider its lines are, in mm."""
 
 DASHED = (2.4, 0.8)
 CHAIN = (5.0, 0.8, 0.4, 0.8)
@@ -122,6 +126,9 @@ def style_of(cls: str, ink: Ink = "colour") -> Style:
     colours = (STYLES[name].colour for name in names if name in STYLES)
     colour = next((found for found in colours if found), BLACK)
     fill = colour if first.fill == "ink" else first.fill
+    if NOW in names:
+        colour = BLACK if colour == GREY else colour
+        first = replace(first, width=first.width + STRONGER if first.width else 0)
     if ink == "black":
         colour, fill = black(colour), black(fill) if fill == colour else fill
     return replace(first, colour=colour, fill=fill)

@@ -25,7 +25,7 @@ def symbol(name: str) -> str:
     times, letter, index, prime = found.group("times", "letter", "index", "prime")
     sub, sup, tag = found.group("sub", "sup", "tag")
     apart = "," if index and sub and sub[0].isdigit() else ""
-    scripts = f"{index}{apart}{sub or ''}"
+    scripts = f"{index}{apart}{sub or ''}".removeprefix(",")
     low = f"_{{{escape(scripts)}}}" if scripts else ""
     high = f"^{{{sup}}}" if sup else "^{IV}" if prime == FOURTH else TAGS.get(tag, "")
     return f"{times}*{letter}*{'' if prime == FOURTH else prime}{low}{high}"

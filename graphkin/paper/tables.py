@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Line, Mark, Text, box
-from graphkin.paper.naming import segment_of
-from graphkin.paper.richtext import extent
+from graphkin.paper.naming import segment_of, way_of
+from graphkin.paper.richtext import escape, extent
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Vector
 from graphkin.text import Words
 
 ROW = 4.7
 HEIGHT, SMALL = 2.5, 1.8
+VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12, 12, 32)
+"""Widths of the columns of the tables, in mm."""
+BETWEEN, APART = 3, 0.6
+"""Room between tables beside one another, in mm, and below one another, in rows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +65,36 @@ def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
         cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))
         rows.append(Row((symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
     return rows
+
+
+def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
+    """One row for the motion of each block that is asked along its guide."""
+    words = drawing.words
+    rows = []
+    for block, name, value in slid(drawing):
+        cells = ("", "")
+        if not empty:
+            size = drawing.settled(abs(value))
+            cells = (words.significant(size), slide_sense(drawing, block, value) if size else "")
+        rows.append(Row((name, *cells), f"slide {block}"))
+    return rows
+
+
+def slid(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
+    """What is asked of blocks on this sheet: block, symbol, and value along the guide."""
+    velocity = drawing.kind == "velocity"
+    what, letter = ("slide speed", "v") if velocity else ("slide acceleration", "a")
+    for block in drawing.scene.ask.slides:
+        value = drawing.trace.value(what, block)
+        if value is not None:
+            on = drawing.scene.links[block].slides[0].on
+            yield block, f"*{letter}*_{{{escape(block)}/{escape(on)}}}", float(value)
+
+
+def slide_sense(drawing: Drawing, block: str, value: float) -> str:
+    """The words for the sense of a motion along a guide."""
+    key = "forward" if value > 0 else "backward"
+    return drawing.words(f"calculation.{key}", guide=way_of(drawing, block))
 
 
 def sense(words: Words, value: Any) -> str:
@@ -113,22 +147,36 @@ def cells(
 
 
 def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
-    """The vectors in one or two blocks, the angular values in a block of their own."""
+    """The vectors in one or two blocks, then the angular values, then what slides."""
     words = drawing.words
     unit = words(f"table.{drawing.kind}")
     head = Row((words("table.symbol"), words("table.segment"), words("table.millimetres"), unit))
     spin = "omega" if drawing.kind == "velocity" else "epsilon"
     turn_head = Row((words("table.symbol"), words(f"table.{spin}"), words("table.sense")))
+    slide_head = Row((words("table.symbol"), unit, words("table.sense")))
     rows, turns = vector_rows(drawing, empty=empty), turning_rows(drawing, empty=empty)
+    sliding = slide_rows(drawing, empty=empty)
     room = int((rect[3] - rect[1]) / ROW) - 1
     blocks = [rows[i : i + room] for i in range(0, len(rows), room)]
     marks: list[Mark] = []
     x = rect[0]
     for block in blocks:
-        marks += table(x, rect[1], (14, 14, 12, 16), head, block)
-        x += 56 + 3
-    left = room - len(blocks[-1]) - 1 if blocks else room
-    below = len(blocks) > 1 and left > len(turns)
-    top = rect[1] + ROW * (len(blocks[-1]) + 1.6) if below else rect[1]
-    marks += table(x - 59 if below else x, top, (13, 14, 33), turn_head, turns) if turns else []
-    return marks
+        marks += table(x, rect[1], VECTORS, head, block)
+        x += sum(VECTORS) + BETWEEN
+    used = float(len(blocks[-1]) + 1 if blocks else room + 1)
+    below = len(blocks) > 1 and room - used > len(turns)
+    if below or not turns:
+        x, used = x - sum(VECTORS) - BETWEEN, used + APART
+    else:
+        used = 0.0
+    if turns:
+        marks += table(x, rect[1] + used * ROW, TURNS, turn_head, turns)
+        used += len(turns) + 1 + APART
+    if not sliding:
+        return marks
+    if (used + len(sliding) + 1) * ROW > rect[3] - rect[1]:
+        if below:
+            x, used = x + sum(TURNS) + BETWEEN, 0.0
+        else:
+            x, used = x - sum(VECTORS) - BETWEEN, len(blocks[-1]) + 1 + APART
+    return [*marks, *table(x, rect[1] + used * ROW, SLID, slide_head, sliding)]

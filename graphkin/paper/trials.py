@@ -8,8 +8,9 @@ from graphkin.paper.drawing import TAGS, Drawing
 from graphkin.paper.naming import plan_amount, way_of
 from graphkin.paper.phrases import point_sentence
 from graphkin.paper.relation import figure
-from graphkin.paper.sentence import Sentence, together
+from graphkin.paper.sentence import Sentence, in_one, together
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.tables import sense
 from graphkin.steps.program import Step
 
 RATE_AT = {"turned-velocity": 3, "driven-tangential": 3, "driven-slide": 2}
@@ -48,7 +49,9 @@ def tried(drawing: Drawing, named: list[int]) -> tuple[str, str]:
                 unit = "m/s" if velocity else "m/s^2"
                 return symbol(f"{letter}_{step.says['q']}"), quantity(drawing, size, unit)
             letter, unit = ("ω", "rad/s") if velocity else ("ε", "rad/s^2")
-            return symbol(f"{letter}_{step.says['k']}"), quantity(drawing, size, unit)
+            turning = quantity(drawing, abs(size), unit)
+            turning += f" {sense(drawing.words, size)}" if size else ""
+            return symbol(f"{letter}_{step.says['k']}"), turning
     return "", ""
 
 
@@ -94,7 +97,7 @@ def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
     markup = drawing.words("step.divided-alike", list=listed)
     kept = [said for said in found if said not in divided]
     place = max(i for i, said in enumerate(kept) if is_divided(drawing, said, hand=True)) + 1
-    return [*kept[:place], Sentence(divided[-1].step, "divided", markup), *kept[place:]]
+    return [*kept[:place], in_one(divided, "divided", markup), *kept[place:]]
 
 
 def is_divided(drawing: Drawing, said: Sentence, *, hand: bool) -> bool:

@@ -32,6 +32,11 @@ class TrialPen(Pen):
             self.inputs[self.shared[key]] = number
         return self.shared[key]
 
+    def keep_inputs(self, *results: int | None) -> None:
+        """Let go of the inputs that neither a step nor a result uses, such as a driver's speed."""
+        used = {*results, *(arg for step in self.steps for arg in step.args)}
+        self.inputs = {own: known for own, known in self.inputs.items() if own in used}
+
     def peek(self, number: int) -> Any:
         """Value of a step at the scene's own numbers; None where it hangs on what is tried."""
         for step, known in self.inputs.items():

@@ -16,11 +16,13 @@ from graphkin.plans.coriolis import guide_corner
 from graphkin.plans.guides import known_guide
 from graphkin.plans.higher import Each, cut_at, slide_of
 from graphkin.plans.links import bases, ending
-from graphkin.plans.normals import lay_off_normal, normal_component, square
-from graphkin.plans.pen import Pen, Says, image, named, second_image
+from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
+from graphkin.plans.pen import Pen, Says, about, image, letter, named, second_image
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.closing import (
+    after_component,
+    along_component,
     between,
     far,
     inverse,
@@ -32,7 +34,7 @@ from graphkin.steps.closing import (
     share,
 )
 from graphkin.steps.program import Part, Plane, Target
-from graphkin.steps.vocabulary import meet, part_along
+from graphkin.steps.vocabulary import distance, meet, part_along, sum_of
 from graphkin.structure.graph import Pin, Sliding
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.joints import partner
@@ -67,7 +69,8 @@ def two_trials(pen: Pen, shapes: Shapes, group: Higher, each: Each, kind: Kind) 
     """Two wrong plans give the right one: what is missed is linear in what is tried."""
     layers, misses = [], []
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        values = pen.given("nought"), trial_value(pen, group, kind)
+        at_rest = pen.given("nought", name=f"{kind.rate} tried of {group.trial.link}")
+        values = at_rest, trial_value(pen, group, kind)
     for tag, value in zip("¹²", values, strict=True):
         with pen.trial(tag) as layer:
             move_trial(pen, shapes, group, kind, value)
@@ -76,9 +79,11 @@ def two_trials(pen: Pen, shapes: Shapes, group: Higher, each: Each, kind: Kind) 
             misses.append(missed(pen, shapes, group, kind))
         layers.append(layer)
     with pen.on(kind.part, Plane.NUMBERS):
-        says: Says = {"k": group.trial.link, **cut_at(group.last)}
+        says: Says = {"k": group.trial.link, "tried": "{} {}".format(*values), **cut_at(group.last)}
         divided = pen.draw(share, *misses, **says)
     settle(pen, group, kind, layers, divided)
+    if kind is ACCELERATION:
+        components(pen, group, layers[1])
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))
     for link in group.links:
@@ -86,13 +91,30 @@ def two_trials(pen: Pen, shapes: Shapes, group: Higher, each: Each, kind: Kind) 
 
 
 def trial_value(pen: Pen, group: Higher, kind: Kind) -> int:
-    """The second trial: as fast as the driver turns, or slides by a bar in that time."""
+    """The second trial: as fast as the driver turns, or slides by a bar in that time.
+
+    An acceleration is as large as the squares of that and of how fast the link has been found to
+    turn make it: a trial far too small misses nearly as much as none, and digits are lost. On paper
+    a round number takes its place (trial_rates).
+    """
     rate = pen.draw(inverse, pen.seconds())
+    turns = isinstance(group.trial.pair, Pin)
+    bar = None if turns else pen.draw(far, *places_of(pen, group))
     if kind is ACCELERATION:
-        rate = pen.draw(product, rate, rate)
-    if isinstance(group.trial.pair, Pin):
-        return rate
-    return pen.draw(product, rate, pen.draw(far, *places_of(pen, group)))
+        with pen.on(kind.part, Plane.NUMBERS):
+            own = omega_of(pen, group.trial.link) if bar is None else slid_rate(pen, group, bar)
+            squares = (pen.draw(product, each, each) for each in (rate, own))
+            rate = pen.draw(sum_of, *squares)
+    return rate if bar is None else pen.draw(product, rate, bar)
+
+
+def slid_rate(pen: Pen, group: Higher, bar: int) -> int:
+    """How fast the tried link slides or rolls on what is known, in bars a second."""
+    pair, point = group.trial.pair, pen.bases[group.trial.link].start
+    assert not isinstance(pair, Pin)
+    under = image_under(pen, partner(pair, group.trial.link), point)
+    speed = pen.draw(distance, under, pen.the("velocity", point))
+    return pen.draw(product, speed, pen.draw(inverse, bar))
 
 
 def places_of(pen: Pen, group: Higher) -> list[int]:
@@ -127,6 +149,8 @@ def missed(pen: Pen, shapes: Shapes, group: Higher, kind: Kind) -> int:
     last = group.last
     match last:
         case Tie(link, Pin(point=p), Pin(point=q)):
+            if (kind.quantity, q) not in (pen.layer or {}):
+                p, q = q, p  # about the end that is known, as the right plan is closed
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]
             wanted = pen.given("origin")
             if kind is ACCELERATION:
@@ -195,6 +219,9 @@ def settle(
     for point in settled:
         if "@" not in point:
             finish(pen, kind, point)
+    match group.last:
+        case Tie(_, Pin(point=p), Pin(point=q)) if kind is VELOCITY:
+            velocity_arrows(pen, *((q, p) if q in settled else (p, q)))
 
 
 def crossing(pen: Pen, group: Higher, kind: Kind, of: str, one: int, two: int) -> int | None:
@@ -215,6 +242,45 @@ def crossing(pen: Pen, group: Higher, kind: Kind, of: str, one: int, two: int) -
         return pen.draw(meet, line, square(pen, other, of, corner))
 
 
+def components(pen: Pen, group: Higher, second: dict[Target, int]) -> None:
+    """The arrows of normal and tangential components in the right plan.
+
+    The normal components are those of the trials, for they do not hang on what is tried.
+    """
+    base = pen.bases[group.trial.link]
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        if isinstance(group.trial.pair, Pin) and base.end is not None:
+            corner = pen.steps[second["acceleration", base.end]].args[0]
+            start, tip = (pen.the("acceleration", point) for point in (base.start, base.end))
+            component_arrow(pen, start, corner, "ν", base.end, base.start)
+            component_arrow(pen, corner, tip, "τ", base.end, base.start)
+        for pivot, pin, vector in normals_of(pen, group):
+            ends = pen.the("acceleration", pivot), pen.the("acceleration", pin)
+            index = about(pen, pin, pivot)
+            says: Says = {"q": letter(pin), "p": letter(pivot)}
+            for leg, sign in ((along_component, "ν"), (after_component, "τ")):
+                symbol = f"a_{index}^{sign}"
+                if symbol not in pen.arrows:
+                    pen.arrow(leg, *ends, vector, name=symbol, symbol=symbol, kind=sign, **says)
+
+
+def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:
+    """The normal components within a group, each with the pivot and the pin between which it is."""
+    return [
+        (key[1], key[2], vector)
+        for key, vector in pen.shared.items()
+        if key[0] == "normal"
+        and any({key[1], key[2]} <= points_on(pen, link) for link in group.links)
+        and all(pen.has("acceleration", point) for point in key[1:])
+    ]
+
+
+def points_on(pen: Pen, link: str) -> set[str]:
+    """The points of a link, and its point under another's if it is constructed by that."""
+    base = pen.bases.get(link)
+    return {*pen.scene.link(link).points, *([base.end] if base and base.end else [])}
+
+
 def own_rate(pen: Pen, link: str) -> bool:
     """Whether no two points of a link tell how it turns: the tried link with one pin."""
     base = pen.bases.get(link)
@@ -222,9 +288,12 @@ def own_rate(pen: Pen, link: str) -> bool:
 
 
 def finish(pen: Pen, kind: Kind, point: str) -> None:
-    """The arrow to a point of the right plan."""
+    """The arrows to a point of the right plan."""
     if kind is VELOCITY:
-        starts = {b.start for b in pen.bases.values() if point in (*b.others, b.end)}
-        velocity_arrows(pen, point, next(iter(sorted(starts)), None))
+        starts = {b.start for b in pen.bases.values() if point == b.end}
+        starts = starts or {b.start for b in pen.bases.values() if point in b.others}
+        pivots: list[str | None] = [*sorted(starts)]
+        for pivot in pivots or [None]:
+            velocity_arrows(pen, point, pivot)
     else:
         acceleration_arrow(pen, point)

@@ -96,6 +96,8 @@ def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages
             assert solved == blank
             continue
         symbols, dots, unit = re.fullmatch(r"(.*) =((?: \.){10,}) ?(.*)", blank).groups()
+        if solved == f"{symbols} at infinity":
+            continue
         assert solved.startswith(f"{symbols} = "), (solved, blank)
         unit, has_sense, sense = unit.partition(" (")
         assert bool(has_sense) is unit.startswith("rad/"), blank
@@ -146,7 +148,7 @@ def test_a_centre_at_infinity_is_said_in_words():
     lines = [line for number, line in relation_lines(calculations("parallelogram")) if number]
     centres = [line for line in lines if re.match(r"\*[IJ]\*_", line)]
     assert len(centres) == 2
-    assert all(line.endswith("= at infinity") for line in centres), centres
+    assert all(re.fullmatch(r"\*[IJ]\*_\S+ at infinity", line) for line in centres), centres
 
 
 def test_the_tangential_component_of_a_crank_that_speeds_up_follows_from_epsilon():

@@ -8,7 +8,8 @@ from math import hypot
 
 import pytest
 
-from graphkin.handout import curves_of, drawings_of, proved
+from graphkin.handout import drawings_of, proved
+from graphkin.loci import curves_of
 from graphkin.mechanism import Mechanism
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field

@@ -2,8 +2,8 @@ import pytest
 from reportlab.pdfbase.ttfonts import TTFont
 
 from graphkin.errors import PageError
-from graphkin.paper.glyphs import capital, font_file, measures
-from graphkin.paper.richtext import escape, extent, plain, runs, spaced_runs
+from graphkin.paper.glyphs import advance, capital, font_file, measures
+from graphkin.paper.richtext import escape, extent, plain, runs, spaced_runs, words_of
 
 
 def test_capitals_have_the_height_asked_for():
@@ -91,3 +91,32 @@ def test_the_sheets_signs_are_in_both_faces():
 def test_a_sign_without_a_glyph_is_refused_by_its_code():
     with pytest.raises(PageError, match=r"U\+6F22"):
         runs("漢", 2.5)
+
+
+def test_an_exponent_stands_after_a_long_index_and_above_a_short_one():
+    """Over the first letters of a word it would be read as theirs."""
+    for index, stacked in (("2", True), ("BA", True), ("coupler", False), ("B3A", False)):
+        _, low, high = runs(f"*ω*_{{{index}}}^2", 3.5)
+        assert (low.text, high.text) == (index, "2")
+        assert (high.x == low.x) is stacked
+        assert stacked or high.x > low.x + advance(index, False) * low.size * 0.99
+
+
+def test_the_sign_of_a_component_stands_above_any_index():
+    _, low, high = runs("*a*_{B3A}^{ν}", 3.5)
+    assert high.x == low.x
+
+
+def test_lines_do_not_end_between_a_number_and_its_unit_or_before_a_bar():
+    markup = "lay off *a* ⊥ *AB*, 12.3 mm, at 4.5 rad/s^2, *k* = 0.1 (m/s)/mm, 3·10^{−3} m"
+    assert words_of(markup) == [
+        "lay",
+        "off",
+        "*a*",
+        "⊥ *AB*,",
+        "12.3 mm,",
+        "at",
+        "4.5 rad/s^2,",
+        "*k* = 0.1 (m/s)/mm,",
+        "3·10^{−3} m",
+    ]

@@ -13,11 +13,14 @@ import shapely
 from graphkin.errors import PageError
 from graphkin.handout import hand_out
 from graphkin.mechanism import Mechanism
+from graphkin.paper.areas import TABLES
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text, reach
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import SHORT
+from graphkin.paper.tables import tables
 from graphkin.scene.read import read_text
+from graphkin.steps.program import Plane
 from tests.mechanisms import SHIPPED
 from tests.paper.sheet_tools import (
     DRAWN,
@@ -28,6 +31,7 @@ from tests.paper.sheet_tools import (
     attempt,
     both,
     calculations,
+    drawing_of,
     drawn,
     half_width,
     is_label,
@@ -370,3 +374,44 @@ centres = [2]
     ways = [complex(ray.x2 - ray.x1, ray.y2 - ray.y1) for ray in rays]
     assert abs((ways[0].conjugate() * ways[1]).imag) <= 1e-6 * abs(ways[0]) * abs(ways[1])
     assert all(abs(way) > 60 for way in ways)
+
+
+@pytest.mark.parametrize("name", ["crank-slot", "rapid-return", "rapid-return-slider", "oldham"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_asked_of_a_block_stands_in_a_table(name, kind):
+    """Magnitude and sense along the guide, as calculated; a task leaves them out."""
+    drawing = drawing_of(name, None, kind)
+    for block in drawing.scene.ask.slides:
+        what = "slide speed" if kind == "velocity" else "slide acceleration"
+        value = float(drawing.trace.value(what, block))
+        key, task = (
+            [m.markup for m in tables(drawing, TABLES, empty=empty) if m.name == f"slide {block}"]
+            for empty in (False, True)
+        )
+        symbol, size, sense = key
+        assert size == drawing.words.significant(abs(value))
+        assert sense.startswith("in the sense" if value > 0 else "against")
+        assert task == [symbol]
+
+
+def test_tables_stay_above_the_title_block():
+    for name in DRAWN:
+        for kind in KINDS:
+            marks = tables(drawing_of(name, None, kind), TABLES, empty=False)
+            assert max(reach(mark)[3] for mark in marks) <= TABLES[3] + 1e-6, (name, kind)
+
+
+def test_a_mechanism_is_drawn_large_where_only_triangles_stand_in_its_way():
+    """The Coriolis triangle of this one would halve its scale: that component is computed."""
+    drawing = drawing_of("eight-link-2", None, "acceleration")
+    assert drawing.scales.kL == 2
+    assert not drawing.scales.triangles
+    keys = {step.action.key for _, step, _ in drawing.steps(*Plane) if step.action}
+    assert "coriolis" in keys
+    assert "coriolis-by-hand" not in keys
+
+
+def test_a_plan_is_not_small_where_there_is_room_for_a_larger_one():
+    drawing = drawing_of("oscillating-slide", None, "velocity")
+    assert 1000 * drawing.largest / drawing.scales.kv > 40
+    assert not drawing.scales.from_driver

@@ -54,7 +54,10 @@ def rerun(drawing: Drawing, number: int, size: float) -> Trace:
         return shifted(value, size) if here == number else value
 
     needed = sorted(drawing.trace.values)
-    overrides = {program.seconds: drawing.scales.seconds}
+    shares = [step for step in program.steps if step.action and step.action.key == "share"]
+    tried = {int(place) for step in shares for place in step.says["tried"].split()}
+    overrides = {place: drawing.trace.values[place] for place in tried & set(needed)}
+    overrides[program.seconds] = drawing.scales.seconds
     return run(program, needed, values, FLOAT, hook=hook, overrides=overrides)
 
 

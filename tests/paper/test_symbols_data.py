@@ -154,7 +154,7 @@ def test_every_driver_has_its_position_speed_and_acceleration_with_units():
 def test_rolling_states_its_start_and_that_nothing_slips():
     found = said("drivers of every kind")
     assert "wheel 4: centre D, r = 20 mm" in found
-    rolls = "wheel 4 rolls on a line through O, at 10° to the x axis, on its right-hand side"
+    rolls = "wheel 4 rolls in T on a line through O, at 10° to the x axis, on its right-hand side"
     assert f"{rolls}, touching it at O when φ4 = 45°" in found
     assert found.count("no slip is assumed: the position depends on the start") == 1
 
@@ -163,10 +163,10 @@ def test_gears_state_teeth_and_module_and_what_they_mesh_with():
     found = said("gears")
     assert "inner gear of the frame: centre O, z = 60, m = 4 mm" in found
     assert "gear planet: centre P, z = 20, m = 4 mm" in found
-    meshes = "gear planet meshes with the fixed gear, angles counted from φplanet = 90°"
+    meshes = "gear planet meshes in T1 with the fixed gear, angles counted from φplanet = 90°"
     assert meshes in found
-    assert "gear sun meshes with gear planet" in found
-    rack = "wheel pinion rolls on a line of link rack through B, at 0° to its axis"
+    assert "gear sun meshes in T2 with gear planet" in found
+    rack = "wheel pinion rolls in T3 on a line of link rack through B, at 0° to its axis"
     assert any(piece.startswith(rack) for piece in found)
 
 

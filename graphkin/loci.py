@@ -1,0 +1,115 @@
+"""The curves that sheets show of the whole motion: centrodes, paths, loci that close a group."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from graphkin.mechanism import Mechanism
+from graphkin.steps.solution import Curve
+from graphkin.steps.trying import Closer
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+
+STEPS = 720
+"""Positions of a turn from which a curve is drawn."""
+AWAY = 20.0
+"""Breadths of the mechanism beyond which a centrode is not followed."""
+
+
+def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """The centrodes and paths that are asked, over a turn or the whole range of the driver."""
+    ask = mechanism.scene.ask
+    if not ask.centrodes and not ask.curves:
+        return loci_of(mechanism)
+    from graphkin.motion.cycle import cycle
+
+    wanted = [target for target in mechanism.program.targets if target[0] == "position"]
+    wanted += [t for link in ask.centrodes if mechanism.gives(t := ("centre", link))]
+    whole = followed(cycle(mechanism, steps=STEPS, targets=wanted))
+    curves = [curve for link in ask.centrodes for curve in centrodes_of(mechanism, whole, link)]
+    for point in ask.curves:
+        path = whole.solution.points[point].position
+        curves.append(Curve("trajectory", point, runs_of(whole, path)))
+    return (*loci_of(mechanism), *curves)
+
+
+def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """The locus by which each group of higher class is closed, where a point shows the fit."""
+    steps = mechanism.program.steps
+    closing = [n for n, step in enumerate(steps) if step.action and is_closer(step.action.value)]
+    if not closing:
+        return ()
+    trace = mechanism.trace([t for t in mechanism.program.targets if t[0] == "position"])
+    curves = []
+    for number in closing:
+        step = steps[number]
+        assert step.action is not None and isinstance(step.action.value, Closer)
+        _, *signs, _ = trace.values[number]
+        found = step.action.value.locus([trace.values[arg] for arg in step.args], signs)
+        if found is not None:
+            curves.append(Curve("locus", step.says["l"], unbroken(found)))
+    return tuple(curves)
+
+
+def is_closer(value: object) -> bool:
+    """Whether an action closes a group of higher class."""
+    return isinstance(value, Closer)
+
+
+def unbroken(points: Any) -> tuple[tuple[complex, ...], ...]:
+    """The runs of points without a NaN between them."""
+    runs: list[list[complex]] = [[]]
+    for point in points:
+        if point == point:  # noqa: PLR0124
+            runs[-1].append(complex(point))
+        elif runs[-1]:
+            runs.append([])
+    return tuple(tuple(run) for run in runs if len(run) > 1)
+
+
+def followed(whole: Cycle) -> Cycle:
+    """A whole turn, or the range in which the scene stands, its ends in finer steps.
+
+    Near a dead point a mechanism goes a long way while its driver hardly moves.
+    """
+    if whole.path.whole:
+        return whole
+    import numpy as np
+
+    low, high = whole.ranges[0]
+    turns = np.linspace(0, np.pi, STEPS + 1)[1:-1]
+    return whole.along((low + high) / 2 - (high - low) / 2 * np.cos(turns))
+
+
+def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curve]:
+    """The fixed and the moving centrode of a link, the moving one where the link stands now."""
+    from graphkin.motion.centrodes import base, centrodes
+
+    found, ends = centrodes(whole, link), base(mechanism.scene.links[link])
+    if found is None or ends is None:
+        return
+    trace = mechanism.trace([("centre", link), *(("position", point) for point in ends)])
+    origin, end = (trace.value("position", point) for point in ends)
+    centre = trace.value("centre", link)
+    now = complex(centre.start + centre.shift / centre.size) if centre.size else None
+    placed = found.placed(origin, (end - origin) / abs(end - origin))
+    yield Curve("fixed-centrode", link, runs_of(whole, found.fixed), now)
+    yield Curve("moving-centrode", link, runs_of(whole, placed), now)
+
+
+def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
+    """A curve in runs, broken where a centre is far away; after a whole turn it closes."""
+    import numpy as np
+
+    ends = [p.position for p in whole.solution.points.values() if p.position is not None]
+    breadth = max(float(np.ptp(part)) for p in ends for part in (np.real(p), np.imag(p))) or 1.0
+    middle = np.mean([np.mean(p) for p in ends])
+    closes = whole.path.whole and whole.path.returns
+    points = np.append(path, path[:1]) if closes else np.asarray(path)
+    near = np.abs(points - middle) <= AWAY * breadth
+    runs = np.split(np.arange(len(points)), np.flatnonzero(np.diff(near)) + 1)
+    return tuple(
+        tuple(complex(points[i]) for i in run) for run in runs if len(run) > 1 and near[run[0]]
+    )

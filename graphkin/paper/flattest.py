@@ -1,0 +1,57 @@
+"""The quiet line on the sheet's margin that says where a pencil's error grows most."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees
+
+from graphkin.paper.areas import BELOW, TABLES
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.marks import Mark, Text
+from graphkin.paper.richtext import extent
+from graphkin.paper.symbolic import symbol
+from graphkin.steps.crossings import Crossing, crossings, flattest
+from graphkin.steps.program import Part
+
+HEIGHT = 1.8
+"""Height of the lettering in mm."""
+APART = 2.5
+"""Room in mm between this line and what stands before it."""
+END = TABLES[0] - 22.0
+"""Where the line ends, in mm from the page's left edge: clear of the centring mark."""
+OWN = {
+    "velocity": (Part.POSITION, Part.VELOCITY, Part.CENTRE),
+    "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION, Part.POLE),
+}
+"""The parts of the work that are drawn on each sheet."""
+
+
+def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
+    """The flattest crossing of a sheet, its angle, and what a millimetre of pencil becomes there.
+
+    ``start`` is where there is room, in mm; a name that has none there goes without its index.
+    Nothing where no lines cross. What stands on a sheet before this one is not drawn again.
+    """
+    worst = flattest(crossings_on(drawing))
+    if worst is None:
+        return
+    for name in (worst.name, worst.name.partition("_")[0]):
+        text = drawing.words(
+            "page.flattest",
+            name=symbol(name),
+            angle=drawing.words.fixed(degrees(worst.angle), 0),
+            factor=drawing.words.significant(worst.factor, 2),
+        )
+        if END - extent(text, HEIGHT)[0] >= start + APART:
+            yield Text(END, BELOW[3] + 0.8, text, "caption", HEIGHT, "end", name="flattest")
+            return
+
+
+def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
+    """The crossings with a letter that a sheet draws itself."""
+    parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
+    return tuple(
+        crossing
+        for crossing in crossings(drawing.trace)
+        if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
+    )

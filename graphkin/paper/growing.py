@@ -1,0 +1,90 @@
+"""Step by step: pages on which a sheet grows, each with the sentence that says what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from graphkin.paper.areas import A3_TITLE_BLOCK, BELOW
+from graphkin.paper.detail import parted
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.frame import sheet_frame
+from graphkin.paper.inset import insets
+from graphkin.paper.layout import Layout, lay_out
+from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.richtext import flowed
+from graphkin.paper.sentence import Sentence
+from graphkin.paper.sentences import sentences
+from graphkin.paper.sheet import heading, left_board, panels, right_board, title_block, title_of
+from graphkin.paper.stages import stage_of, stages
+from graphkin.paper.style import NOW
+
+LEADING, SMALL_LEADING = 6.2, 4.6
+"""Distance of lines of the sentence to do, and of those that are done, in mm."""
+
+
+def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tuple[Page, ...]:
+    """A page for each sentence of the construction: what it draws stands out, the rest follows.
+
+    Every mark and letter has on each page the place that it has on the finished sheet.
+    """
+    layout = layout or lay_out(drawing)
+    said = sentences(drawing)
+    staged = stages(drawing, said)
+    left, detail = parted(left_board(drawing, layout, "key"))
+    right, other = parted(right_board(drawing, layout, "key"))
+    timed = [(stage_of(drawing, mark, staged, said), mark) for mark in (*left, *right)]
+    last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
+    same = [
+        *sheet_frame(title_block(drawing, "steps", number)),
+        *heading(drawing),
+        *panels(layout),
+    ]
+    title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
+    return tuple(
+        Page(
+            420,
+            297,
+            (
+                *same,
+                *grown(timed, stage),
+                *(last if stage == len(said) - 1 else ()),
+                *told(drawing, said, stage),
+            ),
+            f"{title}, {stage + 1}/{len(said)}",
+            drawing.words.language,
+        )
+        for stage in range(len(said))
+    )
+
+
+def grown(timed: Sequence[tuple[int, Mark]], stage: int) -> Iterator[Mark]:
+    """The marks that stand at a sentence; those that it draws are marked as new."""
+    for appears, mark in timed:
+        if appears <= stage:
+            yield mark if appears < stage else replace(mark, cls=f"{mark.cls} {NOW}")
+
+
+def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mark]:
+    """The sentence to do in large lettering, and below it those that are done."""
+    words = drawing.words
+    left, top, right = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
+    caption = words("page.step_of", number=stage + 1, all=len(said))
+    yield Text(left, top, caption, "caption", 3.5, name="step")
+    y = top + 8
+    for line in flowed(said[stage].markup.split(" "), " ", right - left, 3.5):
+        yield Text(left, y, line, "caption", 3.5, name="sentence")
+        y += LEADING
+    yield Line(left, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
+    width = A3_TITLE_BLOCK[0] - 5 - left - 7
+    done = [
+        (f"{number}." if i == 0 else "", line)
+        for number, sentence in enumerate(said[:stage], 1)
+        for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width, 2.5))
+    ]
+    room = max(int((BELOW[3] - y - 3.5) / SMALL_LEADING) + 1, 0)
+    for i, (mark, line) in enumerate(done[-room:] if room else []):
+        base = y + 2.5 + i * SMALL_LEADING
+        if mark:
+            yield Text(left + 5, base, mark, "caption", 2.5, "end")
+        yield Text(left + 7, base, line, "caption", 2.5)

@@ -1,0 +1,45 @@
+"""The key on transparent ground, to be laid over a drawing: nothing but what is drawn to scale."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.paper.areas import A3_AREA, Rect
+from graphkin.paper.detail import with_detail
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.layout import Layout, lay_out
+from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.richtext import escape
+from graphkin.paper.sheet import left_board, right_board, title_of
+
+HALF, GAP, STROKE = 3.0, 2.0, 3.0
+"""Half a cross, what is left free beyond it, and the stroke outside, in mm."""
+
+
+def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page:
+    """Mechanism and plan of the key at the places and scale that they have on the task sheet.
+
+    Crosses stand on the corners of the task sheet's frame, crop marks outside them.
+    """
+    layout = layout or lay_out(drawing)
+    words = drawing.words
+    boards = [board(drawing, layout, "key") for board in (left_board, right_board)]
+    name = f"{title_of(drawing)} – {words('sheet.' + drawing.kind)}"
+    foot = f"{name}, {words('sheet.overlay')} {number}, {drawing.scales.words}"
+    marks = (
+        *(mark for board in boards for mark in with_detail(board)),
+        *crop_marks(A3_AREA),
+        Text(A3_AREA[0] + 12, A3_AREA[3] - 4, escape(foot), "caption", 2.5, name="title"),
+    )
+    return Page(420, 297, marks, name, words.language)
+
+
+def crop_marks(rect: Rect) -> Iterator[Mark]:
+    """A cross on each corner of a frame, and beyond it two strokes that a cut leaves behind."""
+    for x, outward in ((rect[0], -1), (rect[2], 1)):
+        for y, down in ((rect[1], -1), (rect[3], 1)):
+            near, far = HALF + GAP, HALF + GAP + STROKE
+            yield Line(x - HALF, y, x + HALF, y, "border", "corner")
+            yield Line(x, y - HALF, x, y + HALF, "border", "corner")
+            yield Line(x + outward * near, y, x + outward * far, y, "border", "crop")
+            yield Line(x, y + down * near, x, y + down * far, "border", "crop")

@@ -1,0 +1,118 @@
+"""The parameters of a scene as a sheet prints them: once, with the unit that their use gives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from graphkin.errors import SceneError
+from graphkin.paper.amounts import written
+from graphkin.paper.richtext import escape
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import Scene
+from graphkin.scene.quantity import LENGTHS, Quantity, shortest
+from graphkin.text import Words
+
+
+def parameters(scene: Scene, words: Words) -> list[str]:
+    """All parameters as set, to tell one variant from another."""
+    return [parameter(scene, words, name) for name in scene.values]
+
+
+def other_parameters(scene: Scene, words: Words) -> list[str]:
+    """The parameters that no driver or length of the data shows by itself."""
+    shown = {name for quantity in shown_quantities(scene) if (name := lone(scene, quantity))}
+    return [parameter(scene, words, name) for name in scene.values if name not in shown]
+
+
+def parameter(scene: Scene, words: Words, name: str) -> str:
+    """A parameter as set; t is the moment of laws of time, in seconds."""
+    unit = "s" if name == TIME else unit_of(scene, name)
+    printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    space = " " if printed and printed != "°" else ""
+    return f"*{escape(name)}* = {words.decimal(shortest(scene.values[name]))}{space}{printed}"
+
+
+def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str = "") -> str:
+    """A quantity as printed, after the parameter that it is: a = 80 mm.
+
+    ``letter`` is the symbol that stands before it already.
+    """
+    name, text = lone(scene, quantity), written(scene, words, quantity).rstrip()
+    return f"*{escape(name)}* = {text}" if name and name != letter else text
+
+
+def lone(scene: Scene, quantity: Quantity) -> str:
+    """The parameter that a quantity is without more; nothing where it is another expression."""
+    return quantity.text if quantity.text in scene.values and quantity.text != TIME else ""
+
+
+def shown_quantities(scene: Scene) -> Iterator[Quantity]:
+    """The quantities of the data beside which their parameter is printed."""
+    for driver in scene.drivers:
+        yield driver.position
+        for rate in (driver.speed, driver.acceleration):
+            if driver.kind != "turn" or float(rate.si(scene.values)) > 0:
+                yield rate  # of a turning that is negative the sense stands in words
+    for link in (scene.frame, *scene.links.values()):
+        for placing in link.placings:
+            yield from (length for _, _, length in placing.lengths())
+        for wheel in link.wheels:
+            size = wheel.teeth or wheel.radius
+            yield from () if size is None else (size,)
+
+
+def unit_of(scene: Scene, name: str) -> str:
+    """The unit of a parameter, where what grows as it does has one; nothing for a mere number.
+
+    A fixed length of which others are multiples has the unit of these.
+    """
+    fixed = name in scene.parameters and scene.parameters[name].minimum is None
+    units = {
+        quantity.unit
+        for quantity in quantities(scene)
+        if name in quantity.uses()
+        and (grows_alike(scene, quantity, name) or (fixed and is_multiple(scene, quantity, name)))
+    }
+    return units.pop() if len(units) == 1 else ""
+
+
+def grows_alike(scene: Scene, quantity: Quantity, name: str) -> bool:
+    """Whether a quantity grows, or shrinks, by as much as a parameter grows."""
+    slope = slope_of(scene, quantity, name)
+    return slope is not None and abs(slope) == 1
+
+
+def is_multiple(scene: Scene, quantity: Quantity, name: str) -> bool:
+    """Whether a length grows in proportion to a parameter."""
+    slope = slope_of(scene, quantity, name)
+    if slope is None or quantity.unit not in LENGTHS:
+        return False
+    whole = float(quantity.number(scene.values))
+    value = float(Fraction(str(scene.values[name])))
+    return abs(slope * value - whole) <= 1e-9 * abs(whole)
+
+
+def slope_of(scene: Scene, quantity: Quantity, name: str) -> float | None:
+    """By how much a quantity grows with a parameter; None where that cannot be told."""
+    try:
+        return float(quantity.derivative(name).number(scene.values))
+    except SceneError:
+        return None
+
+
+def quantities(scene: Scene) -> Iterator[Quantity]:
+    """Every quantity by which a scene says how its links, drivers and pairs are."""
+    yield from within((scene.frame, *scene.links.values(), *scene.drivers))
+
+
+def within(part: Any) -> Iterator[Quantity]:
+    """The quantities within a part of a scene."""
+    if isinstance(part, Quantity):
+        yield part
+    elif isinstance(part, dict):
+        yield from within(tuple(part.values()))
+    elif isinstance(part, tuple | list):
+        for each in part:
+            yield from within(each)
