@@ -2,7 +2,8 @@
 
 Disagreement is the absolute difference over the largest magnitude of that quantity in the scene.
 A scale never falls below a thousandth of what the other quantities make of it (v ≈ ω·L and so on),
-so that the rounding of a quantity that is nought everywhere is not taken for a difference.
+nor, beside singular positions, below the share that rounding has in the limit, so that the rounding
+of a quantity that is nought everywhere is not taken for a difference.
 """
 
 from graphkin.witness.alone import by_loops

@@ -9,7 +9,7 @@ import numpy as np
 from graphkin.loops.assemble import led_by
 from graphkin.loops.closures import closure_number, closures, other_closure, turned_side
 from graphkin.loops.equations import equations
-from graphkin.loops.groups import Group, groups
+from graphkin.loops.groups import Group, groups, speaks_of
 from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.solve import LoopSolution
 from graphkin.scene.model import Closure, Scene, Side, Way
@@ -33,14 +33,16 @@ def branch_conditions(scene: Scene, solved: LoopSolution) -> dict[str, Flags]:
     known = [] if sides_only else groups(scene, solved.loops)
     motion = solved.motion
     for name, branch in stated:
-        group = next((each for each in known if name in each.links), None)
         if isinstance(branch, Side):
             side = turned_side(motion, branch.first, branch.second, name)
             found[name] = np.asarray(branch.side * side > -LEAST_LIMIT)
-        elif group is not None and isinstance(branch, Way) and group.is_dyad:
-            found[name] = way_of_dyad(branch, solved, group)
-        elif group is not None:
-            found[name] = picked_rows(scene, branch, solved, group, name)
+            continue
+        for group in (each for each in known if speaks_of(name, branch, each, solved.loops)):
+            if isinstance(branch, Way) and group.is_dyad:
+                holds = way_of_dyad(branch, solved, group)
+            else:
+                holds = picked_rows(scene, branch, solved, group, name)
+            found[name] = found.get(name, True) & holds
     return found
 
 

@@ -31,17 +31,17 @@ class Scales:
     epsilon: Reals
 
     @classmethod
-    def of(cls, motion: Motion, length: Reals) -> Scales:
+    def of(cls, motion: Motion, length: Reals, floor: Reals | float = FLOOR) -> Scales:
         """Measured on the loops; a quantity that is nought throughout has scale 1."""
         slides = np.abs(motion.slides).max(axis=2, initial=0)
         speed = np.maximum(np.abs(motion.points.velocity).max(axis=1), slides[1])
         pushed = np.maximum(np.abs(motion.points.acceleration).max(axis=1), slides[2])
         omega, epsilon = np.abs(motion.omega).max(axis=1), np.abs(motion.epsilon).max(axis=1)
         natural = np.maximum(speed**2 / length, omega**2 * length)
-        fastest = np.maximum(speed, FLOOR * omega * length)
-        turning = np.maximum(omega, FLOOR * speed / length)
-        most = np.maximum(pushed, FLOOR * np.maximum(natural, epsilon * length))
-        twist = np.maximum(epsilon, FLOOR * np.maximum(natural, pushed) / length)
+        fastest = np.maximum(speed, floor * omega * length)
+        turning = np.maximum(omega, floor * speed / length)
+        most = np.maximum(pushed, floor * np.maximum(natural, epsilon * length))
+        twist = np.maximum(epsilon, floor * np.maximum(natural, pushed) / length)
         return cls(length, *map(or_one, (fastest, most, turning, twist)))
 
 
@@ -50,9 +50,15 @@ def or_one(scale: Reals) -> Reals:
     return np.where(scale == 0, 1.0, scale)
 
 
-def differing(solved: LoopSolution, solution: Solution, extent: Reals) -> Differences:
-    """Every difference that can be taken, over its scale, by the quantity's name."""
-    scales = Scales.of(solved.motion, extent)
+def differing(
+    solved: LoopSolution, solution: Solution, extent: Reals, rounding: Reals | float = 0.0
+) -> Differences:
+    """Every difference that can be taken, over its scale, by the quantity's name.
+
+    ``rounding`` is the share of the limit that rounding alone accounts for. It goes with what the
+    other quantities make of a quantity, also of one that is nought: so does then its scale.
+    """
+    scales = Scales.of(solved.motion, extent, np.maximum(FLOOR, rounding))
     pairs = (
         *of_points(solved.motion, solution, scales),
         *of_links(solved.motion, solution, scales),

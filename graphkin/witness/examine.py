@@ -18,6 +18,7 @@ from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.solution import Solution, Verdict
 from graphkin.witness.branches import LEAST_LIMIT, Flags, branch_conditions
 from graphkin.witness.differences import Differences, differing, or_one
+from graphkin.witness.part import has_acceleration, links_concerned, scene_of
 
 EPS = 2.0**-52
 
@@ -88,18 +89,26 @@ class Examined:
 
 
 def examine(scene: Scene, solution: Solution, values: Mapping[str, Any] | None) -> Examined:
-    """Solve the loops from the solution's positions and compare all that the solution holds."""
+    """Solve the loops from the solution's positions and compare all that the solution holds.
+
+    Links and accelerations of which it says nothing are left alone.
+    """
     loops = equations(scene, values)
+    within = links_concerned(scene, loops, solution)
+    if within is not None:
+        loops = equations(scene, values, within)
+        scene = scene_of(loops)
     refuse_undriven(loops)
     start, guessed = started(scene, loops, solution)
-    solved = closed_from(loops, start)
+    solved = closed_from(loops, start, accelerations=has_acceleration(solution))
     with np.errstate(all="ignore"):
         extent = breadth(solved.motion)
         margin = np.abs(loops.numbers.reals(solution.margin))
-        slack = 64 * EPS * (extent / loops.least) / margin**3
-        differences = differing(solved, solution, extent)
+        far = np.abs(solved.motion.points.place).max(axis=1)
+        slack = 64 * EPS * (np.maximum(extent, far) / loops.least) / margin**3
+        limit = np.maximum(LEAST_LIMIT, slack)
+        differences = differing(solved, solution, extent, slack / limit)
         branches = branch_conditions(scene, solved)
-    limit = np.maximum(LEAST_LIMIT, slack)
     return Examined(solved, differences, branches, limit, guessed)
 
 
