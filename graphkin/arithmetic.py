@@ -2,7 +2,8 @@
 
 Steps and plans are written once, in complex numbers, and never ask which kind they run on: plus,
 minus, times, over, ``abs``, ``.real``, ``.imag`` and ``.conjugate()`` mean the same for Python's
-``complex`` and for numpy arrays. What differs lives here.
+``complex``, numpy's arrays, decimals of any length and balls. What differs lives here; the kinds
+beside Python's float are made in kinds.
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -24,7 +26,13 @@ QUARTERS = (1, 1j, -1, -1j)
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """One kind of number: how exact numbers enter it, and its functions of an angle."""
+    """One kind of number: how exact numbers enter it, and its functions of an angle.
+
+    ``sound`` tells whether a value can be drawn, where that does not raise; ``working`` is what a
+    run happens within, such as a precision; ``shared`` is the kind of what all variants of a batch
+    have in common, None where it is Python's float; ``own`` makes one of Python's numbers one
+    of the kind, where the two cannot be reckoned with together as they are.
+    """
 
     name: str
     number: Callable[[Any], Real]
@@ -32,6 +40,10 @@ class Kind:
     cos: Callable[[Real], Real]
     sin: Callable[[Real], Real]
     sqrt: Callable[[Real], Real]
+    sound: Callable[[Any], bool] = field(default=lambda value: True)
+    working: Callable[[], AbstractContextManager[Any]] = nullcontext
+    shared: Kind | None = None
+    own: Callable[[complex | float], Any] | None = None
 
     def direction(self, degrees: Any) -> Point:
         """Unit vector at an angle in degrees, reduced exactly: 90 gives i, not nearly i."""
@@ -41,7 +53,7 @@ class Kind:
 
     def radians(self, angle: Real) -> Point:
         """Unit vector at an angle in radians."""
-        return self.cos(angle) + 1j * self.sin(angle)
+        return at(self.cos(angle), self.sin(angle))
 
 
 def nearest_quarter(degrees: Any) -> Any:
@@ -64,7 +76,12 @@ def quarter_turns(quarter: Any) -> Any:
     return QUARTERS[quarter % 4]
 
 
-FLOAT = Kind("float", float, math.pi, math.cos, math.sin, math.sqrt)
+def is_finite(value: Any) -> bool:
+    """True unless a float or a complex number is infinite or none."""
+    return not isinstance(value, complex | float) or cmath.isfinite(value)
+
+
+FLOAT = Kind("float", float, math.pi, math.cos, math.sin, math.sqrt, is_finite)
 """Python's own double precision numbers: one scene, raised errors, nothing imported."""
 
 
@@ -78,10 +95,41 @@ def batch_kind() -> Kind:
     return Kind("batch", number, math.pi, np.cos, np.sin, np.sqrt)
 
 
+def at(x: Real, y: Real) -> Point:
+    """The point of two coordinates."""
+    if isinstance(x, float) and isinstance(y, float):
+        return complex(x, y)
+    for part in (x, y):
+        if is_ball(part):
+            from flint import acb
+
+            return acb(x, y)
+    return x + 1j * y
+
+
+def is_decimal(value: Any) -> bool:
+    """Whether a number is one of mpmath's, real or complex."""
+    return hasattr(value, "context")
+
+
+def is_ball(value: Any) -> bool:
+    """Whether a number is a ball, real or complex."""
+    return hasattr(value, "rel_accuracy_bits")
+
+
 def sqrt(x: Real) -> Real:
-    """Square root; a negative float raises ValueError, a negative element of a batch gives NaN."""
+    """Square root; a negative number raises ValueError, a negative element of a batch gives NaN.
+
+    A ball that reaches below nought gives one that is not finite.
+    """
     if isinstance(x, float):
         return math.sqrt(x)
+    if is_decimal(x):
+        if x < 0:
+            raise ValueError("the square root of a negative number")
+        return x.context.sqrt(x)
+    if is_ball(x):
+        return x.sqrt()
     import numpy as np
 
     return np.sqrt(x)
@@ -91,6 +139,10 @@ def phase(z: Point) -> Real:
     """Angle of a direction in radians, from -pi to pi."""
     if isinstance(z, complex):
         return cmath.phase(z)
+    if is_decimal(z):
+        return z.context.arg(z)
+    if is_ball(z):
+        return z.arg()
     import numpy as np
 
     return np.angle(z)
@@ -100,6 +152,10 @@ def turn_by(angle: Real) -> Point:
     """Unit vector at an angle in radians."""
     if isinstance(angle, float):
         return complex(math.cos(angle), math.sin(angle))
+    if is_decimal(angle):
+        return angle.context.expj(angle)
+    if is_ball(angle):
+        return at(angle.cos(), angle.sin())
     import numpy as np
 
     return np.cos(angle) + 1j * np.sin(angle)
@@ -114,11 +170,23 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
     return np.where(condition, yes, no)
 
 
+def below(a: Real, b: Real) -> Any:
+    """Whether a number is smaller than another; where a ball does not tell, ValueError."""
+    if is_ball(a) and not (a < b or a >= b):
+        raise ValueError("the ball does not tell which number is smaller")
+    return a < b
+
+
+def either(condition: Any, one: Point, other: Point) -> Point:
+    """One of two ways to the same point, by a condition; in balls what both ways allow."""
+    if is_ball(one):
+        from flint import acb
+
+        x, y = one.real.intersection(other.real), one.imag.intersection(other.imag)
+        return acb(x, y)
+    return pick(condition, one, other)
+
+
 def least(a: Real, b: Real) -> Real:
     """The smaller of two numbers, element by element in a batch; NaN where either is."""
     return pick(a < b, a, pick(a == a, b, a))  # noqa: PLR0124
-
-
-def is_finite(z: Any) -> bool:
-    """True when a scalar has neither a NaN nor an infinite part."""
-    return cmath.isfinite(z)

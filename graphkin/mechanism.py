@@ -6,14 +6,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphkin import labs
-from graphkin.arithmetic import FLOAT
+from graphkin.arithmetic import FLOAT, Kind
 from graphkin.errors import Problem, SceneError
+from graphkin.kinds import array_kind
 from graphkin.plans.compile import write
+from graphkin.plans.trial_rates import trial_rates
 from graphkin.scene.model import Scene
 from graphkin.scene.read import read_scene
+from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
 from graphkin.steps.press import Press
 from graphkin.steps.program import Program, Target
@@ -22,6 +25,15 @@ from graphkin.steps.solution import Solution, Verdict
 from graphkin.structure.drivers import refuse_drivers
 from graphkin.structure.groups import Group
 from graphkin.structure.order import decompose
+
+
+DECIDED = 1e-6
+"""Sine of a crossing below which it is decided without rounding whether there is one."""
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from graphkin.notebook import Which
 
 
 def load(name: str | Path, /, **settings: object) -> Mechanism:
@@ -55,6 +67,11 @@ class Mechanism:
         """What runs the program on many variants at once."""
         return Press(self.program)
 
+    @cached_property
+    def trial_rates(self) -> Mapping[int, float]:
+        """What the hand tries in the trial plans of groups of higher class, by the step."""
+        return trial_rates(self.program, self.scene.values)
+
     def asked(self) -> tuple[Target, ...]:
         """What the scene asks for, as targets of the program; everything when it asks nothing."""
         ask = self.scene.ask
@@ -81,21 +98,29 @@ class Mechanism:
         *,
         by_hand: bool = False,
         seconds: float | None = None,
+        kind: Kind = FLOAT,
     ) -> Trace:
         """Every value that the targets need (all targets if None), on this one scene.
 
         ``by_hand`` runs the drawn steps too, with velocities set on the mechanism at the scale
-        ``seconds`` = kL/kv. Raises ClosureError for a step that cannot be drawn.
+        ``seconds`` = kL/kv; ``kind`` is that of the numbers (see kinds). Raises ClosureError for a step that cannot be drawn.
         """
         program = self.program
         needed = program.needed(program.answers if targets is None else targets, by_hand=by_hand)
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
+        overrides |= self.trial_rates if by_hand else {}
         try:
-            return run(program, needed, self.scene.values, FLOAT, overrides=overrides)
+            with kind.working():
+                trace = run(program, needed, self.scene.values, kind, overrides=overrides)
         except StepFailed as failed:
             from graphkin.reach import does_not_close
 
             raise does_not_close(self.scene, program, needed, failed) from failed
+        if kind is FLOAT and min(trace.margins.values(), default=1.0) < DECIDED:
+            from graphkin.reach import refuse_touching
+
+            refuse_touching(self.scene, trace)
+        return trace
 
     def solve(self, *, asked: bool = False) -> Solution:
         """The motion of every point and link, or only what the scene asks for."""
@@ -108,11 +133,20 @@ class Mechanism:
 
         return compare(self.scene, solution)
 
-    def batch(self, *, asked: bool = False, margins: bool = False, **parameters: Any) -> Solution:
+    def batch(
+        self,
+        *,
+        asked: bool = False,
+        margins: bool = False,
+        kind: str = "float64",
+        **parameters: Any,
+    ) -> Solution:
         """The motion of many variants at once, each parameter an array of equal length.
 
-        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each. Values
-        between a parameter's steps are allowed, to sweep it. Raises SceneError for a name that is
+        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each: below
+        the root of eps, 1.5e-8, no digit of a velocity is right. Values
+        between a parameter's steps are allowed, to sweep it. ``kind`` names the numbers: float32,
+        float64 or longdouble. Raises SceneError for a name that is
         no parameter of the scene, and for values outside a parameter's range.
         """
         import numpy as np
@@ -130,8 +164,24 @@ class Mechanism:
         needed = self.program.needed(targets)
         keep = [self.program.targets[target] for target in targets]
         with np.errstate(all="ignore"):
-            trace = self.press.run(needed, values, keep, margins=margins)
+            if kind == "float64":
+                trace = self.press.run(needed, values, keep, margins=margins)
+            else:
+                numbers = array_kind(kind)
+                trace = run_blocks(self.program, needed, values, numbers, keep, margins=margins)
         return gathered(trace, self.scene.links)
+
+    def plot(self, ax: Axes, which: Which = "velocity", **options: Any) -> Axes:
+        """Draw the mechanism or one of its plans into axes of matplotlib (see notebook.plot)."""
+        from graphkin.notebook import plot
+
+        return plot(self, ax, which, **options)
+
+    def _repr_svg_(self) -> str:
+        """The first sheet, as a notebook shows it."""
+        from graphkin.notebook import picture
+
+        return picture(self)
 
 
 def point_of(scene: Scene, name: str) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from graphkin.arithmetic import Point, Real, pick, sqrt
+from graphkin.arithmetic import Point, Real, at, either, pick, sqrt
 
 
 class Line(NamedTuple):
@@ -61,7 +61,7 @@ def line_meets_line(m: Line, n: Line) -> Point:
     on_m = cross(gap, n.along) / area * m.along
     on_n = cross(gap, m.along) / area * n.along
     nearer = abs(on_m) <= abs(on_n)
-    return pick(nearer, m.point + on_m, n.point + on_n)
+    return either(nearer, m.point + on_m, n.point + on_n)
 
 
 def crossing_sine(m: Line, n: Line) -> Real:
@@ -102,7 +102,7 @@ def circle_meets_circle(m: Circle, n: Circle, side: int) -> Point:
     smaller = m.radius <= n.radius
     centre = pick(smaller, m.centre, n.centre)
     along = pick(smaller, distance + difference, difference - distance) / 2
-    return centre + (along + side * 1j * height) * unit
+    return centre + at(along, side * height) * unit
 
 
 def circles_sine(m: Circle, n: Circle) -> Real:

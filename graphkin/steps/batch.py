@@ -10,7 +10,7 @@ from typing import Any
 from graphkin.arithmetic import FLOAT, Kind
 from graphkin.plane import Ratio
 from graphkin.steps.program import Program
-from graphkin.steps.run import StepFailed, Trace, Values, evaluate
+from graphkin.steps.run import StepFailed, Trace, Values, as_of, evaluate
 
 BLOCK = 2048
 """Variants run at once: few enough that the values of a step stay in the processor's cache."""
@@ -43,7 +43,8 @@ def run_batch(
     What cannot be drawn becomes NaN; the caller wraps the call in numpy's errstate.
     """
     overrides = overrides or {}
-    ready = made_ready(program, needed, values, keep, frozenset(overrides))
+    single = kind.shared or FLOAT
+    ready = made_ready(program, needed, values, keep, frozenset(overrides), single)
     return run_moving(ready, values, kind, margins=margins, overrides=overrides)
 
 
@@ -58,7 +59,7 @@ def run_blocks(
 ) -> Trace:
     """As run_batch, a block at a time, each put at its place in arrays of the whole length."""
     size = max((len(value) for value in values.values() if is_array(value)), default=1)
-    ready = made_ready(program, needed, values, keep)
+    ready = made_ready(program, needed, values, keep, single=kind.shared or FLOAT)
     found: dict[int, Any] = {}
     sines: dict[int, Any] = {}
     for start in range(0, max(size, 1), BLOCK):
@@ -79,8 +80,12 @@ def made_ready(
     values: Values,
     keep: Sequence[int],
     overridden: frozenset[int] = frozenset(),
+    single: Kind = FLOAT,
 ) -> Ready:
-    """Part the needed steps: those that hang on an array move, the others are worked out here."""
+    """Part the needed steps: those that hang on an array move, the others are worked out here.
+
+    ``single`` is the kind of what all variants share.
+    """
     arrays = {name for name, value in values.items() if is_array(value)}
     shared: dict[int, Any] = {}
     sines: dict[int, Any] = {}
@@ -92,7 +97,7 @@ def made_ready(
             moving.append(number)
             continue
         try:
-            shared[number] = evaluate(step, number, shared, values, FLOAT, sines)
+            shared[number] = evaluate(step, number, shared, values, single, sines)
         except StepFailed:
             shared[number] = sines[number] = math.nan
     kept = frozenset(keep)
@@ -122,7 +127,7 @@ def run_moving(
     overrides: Mapping[int, Any] | None = None,
 ) -> Trace:
     """One block: the steps that hang on an array, beside what was worked out beforehand."""
-    found = dict(ready.values)
+    found = {number: as_of(kind, value) for number, value in ready.values.items()}
     sines = dict(ready.margins) if margins else {}
     overrides = overrides or {}
     for number, dying in ready.moving:
@@ -158,8 +163,10 @@ def room_for(value: Any, size: int) -> Any:
 
 def put(value: Any, whole: Any, part: slice) -> None:
     """Put what a block gives at its place."""
+    import numpy as np
+
     if isinstance(value, Ratio):
         for mine, room in zip(value, whole, strict=True):
             put(mine, room, part)
-    elif is_array(whole):
+    elif isinstance(whole, np.ndarray):
         whole[part] = value

@@ -5,7 +5,7 @@ Every centre is a Ratio, start + shift/size, for it may lie at infinity.
 
 from __future__ import annotations
 
-from graphkin.arithmetic import Point, Real, pick
+from graphkin.arithmetic import Point, Real, at, pick
 from graphkin.plane import Circle, Line, Ratio, cross, crossing_sine, dot
 from graphkin.steps.vocabulary import action
 
@@ -25,7 +25,7 @@ def guide_centre(point: Point, guide: Line) -> Ratio:
 @action("acceleration-pole")
 def turned_pole(p: Point, image: Point, omega: Real, epsilon: Real) -> Ratio:
     """The point of a link without acceleration from one point's and the link's turning."""
-    return Ratio(p, image, omega * omega - 1j * epsilon)
+    return Ratio(p, image, at(omega * omega, -epsilon))
 
 
 @action("relative-centre")
@@ -36,7 +36,7 @@ def relative_centre(
 
     p is a point of the first link, q one of the second; 8·eps of the larger distance.
     """
-    there = image_q + 1j * omega_q * (p - q)
+    there = image_q + 1j * (p - q) * omega_q
     return Ratio(p, 1j * (image_p - there), omega_p - omega_q)
 
 

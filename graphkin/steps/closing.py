@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphkin.arithmetic import Point, Real
-from graphkin.plane import Line, cross, dot
+from graphkin.plane import Line, Vector, cross, dot
 from graphkin.steps.vocabulary import action
 
 
@@ -114,6 +114,18 @@ def reach(line: Line, *rest: Any) -> Real:
     for place in values[count:]:
         total = total + abs(place - line.point)
     return 1.01 * total
+
+
+@action("to-corner")
+def along_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The first leg of a way from one point of a plan to another: a component laid off."""
+    return Vector(start, start + component)
+
+
+@action("from-corner")
+def after_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The last leg of a way between two points of a plan, from the end of a component laid off."""
+    return Vector(start + component, tip)
 
 
 @action("line-through")

@@ -5,7 +5,7 @@ Axes are unit complex numbers: the direction of a link's x axis, or of a guide, 
 
 from __future__ import annotations
 
-from graphkin.arithmetic import Point, Real, sqrt
+from graphkin.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.plane import Line, cross
 from graphkin.steps.vocabulary import action
 
@@ -66,7 +66,7 @@ def placed(start: Point, axis: Point, here: Point, there: Point) -> Point:
 @action("guide-back")
 def guide_back(first: Point, axis: Point, offset: Real) -> Line:
     """The line of a guide from the block on it: the block stands its offset to the left."""
-    return Line(first - 1j * offset * axis, axis)
+    return Line(first - 1j * axis * offset, axis)
 
 
 @action("beside-guide")
@@ -84,14 +84,18 @@ def gap(offset: Real, here: Real, there: Real) -> Real:
 # --- a bar through a swivelling block ------------------------------------------------------------
 
 
-def swing_margin(pivot: Point, pin: Point, height: Real, way: int) -> Real:
-    """Cosine of the angle between the guide and the line of its two pins."""
+def swing_margin(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Real:
+    """Cosine of the angle between the guide and the line of its two pins.
+
+    Pins much nearer to one another than the mechanism is large (``size``) tell the direction as
+    badly as a flat crossing: it is then that of the foot and the size.
+    """
     bar = abs(pin - pivot)
-    return sqrt((bar - height) * (bar + height)) / bar
+    return sqrt((bar - height) * (bar + height)) / pick(bar < size, size, bar)
 
 
 @action("swing", margin=swing_margin)
-def swing(pivot: Point, pin: Point, height: Real, way: int) -> Point:
+def swing(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Point:
     """Direction of a guide that turns about a pivot and keeps a pin at a height to its left.
 
     The pin lies ahead of the pivot (way +1) or behind it (-1); nearer than the height it raises.
@@ -99,11 +103,17 @@ def swing(pivot: Point, pin: Point, height: Real, way: int) -> Point:
     line = pin - pivot
     bar = abs(line)
     foot = way * sqrt((bar - height) * (bar + height))
-    return line / bar * ((foot - 1j * height) / bar)
+    return line / bar * (at(foot, -height) / bar)
 
 
-@action("swing-through", margin=lambda pivot, pin, way: abs(pin - pivot) / abs(pin - pivot))
-def swing_through(pivot: Point, pin: Point, way: int) -> Point:
+def through_margin(pivot: Point, pin: Point, way: int, size: float) -> Real:
+    """Distance of the pins over the size of the mechanism, where it is less: else 1."""
+    bar = abs(pin - pivot)
+    return bar / pick(bar < size, size, bar)
+
+
+@action("swing-through", margin=through_margin)
+def swing_through(pivot: Point, pin: Point, way: int, size: float) -> Point:
     """Direction of a guide whose line passes through both pins: from the pivot to the pin, or back.
 
     The pin on the pivot raises: any direction would do.
@@ -147,7 +157,7 @@ def stretch(
     ``here`` towards ``there``; ``where`` is the block's coordinate.
     """
     along = there - here
-    return where + 1j * offset + (pin - first) - (end - here) * (along.conjugate() / abs(along))
+    return at(where, offset) + (pin - first) - (end - here) * (along.conjugate() / abs(along))
 
 
 @action("length")
@@ -191,7 +201,7 @@ def driven_slide(start: Point, line: Line, speed: Real, way: int) -> Point:
 @action("coriolis")
 def coriolis(omega: Real, image_under: Point, image: Point) -> Point:
     """Coriolis acceleration: twice the relative velocity times omega, turned a quarter by it."""
-    return 2j * omega * (image - image_under)
+    return 2j * (image - image_under) * omega
 
 
 @action("coriolis-base")

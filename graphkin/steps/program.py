@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, NamedTuple
 
-from graphkin.arithmetic import Kind, pick
+from graphkin.arithmetic import Kind, at, pick
+from graphkin.steps.effect import Effect
 from graphkin.steps.vocabulary import Action
 
 
@@ -57,7 +58,7 @@ class Given:
             case "direction":
                 return first.direction(values, kind)
             case "point":
-                return first.si(values, kind) + 1j * self.quantities[1].si(values, kind)
+                return at(first.si(values, kind), self.quantities[1].si(values, kind))
             case "seconds":
                 speed = abs(first.si(values, kind))
                 return 1 / pick(speed == 0, 1.0, speed)
@@ -71,7 +72,8 @@ class Step:
 
     ``by_hand`` is the step that gives the same value in the hand's way; ``hand`` marks steps that
     only that way uses, ``arrow`` those that are only drawn. ``name`` is the letter on
-    the drawing, ``says`` the names in the sentence.
+    the drawing, ``says`` the names in the sentence. ``effect`` is what of the motion the step is
+    drawn for, None where its part of the work says it.
     """
 
     action: Action | None
@@ -79,12 +81,13 @@ class Step:
     part: Part
     plane: Plane
     name: str = ""
-    extra: tuple[int, ...] = ()
+    extra: tuple[float, ...] = ()
     given: Given | None = None
     by_hand: int | None = None
     hand: bool = False
     arrow: bool = False
     says: Mapping[str, str] = field(default_factory=dict)
+    effect: Effect | None = None
 
 
 PLACES = ("axis", "guide", "track", "rolled")

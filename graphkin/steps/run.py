@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphkin.arithmetic import Kind, is_finite
-from graphkin.plane import Circle, Line
+from graphkin.arithmetic import Kind
+from graphkin.plane import Line
 from graphkin.steps.program import Program, Step
 
 Values = Mapping[str, Any]
@@ -84,7 +84,7 @@ def evaluate(
 ) -> Any:
     """Value of one step on one scene; its margin is put beside it. Raises StepFailed."""
     if step.given is not None:
-        return step.given.value(values, kind)
+        return as_of(kind, step.given.value(values, kind))
     assert step.action is not None
     args = (*(found[arg] for arg in step.args), *step.extra)
     try:
@@ -93,21 +93,21 @@ def evaluate(
             margins[number] = step.action.margin(*args)
     except (ZeroDivisionError, ValueError, OverflowError) as reason:
         raise StepFailed(number, step, args) from reason
-    whole = is_finite(value) if isinstance(value, complex) else True
-    if not whole or (isinstance(value, Line) and value.along == 0):
+    if not kind.sound(value) or (isinstance(value, Line) and not_a_way(value.along)):
         raise StepFailed(number, step, args)
-    return value
+    return as_of(kind, value)
 
 
-def miss(step: Step, args: tuple[Any, ...]) -> float | None:
-    """By how many metres the two loci of a failed step miss each other; None when parallel."""
-    match args:
-        case (Circle() as m, Circle() as n, int()):
-            apart = abs(n.centre - m.centre)
-            return float(max(apart - m.radius - n.radius, abs(m.radius - n.radius) - apart))
-        case (Line() as line, Circle() as circle, int()):
-            unit = line.along / abs(line.along)
-            return float(
-                abs(((circle.centre - line.point) * unit.conjugate()).imag) - circle.radius
-            )
-    return None
+def as_of(kind: Kind, value: Any) -> Any:
+    """A value as one of a kind: constants enter as Python's own numbers."""
+    if kind.own is None:
+        return value
+    if isinstance(value, tuple):
+        parts = (as_of(kind, part) for part in value)
+        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+    return kind.own(value) if isinstance(value, complex | float) else value
+
+
+def not_a_way(along: Any) -> bool:
+    """Whether a direction is nought, and so none; of an array it is not asked."""
+    return not hasattr(along, "shape") and along == 0

@@ -6,22 +6,19 @@ arrays of trial positions, brackets every fit and closes in on it. Its derivativ
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
-from graphkin.arithmetic import FLOAT, batch_kind, phase
-from graphkin.steps.batch import Ready, made_ready, run_batch, run_moving
-from graphkin.steps.program import Program
+from graphkin.arithmetic import FLOAT, phase
+from graphkin.kinds import kind_of
 from graphkin.steps.roots import roots
-from graphkin.steps.run import Values
+from graphkin.steps.trial import MOST, Trial
 from graphkin.steps.vocabulary import Action
+from graphkin.steps.windows import Windows, narrowed
 
-SAMPLES = 360
-"""Trial positions of a round."""
-MOST = 400_000
-"""Trial positions run at once."""
+DOUBLES = ("float", "batch")
+"""The kinds in which closures are looked for; in the others they are refined."""
 SAME = 1e-7
 """Radians within which two angles count as one when closures are put in order."""
 
@@ -34,66 +31,12 @@ class ClosingError(ValueError):
         super().__init__(f"closes in {ways} ways, closure {asked} is asked")
 
 
-@dataclass(frozen=True)
-class Trying:
-    """The program of a trial: its inputs, the tried value, the signs of its dyads, the misfit.
-
-    ``inputs`` are overridden by what is known, ``tried`` by a unit vector (``turns``) or a
-    coordinate in metres, ``signs`` by ±1; ``axes`` are the links' x axes in the order in which
-    closures are numbered; ``locus`` is the point that moves when the tried value does, to tell the
-    angle of crossing, and ``facing`` must be positive at a true fit.
-    """
-
-    program: Program
-    values: Values
-    inputs: tuple[int, ...]
-    tried: int
-    turns: bool
-    signs: tuple[int, ...]
-    misfit: int
-    locus: int
-    facing: int | None
-    axes: tuple[int, ...]
-    reach: int | None
-    """The step that holds how far a coordinate may have to be tried, in metres."""
-    traced: int | None = None
-    """The step that holds the point whose locus a hand draws."""
+class Trying(Trial):
+    """A trial, and where it fits."""
 
     def action(self, number: int) -> Action:
         """The step that closes the group in the closure of a number, counted from one."""
         return Action("close", Closer(self, number))
-
-    # --- running the trial -----------------------------------------------------------------------
-
-    @cached_property
-    def results(self) -> tuple[int, ...]:
-        """The steps whose values are looked at."""
-        others = [step for step in (self.facing, self.traced) if step is not None]
-        return (self.misfit, self.locus, *others, *self.axes)
-
-    @cached_property
-    def ready(self) -> Ready:
-        """The program made ready for arrays of trials."""
-        outside = frozenset((*self.inputs, self.tried, *self.signs))
-        needed = needed_of(self.program, self.results)
-        return made_ready(self.program, needed, self.values, self.results, outside)
-
-    def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
-        """The results for arrays of trial values and of signs, known values given per element."""
-        import numpy as np
-
-        overrides = dict(zip(self.inputs, known, strict=True))
-        overrides[self.tried] = np.exp(1j * tried) if self.turns else tried
-        overrides |= {step: signs[:, k] for k, step in enumerate(self.signs)}
-        with np.errstate(all="ignore"):
-            trace = run_moving(self.ready, self.values, batch_kind(), overrides=overrides)
-        return {n: np.broadcast_to(trace.values[n], len(tried)) for n in self.results}
-
-    def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """The misfit alone; NaN where the chain cannot be drawn."""
-        return self.found(known, tried, signs)[self.misfit]
-
-    # --- closing ---------------------------------------------------------------------------------
 
     def closed(self, known: Sequence[Any], number: int) -> tuple[Any, ...]:
         """Trial value, signs and the sine of crossing in one closure: scalars or arrays.
@@ -106,7 +49,8 @@ class Trying:
         arrays = [np.atleast_1d(value) for value in known]
         size = max((len(array) for array in arrays), default=1)
         arrays = [np.broadcast_to(array, size) for array in arrays]
-        chunk = max(1, MOST // (SAMPLES * 2 ** len(self.signs)))
+        places = self.shares(arrays, size).shape[1]
+        chunk = max(1, MOST // (places * 2 ** len(self.signs)))
         parts = [
             self.closures([array[start : start + chunk] for array in arrays])
             for start in range(0, size, chunk)
@@ -131,44 +75,37 @@ class Trying:
         import numpy as np
 
         size = len(known[0]) if known else 1
-        found = []
-        for signs in sign_table(len(self.signs)):
-            found.append(self.roots(known, size, np.array(signs, dtype=float)))
+        reach = None if self.turns else self.reaches(known, size)
+        everywhere = Windows(np.arange(size), self.shares(known, size))
+        found = list(self.fits(known, reach, (), everywhere))
         owner, tried, chosen = (np.concatenate(column) for column in zip(*found, strict=True))
         return self.ordered(known, size, owner, tried, chosen)
 
-    def roots(self, known: Sequence[Any], size: int, signs: Any) -> tuple[Any, Any, Any]:
-        """Every fit for one set of signs: the element that it belongs to, its trial value."""
+    def fits(
+        self, known: Sequence[Any], reach: Any, signs: tuple[int, ...], windows: Windows
+    ) -> Iterator[tuple[Any, Any, Any]]:
+        """Every fit for sets of signs that begin so: its element, its trial value, its signs.
+
+        ``windows`` are where the dyads of the signs that are set can be drawn.
+        """
         import numpy as np
 
-        def misfit(owner: Any, tried: Any) -> Any:
-            here = [array[owner] for array in known]
-            return self.misfits(here, tried, np.broadcast_to(signs, (owner.size, len(signs))))
+        def trial(owner: Any, share: Any) -> tuple[list[Any], Any, Any]:
+            tried = share if reach is None else self.along(share, reach[owner])
+            rows = np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
+            return [array[owner] for array in known], tried, rows
 
-        owner, tried = roots(misfit, self.grid(known, size))
-        return owner, tried, np.broadcast_to(signs, (owner.size, len(signs)))
-
-    def grid(self, known: Sequence[Any], size: int) -> Any:
-        """The trial values of each element: a round, or as far to both sides as can be needed."""
-        import numpy as np
-
-        if self.turns:
-            round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + 0.123e-3
-            return np.broadcast_to(round_, (size, SAMPLES + 1))
-        assert self.reach is not None
-        overrides = dict(zip(self.inputs, known, strict=True))
-        keep = (self.reach,)
-        with np.errstate(all="ignore"):
-            trace = run_batch(
-                self.program,
-                needed_of(self.program, keep),
-                self.values,
-                batch_kind(),
-                keep,
-                overrides=overrides,
-            )
-        reach = np.broadcast_to(trace.values[self.reach], size)
-        return reach[:, None] * np.linspace(-1, 1, 2 * SAMPLES + 1)
+        k = len(signs)
+        if k == len(self.signs):
+            owner, places = windows
+            row, share = roots(lambda row, at: self.misfits(*trial(owner[row], at)), places)
+            _, tried, rows = trial(owner[row], share)
+            yield owner[row], tried, rows
+            return
+        if self.choices[k] is not None:
+            windows = narrowed(lambda owner, at: self.drawable(k, *trial(owner, at)), windows)
+        for sign in (1, -1):
+            yield from self.fits(known, reach, (*signs, sign), windows)
 
     def ordered(
         self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any
@@ -193,11 +130,18 @@ class Trying:
         return Closures(size, table)
 
     def sines(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """Sine of the angle at which the locus crosses what was cut, by a small step each way."""
+        """Sine of the angle at which the locus crosses what was cut, by a small step each way.
+
+        Where a step leads beyond what can be drawn it is not taken.
+        """
         import numpy as np
 
         step = 1e-6 * (1 if self.turns else np.maximum(abs(tried), 1e-3))
+        here = self.found(known, tried, signs)
         ends = [self.found(known, tried + way * step, signs) for way in (-1, 1)]
+        for end in ends:
+            drawn = np.isfinite(end[self.misfit]) & np.isfinite(end[self.locus])
+            end |= {n: np.where(drawn, end[n], here[n]) for n in (self.misfit, self.locus)}
         across = ends[1][self.misfit] - ends[0][self.misfit]
         way = abs(ends[1][self.locus] - ends[0][self.locus])
         with np.errstate(all="ignore"):
@@ -214,7 +158,12 @@ class Closer:
 
     def __call__(self, *known: Any) -> tuple[Any, ...]:
         """Trial value, signs and the sine of crossing."""
-        return self.trying.closed(known, self.number)
+        kind = kind_of(*known)
+        if kind.name in DOUBLES:
+            return self.trying.closed(known, self.number)
+        from graphkin.steps.refining import closed_in
+
+        return closed_in(self.trying, known, self.number, kind)
 
     def locus(self, known: Sequence[Any], signs: Sequence[float]) -> Any:
         """Where the traced point goes while the link is tried, (N,); NaN where it breaks off.
@@ -261,13 +210,6 @@ class Closures:
         there = count >= number
         rows[there] = self.table[first[there] + number - 1]
         return list(rows)
-
-
-def needed_of(program: Program, steps: Sequence[int]) -> tuple[int, ...]:
-    """The steps that some steps need."""
-    return Program(program.steps, {("step", str(n)): n for n in steps}).needed(
-        [("step", str(n)) for n in steps]
-    )
 
 
 def sign_table(count: int) -> list[tuple[int, ...]]:

@@ -177,7 +177,7 @@ def alike(image: Point) -> Point:
 @action("turned-velocity")
 def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
     """Image of a pin turning about a pivot: omega times the bar, turned a quarter (Galileo)."""
-    return start + 1j * omega * (pin - pivot)
+    return start + 1j * (pin - pivot) * omega
 
 
 @action("square-to")
@@ -232,7 +232,7 @@ def centripetal(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
 @action("driven-tangential")
 def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> Point:
     """End of the tangential component of a driven bar: epsilon times the bar, turned a quarter."""
-    return start + 1j * epsilon * (pin - pivot)
+    return start + 1j * (pin - pivot) * epsilon
 
 
 @action("normal")

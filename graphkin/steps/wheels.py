@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from graphkin.arithmetic import Point, Real, phase, turn_by
+from graphkin.arithmetic import Point, Real, at, below, phase, pick, turn_by
 from graphkin.plane import Line, dot
 from graphkin.steps.vocabulary import action
+
+ROUND = 1e-9
+"""Radians by which rounding may put half a turn on its other side."""
 
 
 @action("contact-on-track")
@@ -51,7 +54,7 @@ def rack_at(
     """A point of a rack from the wheel that has rolled a way along its track (here to there)."""
     line = there - here
     along = axis * (line / abs(line))
-    return centre - along * (way + 1j * radius) + axis * (point - here)
+    return centre - along * at(way, radius) + axis * (point - here)
 
 
 @action("opposite")
@@ -62,8 +65,15 @@ def opposite(number: Real) -> Real:
 
 @action("turned-since")
 def turned_since(axis: Point, start: Point) -> Real:
-    """The angle in radians, within half a turn, by which a link has turned since the start."""
-    return phase(axis * start.conjugate())
+    """The angle in radians, within half a turn, by which a link has turned since the start.
+
+    A link turned just half round, but for rounding, has turned ahead and not back.
+    """
+    way = axis * start.conjugate()
+    size = abs(way)
+    quarter = phase(at(size * 0.0, size))
+    angle = phase(way)
+    return pick(below(angle, ROUND - 2 * quarter), angle + 4 * quarter, angle)
 
 
 @action("turned-to")
