@@ -16,7 +16,7 @@ from graphkin.errors import GraphkinError, Problem, StructureError, WitnessError
 from graphkin.loops.bodies import Reals
 from graphkin.loops.closures import closures, scattered, turned_side
 from graphkin.loops.equations import Equations, equations, undriven
-from graphkin.loops.groups import Group, stages
+from graphkin.loops.groups import Group, speaks_of, stages
 from graphkin.loops.motion import Motion
 from graphkin.loops.poses import Pose, pose_of, setting_of, spot, unknowns_of
 from graphkin.loops.solve import AT_REST, LoopSolution, closed_from, in_bars, largest, newton
@@ -48,7 +48,7 @@ def starting(scene: Scene, loops: Equations) -> Reals:
     for n in range(loops.numbers.count):
         values = setting_of(loops, n)
         try:
-            rows[n] = assembled(scene, equations(scene, values))[0]
+            rows[n] = assembled(scene, equations(scene, values, loops.links))[0]
         except GraphkinError:
             continue
     return rows
@@ -173,7 +173,7 @@ def stated(
             return everything
         side = turned_side(motion, branch.first, branch.second, name)
         return np.asarray(branch.side * side > -LEVEL)
-    if name not in group.links:
+    if not speaks_of(name, branch, group, loops):
         return everything
     if isinstance(branch, Closure):
         return np.asarray(np.arange(1, len(found) + 1) == branch.number)

@@ -24,6 +24,8 @@ STARTS = {1: 12, 2: 48}
 """Random starts from which the closures of a group of so many links are looked for."""
 MOST_STARTS = 256
 """Random starts of one round for larger groups."""
+A_TURN, MOST_IN_ALL = 24, 8192
+"""Starts for each turn that a wheel may make on its track, each turn having its own closures."""
 ROUNDS, ENOUGH = 10, 2
 """Most rounds, and how many in a row that bring nothing new end the search."""
 SHORT = 14
@@ -85,22 +87,30 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
     a turn of its start.
     """
     moving = moved_by(part, group)
-    size = len(group.links)
+    size, turned = len(group.links), turns_of_wheels(part, moving)
+    starts = max(STARTS.get(size, MOST_STARTS), min(int(A_TURN * turned), MOST_IN_ALL))
     distinct: list[Reals] = []
     idle = 0
-    for number in range(ROUNDS if size > 2 else 1):
-        thrown = scattered(part, stands, moving, STARTS.get(size, MOST_STARTS), number)
+    for number in range(ROUNDS if size > 2 or turned else 1):
+        thrown = scattered(part, stands, moving, starts, number)
         before = len(distinct)
-        for row in closed_of(part, thrown, moving):
-            gaps = [np.abs(wrapped(part, (row - other)[None])).max() for other in distinct]
-            if not gaps or min(gaps) >= SAME:
-                distinct.append(row)
+        rows = closed_of(part, thrown, moving)
+        for other in distinct:
+            rows = apart(part, rows, other)
+        while len(rows):
+            distinct.append(rows[0])
+            rows = apart(part, rows, rows[0])
         idle = idle + 1 if len(distinct) == before else 0
         if idle == ENOUGH or (number + 1 >= ENOUGH and not distinct):
             break
     links = [link for link in part.links if link in group.links]
     distinct.sort(key=lambda row: [angle_of(part, link, row) for link in links])
     return np.array(distinct).reshape(-1, part.unknown_count)
+
+
+def apart(part: Equations, rows: Reals, other: Reals) -> Reals:
+    """Those of some closed positions that are not the other one."""
+    return np.asarray(rows[np.abs(wrapped(part, rows - other)).max(axis=1) >= SAME])
 
 
 def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
@@ -127,6 +137,19 @@ def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: i
     thrown = np.concatenate([stands, np.where(moving, thrown, stands)])
     angles = moving & (np.arange(len(moving)) < loops.turning_count)
     return led(loops, led(loops, thrown, angles), moving)
+
+
+def tracks(loops: Equations, moving: Mask) -> list[int]:
+    """The straight tracks along which a group's wheels move."""
+    return [
+        j for j, each in enumerate(loops.guides) if each.rolls and moving[loops.turning_count + j]
+    ]
+
+
+def turns_of_wheels(loops: Equations, moving: Mask) -> float:
+    """How often the wheels of a group turn, the smallest of them, as far as they may have come."""
+    radii = [abs(float(loops.guides[j].offset)) for j in tracks(loops, moving)]
+    return 4 * reach(loops) / (2 * np.pi * min(radii)) if radii else 0.0
 
 
 def led(loops: Equations, unknowns: Reals, moving: Mask) -> Reals:

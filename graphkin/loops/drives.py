@@ -20,12 +20,14 @@ class Drives:
 
     A turning driver compares the unit vector e^{i(selected angle)}·``lean`` with ``aim``, a
     sliding one its coordinate with ``aim``; all (N, D). ``whole`` counts full turns, too, from the
-    angle ``given`` (radians): a wheel's place depends on them. Rates are in SI units.
+    angle ``given`` (radians), ``leaning`` being the angle of ``lean``, not reduced: a wheel's place
+    depends on them. Rates are in SI units.
     """
 
     selects: Reals
     turns: np.ndarray[Any, np.dtype[np.bool_]]
     lean: Complexes
+    leaning: Reals
     aim: Complexes
     given: Reals
     whole: bool
@@ -37,15 +39,16 @@ class Drives:
         coordinate = unknowns @ self.selects.T
         angle = np.angle(np.exp(1j * coordinate) * self.lean * self.aim.conj())
         if self.whole:
-            turned = coordinate + np.angle(self.lean) - self.given - angle
+            turned = coordinate + self.leaning - self.given - angle
             angle = angle + 2 * np.pi * np.rint(turned / (2 * np.pi))
         return np.where(self.turns, angle, coordinate - self.aim.real)
 
     def none(self) -> Drives:
         """No driver of them."""
-        lean, aim, given = self.lean[:, :0], self.aim[:, :0], self.given[:, :0]
-        rates = self.speed[:, :0], self.acceleration[:, :0]
-        return Drives(self.selects[:0], self.turns[:0], lean, aim, given, self.whole, *rates)
+        lean, leaning, aim = self.lean[:, :0], self.leaning[:, :0], self.aim[:, :0]
+        given, rates = self.given[:, :0], (self.speed[:, :0], self.acceleration[:, :0])
+        left = lean, leaning, aim, given
+        return Drives(self.selects[:0], self.turns[:0], *left, self.whole, *rates)
 
 
 def drives_of(
@@ -62,12 +65,16 @@ def drives_of(
     selects = np.zeros((count, turned.count + len(guides)))
     lean = np.ones((numbers.count, count), dtype=np.complex128)
     aim = np.zeros((numbers.count, count), dtype=np.complex128)
-    given, speed, acceleration = np.zeros((3, numbers.count, count))
+    leaning, given, speed, acceleration = np.zeros((4, numbers.count, count))
     for d, driver in enumerate(scene.drivers):
         if driver.kind == "turn":
             selects[d, turned.of[driver.link]] += 1
             selects[d, turned.of[driver.against]] -= 1
-            lean[:, d] = driven_line(driver, bodies, turned) / turned.lean[driver.against]
+            line = driven_line(driver, bodies)
+            leans = turned.lean[driver.link] / turned.lean[driver.against]
+            lean[:, d] = line * leans
+            turned_by = turned.angle[driver.link] - turned.angle[driver.against]
+            leaning[:, d] = np.angle(line) + turned_by
             aim[:, d] = numbers.direction(driver.position)
             given[:, d] = numbers.si(driver.position)
         else:
@@ -75,16 +82,16 @@ def drives_of(
             aim[:, d] = numbers.si(driver.position)
         speed[:, d] = numbers.si(driver.speed)
         acceleration[:, d] = numbers.si(driver.acceleration)
-    turns = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
-    return Drives(selects[:, 1:], turns, lean, aim, given, whole, speed, acceleration)
+    turning = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
+    return Drives(selects[:, 1:], turning, lean, leaning, aim, given, whole, speed, acceleration)
 
 
-def driven_line(driver: Driver, bodies: Mapping[str, Body], turned: Turnings) -> Any:
-    """Direction of the line whose angle is driven, in the link's turning."""
+def driven_line(driver: Driver, bodies: Mapping[str, Body]) -> Any:
+    """Direction of the line whose angle is driven, in the link's axes."""
     if driver.of is None:
-        return turned.lean[driver.link]
+        return 1 + 0j
     start, end = (bodies[driver.link][name] for name in driver.of)
-    return turned.lean[driver.link] * unit(end - start)
+    return unit(end - start)
 
 
 def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:

@@ -175,6 +175,7 @@ def equations(
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
     lengths = spans(scene, bodies, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
+    against = [driver.against for driver in scene.drivers if driver.kind == "turn"]
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
     return Equations(
         scene=scene,
@@ -188,7 +189,7 @@ def equations(
         gears=gears,
         chains=chains,
         closing=tuple(closing),
-        slips=packed_slips(slips, turned, guides, numbers),
+        slips=packed_slips(slips, against, turned, guides, numbers),
         drives=drives_of(scene, bodies, guides, turned, numbers, whole=whole),
         home=numbers.complexes(starts[FRAME]),
         size=lengths.max(axis=1),

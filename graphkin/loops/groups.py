@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.errors import StructureError
 from graphkin.loops.equations import Equations, equations
 from graphkin.loops.poses import setting_of
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 
 LARGEST = 6
 MOST = 20_000
@@ -101,6 +101,18 @@ def stages(scene: Scene, loops: Equations) -> list[Group]:
         found.append(group)
         known |= set(group.links)
     return found
+
+
+def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equations) -> bool:
+    """Whether a way or a number stated under the name of a link means a group.
+
+    A number means the group of the link. A way means the group of the slide whose block it names;
+    the block itself may be known before, having closed with another group.
+    """
+    own = {j for j, guide in enumerate(loops.guides) if guide.block == name}
+    if isinstance(branch, Way) and own:
+        return any(joint.slide in own for joint in group.slides)
+    return name in group.links
 
 
 def joints(loops: Equations) -> tuple[Joint, ...]:

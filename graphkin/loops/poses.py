@@ -34,7 +34,7 @@ def setting_of(loops: Equations, n: int) -> dict[str, Any]:
 
 def lean(loops: Equations, link: str, setting: int = 0) -> float:
     """Angle (radians) of a link's x axis against its turning."""
-    return float(np.angle(loops.numbers.complexes(loops.turned.lean[link])[setting]))
+    return float(loops.numbers.reals(loops.turned.angle[link])[setting])
 
 
 def pose_of(loops: Equations, row: Reals, setting: int = 0) -> Pose:

@@ -225,9 +225,16 @@ def slips_of(
 
 
 def packed_slips(
-    slips: Sequence[Slip], turned: Turnings, guides: Sequence[Guide], numbers: Numbers
+    slips: Sequence[Slip],
+    against: Sequence[str],
+    turned: Turnings,
+    guides: Sequence[Guide],
+    numbers: Numbers,
 ) -> Slips:
-    """The conditions of no slip as arrays."""
+    """The conditions of no slip as arrays; ``against`` are links that drivers turn others from.
+
+    Such a link counts from nought where no wheel says otherwise.
+    """
     rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
     constant = np.zeros((numbers.count, len(slips)))
     counted: dict[int, tuple[int, Reals]] = {}
@@ -236,15 +243,17 @@ def packed_slips(
             j = next(j for j, guide in enumerate(guides) if guide is slip.track)
             rows[:, r, turned.count + j] += slip.side
             wheel, on = slip.links
-            lean = np.angle(numbers.complexes(turned.lean[on] / turned.lean[wheel]))
-            against = numbers.reals(slip.starts[wheel]) + lean
-            counted.setdefault(turned.of[wheel], (turned.of[on], against))
+            lean = numbers.reals(turned.angle[on] - turned.angle[wheel])
+            zero = numbers.reals(slip.starts[wheel]) + lean
+            counted.setdefault(turned.of[wheel], (turned.of[on], zero))
         for link, weight in slip.weights.items():
-            lean = np.angle(numbers.complexes(turned.lean[link]))
+            lean = numbers.reals(turned.angle[link])
             at_start = numbers.reals(slip.starts[link])
             rows[:, r, turned.of[link]] += weight
             constant[:, r] += weight * (lean - at_start)
             counted.setdefault(turned.of[link], (0, at_start - lean))
+    for link in against if slips else ():
+        counted.setdefault(turned.of[link], (0, numbers.reals(-turned.angle[link])))
     counted.pop(turned.of[FRAME], None)
     links = tuple(slip.links for slip in slips)
     return Slips(rows[:, :, 1:], constant, links, counted)

@@ -102,8 +102,11 @@ def solve(
     return closed_from(loops, start.unknowns)
 
 
-def closed_from(loops: Equations, start: Reals) -> LoopSolution:
-    """Close the loops from unknowns (N, K + m) and find the motion; raises as ``solve`` does."""
+def closed_from(loops: Equations, start: Reals, *, accelerations: bool = True) -> LoopSolution:
+    """Close the loops from unknowns (N, K + m) and find the motion; raises as ``solve`` does.
+
+    Without ``accelerations`` those of the motion are NaN, and the equations are derived only once.
+    """
     refuse_undriven(loops)
     with np.errstate(all="ignore"):
         closed, first, iterations = newton(loops, start)
@@ -111,7 +114,7 @@ def closed_from(loops: Equations, start: Reals) -> LoopSolution:
         if loops.numbers.single:
             refuse_failure(loops, closed, report)
         unknowns = np.where(report.good[:, None], closed, np.nan)
-        ratios = ratios_at(loops, unknowns)
+        ratios = ratios_at(loops, unknowns, accelerations=accelerations)
         speed, acceleration = loops.drives.speed, loops.drives.acceleration
         rates = ratios.rates(speed)
         motion = Motion.of(loops, unknowns, rates, ratios.accelerations(speed, acceleration))
@@ -119,13 +122,18 @@ def closed_from(loops: Equations, start: Reals) -> LoopSolution:
 
 
 def newton(
-    loops: Equations, start: Reals, moving: Mask | None = None, most: int = ITERATIONS
+    loops: Equations,
+    start: Reals,
+    moving: Mask | None = None,
+    most: int = ITERATIONS,
+    settled: float = SETTLED,
 ) -> tuple[Reals, Reals, int]:
     """Newton–Raphson from the start values; steps longer than half a bar are shortened to it.
 
     Only the unknowns ``moving`` change, all of them without it; more equations than unknowns are
     met by least squares. Gives the unknowns, the residual of the start in bars (N,) and the number
-    of iterations, of which there are at ``most`` so many.
+    of iterations, of which there are at ``most`` so many; a step shorter than ``settled`` (bars) is
+    the last.
     """
     unknowns, done = start, np.zeros(len(start), dtype=np.bool_)
     columns = np.ones(start.shape[1], dtype=np.bool_) if moving is None else moving
@@ -142,7 +150,7 @@ def newton(
         done |= (largest(residual) < AT_REST) & (length > NEAR)
         shortened = step * np.minimum(1, LONGEST / np.maximum(length, LONGEST))[:, None]
         unknowns = np.where(done[:, None], unknowns, unknowns + shortened * loops.columns)
-        done |= length < SETTLED
+        done |= length < settled
         before, iterations = length, iterations + 1
     return unknowns, first, iterations
 
@@ -203,15 +211,21 @@ def report_on(
     )
 
 
-def ratios_at(loops: Equations, unknowns: Reals) -> Ratios:
-    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position."""
+def ratios_at(loops: Equations, unknowns: Reals, *, accelerations: bool = True) -> Ratios:
+    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position, or those NaN.
+
+    They are found with lengths in bars, so that metres do not drown radians.
+    """
     linear = loops.chains.at(unknowns)
-    jacobian = loops.jacobian(linear)
+    bars, sizes = loops.columns[:, :, None], loops.rows[:, :, None]
+    jacobian = loops.jacobian(linear) * loops.columns[:, None, :] / sizes
     count, rows, columns = jacobian.shape
     drivers = len(loops.drives.turns)
     by_driver = np.zeros((count, rows, drivers))
     by_driver[:, rows - drivers :, :] = -np.eye(drivers)
-    velocity = -linear_solve(jacobian, by_driver)
+    velocity = -linear_solve(jacobian, by_driver / sizes) * bars
+    if not accelerations:
+        return Ratios(velocity, np.full((count, columns, drivers, drivers), np.nan))
     curved = [
         loops.second(linear, velocity[:, :, d], velocity[:, :, e])
         for d in range(drivers)
@@ -219,7 +233,7 @@ def ratios_at(loops: Equations, unknowns: Reals) -> Ratios:
     ]
     if not curved:
         return Ratios(velocity, np.zeros((count, columns, 0, 0)))
-    acceleration = -linear_solve(jacobian, np.stack(curved, axis=-1))
+    acceleration = -linear_solve(jacobian, np.stack(curved, axis=-1) / sizes) * bars
     return Ratios(velocity, acceleration.reshape(count, columns, drivers, drivers))
 
 

@@ -9,7 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from graphkin.arithmetic import Point
+import numpy as np
+
+from graphkin.arithmetic import Point, Real
 from graphkin.errors import Problem, StructureError
 from graphkin.loops.bodies import Body, Guide
 from graphkin.scene.model import FRAME
@@ -44,12 +46,17 @@ class Chain:
 class Turnings:
     """The turning that each link belongs to, and its fixed lean (unit vector) against it.
 
-    Turning 0 is the frame's: its angle is zero.
+    ``angle`` is the lean in radians, summed from guide to guide and not reduced. Turning 0 is the
+    frame's: its angle is zero.
     """
 
     of: Mapping[str, int]
     lean: Mapping[str, Point]
+    angle: Mapping[str, Real]
     count: int
+
+
+Found = tuple[dict[str, int], dict[str, Point], dict[str, Real]]
 
 
 def turnings(links: Sequence[str], guides: Sequence[Guide]) -> Turnings:
@@ -57,11 +64,12 @@ def turnings(links: Sequence[str], guides: Sequence[Guide]) -> Turnings:
     tied = [guide for guide in guides if guide.first and not guide.rolls]
     of: dict[str, int] = {}
     lean: dict[str, Point] = {}
+    angle: dict[str, Real] = {}
     for seed in links:
         if seed not in of:
-            of[seed], lean[seed] = max(of.values(), default=-1) + 1, 1 + 0j
-            spread(seed, tied, of, lean)
-    return Turnings(of, lean, max(of.values()) + 1)
+            of[seed], lean[seed], angle[seed] = max(of.values(), default=-1) + 1, 1 + 0j, 0.0
+            spread(seed, tied, (of, lean, angle))
+    return Turnings(of, lean, angle, max(of.values()) + 1)
 
 
 def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
@@ -80,18 +88,21 @@ def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
             )
 
 
-def spread(seed: str, tied: Sequence[Guide], of: dict[str, int], lean: dict[str, Point]) -> None:
+def spread(seed: str, tied: Sequence[Guide], found: Found) -> None:
     """Reach every link that turns with the seed, guide by guide."""
+    of, lean, angle = found
     waiting = [seed]
     while waiting:
         here = waiting.pop()
         for guide in tied:
             if guide.on == here and guide.block not in of:
-                of[guide.block], lean[guide.block] = of[here], lean[here] * guide.along
-                waiting.append(guide.block)
+                other, along, turn = guide.block, guide.along, np.angle(guide.along)
             elif guide.block == here and guide.on not in of:
-                of[guide.on], lean[guide.on] = of[here], lean[here] / guide.along
-                waiting.append(guide.on)
+                other, along, turn = guide.on, 1 / guide.along, -np.angle(guide.along)
+            else:
+                continue
+            of[other], lean[other], angle[other] = of[here], lean[here] * along, angle[here] + turn
+            waiting.append(other)
 
 
 class Tree:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.errors import GraphkinError
+from graphkin.errors import ClosureError, GraphkinError, Problem
 from graphkin.motion.course import Flags, Reals, spread
 from graphkin.motion.events import Singular, singulars
 from graphkin.motion.pieces import Path, Piece, followed
@@ -53,7 +53,8 @@ class Cycle:
     ``at`` (N,) is u, the driver's position (degrees, metres) or the time (s), of every row;
     ``piece`` (N,) counts the pieces of constant signs from 1; ``solution`` holds the motion of
     points, links and slides as arrays (N,) in SI; ``margins`` the sine of each crossing by the
-    point that it finds. ``left_out`` are the positions asked that have no row.
+    point, or the link, that it finds. ``left_out`` are the positions asked that have no row;
+    ``targets`` what was run for each row, None for all that there is.
     """
 
     mechanism: Mechanism
@@ -64,6 +65,7 @@ class Cycle:
     solution: Solution
     margins: Mapping[str, Reals]
     left_out: Reals
+    targets: tuple[Target, ...] | None = None
 
     @property
     def scene(self) -> Scene:
@@ -95,7 +97,8 @@ class Cycle:
 
         ``geometric`` gives rates by the driver's position in place of those by the time.
         """
-        return filled(self.mechanism, self.sweep, self.path, np.asarray(at, float), geometric)
+        rows = np.asarray(at, float)
+        return filled(self.mechanism, self.sweep, self.path, rows, geometric, self.targets)
 
 
 def cycle(
@@ -106,18 +109,35 @@ def cycle(
     low: float | None = None,
     high: float | None = None,
     branches: Mapping[str, Branch] | None = None,
+    targets: Iterable[Target] | None = None,
 ) -> Cycle:
     """A whole turn of a driver, or its reachable ranges, or a span of time, as arrays.
 
     One driver is moved through its positions at its stated speed and acceleration; driver number
     ``driver`` of several, while the others stand still; several drivers, or one that follows a law
     of time, move with the time. ``steps`` parts a turn, a range or the span; ``low`` and ``high``
-    (degrees, metres, seconds) bound it; ``branches`` picks other closures to start with. Raises
-    SceneError for a driver that there is not, ClosureError where nothing closes.
+    (degrees, metres, seconds) bound it; ``branches`` picks other closures to start with;
+    ``targets`` keeps to what they need, where not all is wanted. Raises SceneError for a driver
+    that there is not, ClosureError where nothing closes.
     """
     sweep = sweep_of(mechanism.scene, driver=driver, low=low, high=high)
     path = followed(sweep, branches)
-    return filled(mechanism, sweep, path, places(sweep, path, steps))
+    wanted = None if targets is None else tuple(targets)
+    found = filled(mechanism, sweep, path, places(sweep, path, steps), targets=wanted)
+    if not len(found.at):
+        raise ClosureError(stands_still(sweep, path))
+    return found
+
+
+def stands_still(sweep: Sweep, path: Path) -> Problem:
+    """The problem of a driver that has no room to move, at a dead point on both sides."""
+    ends = " and ".join(f"from {low:.6g} to {high:.6g} {sweep.unit}" for low, high in spans(path))
+    return Problem(
+        "the cycle",
+        f"it closes {ends} only, where nothing moves",
+        "positions that are not singular",
+        "change the lengths: at this dead point everything is in line",
+    )
 
 
 def places(sweep: Sweep, path: Path, steps: int) -> Reals:
@@ -147,10 +167,15 @@ def spans(path: Path) -> list[tuple[float, float]]:
 
 
 def filled(
-    mechanism: Mechanism, sweep: Sweep, path: Path, at: Reals, geometric: bool = False
+    mechanism: Mechanism,
+    sweep: Sweep,
+    path: Path,
+    at: Reals,
+    geometric: bool = False,
+    targets: tuple[Target, ...] | None = None,
 ) -> Cycle:
     """The rows of a cycle: each place run with the closures of its piece, in batches."""
-    found = columns_at(sweep, path, at, geometric=geometric)
+    found = columns_at(sweep, path, at, targets, geometric=geometric)
     moves = found.piece > 0
     for value in found.columns.values():
         moves &= np.ones(len(at), bool) if isinstance(value, Ratio) else np.isfinite(value)
@@ -161,7 +186,8 @@ def filled(
     smallest = np.min([np.ones(moves.sum()), *margins.values()], axis=0)
     solution = Solution(motion.points, motion.links, motion.slides, smallest)
     left_out = np.sort(at[~moves])
-    return Cycle(mechanism, sweep, path, at[moves], found.piece[moves], solution, margins, left_out)
+    rows = at[moves], found.piece[moves]
+    return Cycle(mechanism, sweep, path, *rows, solution, margins, left_out, targets)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -201,7 +227,8 @@ def columns_at(
             if value is not None:
                 columns[target] = placed(columns.get(target), value, rows, len(at))
         for n, margin in trace.margins.items():
-            name = piece.course.program.steps[n].name
+            step = piece.course.program.steps[n]
+            name = step.name or step.says.get("k", "")  # a guide through two pins finds a link
             if n in piece.course.crossings and name:
                 margins.setdefault(name, np.full(len(at), np.nan))[rows] = margin
     return Columns(which, columns, margins)

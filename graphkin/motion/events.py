@@ -90,6 +90,8 @@ def words(course: Course, number: int, inside: float) -> tuple[str, str]:
     """The pin that a step finds, and which lines are in line, square or parallel there."""
     program = course.program
     step = program.steps[number]
+    if step.action is not None and step.action.key == "swing-through":
+        return f"link {step.says['k']}", f"{step.says['q']} on {step.says['p']}"
     pin = step.name or of_later(program, number)
     p, q = step.says.get("p", ""), step.says.get("q", "")
     match course.loci(number, inside):

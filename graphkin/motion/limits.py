@@ -143,7 +143,7 @@ def follower(
     where = place(every)
     known = np.isfinite(where)
     every, where = every[known], where[known]
-    if np.ptp(where) <= NOTHING * max(1.0, float(np.abs(where).max())):
+    if not where.size or np.ptp(where) <= NOTHING * max(1.0, float(np.abs(where).max())):
         return None
     if line is not None:
         turned = TURN * np.floor((where.min() + TURN / 2) / TURN)

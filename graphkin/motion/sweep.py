@@ -23,6 +23,8 @@ GRID = 7200
 """Positions tried in a sweep when its events are looked for: in one turn every 0.05 degrees."""
 DOUBLINGS = 60
 """How often the time is doubled to find a driver's first whole turn."""
+FREE = 2.1
+"""Reaches to each side of where a slide stands: over two, so that no dead point falls there."""
 UNITS = {"turn": "deg", "slide": "m", "roll": "m", "time": "s"}
 SYMBOLS = {"turn": "phi", "slide": "s", "roll": "s", "time": "t"}
 
@@ -213,7 +215,7 @@ def window(
     if what == "time":
         first = 0.0 if low is None else low
         return first, high if high is not None else first + whole_turn(scene), False
-    room = reach_of(scene) * 2
+    room = reach_of(scene) * FREE
     if what == "roll" and number is not None:
         room = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or room
         start -= room / 2
@@ -228,17 +230,27 @@ def wheel_turn(link: Link, scene: Scene) -> float:
 
 
 def reach_of(scene: Scene) -> float:
-    """The sum of all lengths of a scene (m): no point moves farther."""
+    """The sum of all lengths of a scene (m): no point moves farther.
+
+    Where the origin lies does not matter: coordinates count from the first that a link is given.
+    """
     lengths: list[Quantity] = []
+    places: list[tuple[str, Quantity, Quantity]] = []
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             lengths += [length for _, _, length in placing.lengths()]
-            lengths += [placing.x, placing.y] if isinstance(placing, At) else []
+            places += [(link.name, placing.x, placing.y)] if isinstance(placing, At) else []
         for slide in link.slides:
             lengths.append(slide.offset)
-            lengths += slide.through if isinstance(slide.through, tuple) else ()
+            places += [(slide.on, *slide.through)] if isinstance(slide.through, tuple) else []
         lengths += [wheel.radius for wheel in link.wheels if wheel.radius is not None]
-    return sum(abs(float(length.si(scene.values))) for length in lengths) or 1.0
+    far = sum(abs(float(length.si(scene.values))) for length in lengths)
+    first: dict[str, complex] = {}
+    for name, x, y in places:
+        place = complex(x.si(scene.values), y.si(scene.values))
+        way = place - first.setdefault(name, place)
+        far += abs(way.real) + abs(way.imag)
+    return far or 1.0
 
 
 def whole_turn(scene: Scene) -> float:

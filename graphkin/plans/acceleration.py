@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from graphkin.plans import wheels
 from graphkin.plans.arrows import acceleration_arrow
-from graphkin.plans.carried import image_under, omega_of, second_image_under
+from graphkin.plans.carried import (
+    accelerated,
+    image_under,
+    omega_of,
+    second_image_under,
+    tangential_effect,
+)
 from graphkin.plans.coriolis import (
     coriolis_of,
     lay_off_coriolis,
@@ -18,6 +24,7 @@ from graphkin.plans.pen import Pen, Says, about, letter, named, second_image
 from graphkin.plans.plates import crosses_well
 from graphkin.plans.shape import Shapes
 from graphkin.plans.velocity import driven_rate, line_of
+from graphkin.steps.effect import Effect
 from graphkin.steps.guides import driven_slide, lay_off_turned
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
@@ -59,11 +66,14 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False)
     says["k"] = link
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         name = second_image(tip) if steady else ""
-        found = pen.draw(centripetal, start, *ends, pen.the("omega", link), name=name, **says)
+        with pen.calls_for(Effect.NORMAL):
+            found = pen.draw(centripetal, start, *ends, pen.the("omega", link), name=name, **says)
         if not steady:
             component_arrow(pen, start, found, "ν", tip, pivot)
             corner, rate = found, pen.the("epsilon", link)
-            found = pen.draw(driven_tangential, found, *ends, rate, name=second_image(tip), **says)
+            name = second_image(tip)
+            with pen.calls_for(tangential_effect(pen, rate)):
+                found = pen.draw(driven_tangential, found, *ends, rate, name=name, **says)
             component_arrow(pen, corner, found, "τ", tip, pivot)
     pen.want("acceleration", tip, found)
     acceleration_arrow(pen, tip)
@@ -87,14 +97,19 @@ def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, rate:
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = lay_off_coriolis(pen, pair, link, point, point, vector)
         says: Says = {"q": point, "g": pair.links[0], "s": named(pen, corner)}
-        found = pen.draw(
-            driven_slide, corner, line, rate, name=second_image(point), extra=(way,), **says
-        )
+        name = second_image(point)
+        with pen.calls_for(sliding_effect(pen, rate)):
+            found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)
         slide_arrow(pen, corner, found, known, point)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
     if isinstance(pair, Contact):
         wheels.second_touch(pen, pair)
+
+
+def sliding_effect(pen: Pen, rate: int) -> Effect | None:
+    """A component along a guide is a driver's where that is accelerated."""
+    return Effect.DRIVER if accelerated(pen, rate) else None
 
 
 def dyad(pen: Pen, shapes: Shapes, group: Dyad) -> None:
@@ -191,7 +206,8 @@ def led_points(pen: Pen, base: Base) -> None:
             continue
         if pen.turns(base.link):
             omega_of(pen, base.link), omega_of(pen, base.link, "epsilon")
-            turn_tip(pen, base.link, base.start, point)
+            steady = pen.is_nought(pen.the("epsilon", base.link))
+            turn_tip(pen, base.link, base.start, point, steady=steady)
             continue
         start = pen.the("acceleration", base.start)
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
@@ -230,7 +246,7 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
         tail = image_under(pen, pair.links[1], first)
         vector = coriolis_of(pen, pair.links[1], tail, pen.the("velocity", first), first, block)
         pen.want("coriolis", block, vector)
-        with pen.on(Part.RESULT, Plane.NUMBERS):
+        with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for(Effect.CORIOLIS):
             start = pen.draw(lay_off_turned, start, vector, q=first)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from graphkin.errors import Problem, StructureError
+from graphkin.scene.check import written
 from graphkin.scene.model import Closure, Scene, Side, Way
 from graphkin.structure.graph import Pin
 from graphkin.structure.groups import (
+    Crank,
+    Driven,
     Dyad,
+    Geared,
     Group,
     Higher,
     Stretched,
 )
+
+MISSING = "is missing"
+"""What is found of a branch that is not written."""
 
 
 def choosing(groups: tuple[Group, ...]) -> list[str]:
@@ -51,19 +61,71 @@ def unused_branches(scene: Scene, groups: tuple[Group, ...]) -> list[Problem]:
     return [
         Problem(
             f"branches.{name}",
-            "no group has a choice here",
-            "branches of " + (", ".join(sorted(allowed)) or "nothing"),
-            "take it out, or graphkin check shows which groups there are",
+            why_no_choice(scene, groups, name),
+            f"branches of {', '.join(sorted(allowed))}" if allowed else "no branches",
+            f"take it out{only_way(scene, groups, name)}",
         )
         for name in scene.branches
-        if name not in allowed and not harmless(scene, name)
+        if name not in allowed
     ]
 
 
-def harmless(scene: Scene, name: str) -> bool:
-    """A way stated for a block whose group closes in one way only: not demanded, not refused."""
-    return isinstance(scene.branches[name], Way) and bool(
-        name in scene.links and scene.links[name].slides
+def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
+    """What settles a link or a point that needs no branch."""
+    match group_of(scene, groups, name):
+        case Crank(driver=driver) | Driven(driver=driver):
+            return (
+                f"link {driver.link} is driven: nothing is left to choose at {called(scene, name)}"
+            )
+        case Dyad() as dyad if not (dyad.type == "RRR" or has_two_ways(dyad)):
+            links = " and ".join(dyad.links)
+            return f"links {links} with their slides close in one way only ({dyad.title})"
+        case Geared(link=link):
+            return f"link {link} follows from its contact in one way only"
+    return f"no group has a choice at {called(scene, name)}"
+
+
+def only_way(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
+    """Where the branch of a group is written, when it stands under another name of the group."""
+    group = group_of(scene, groups, name)
+    names = choosing((group,)) if group is not None else []
+    return f"; the branch of its group is that of {names[0]}" if names else ""
+
+
+def group_of(scene: Scene, groups: tuple[Group, ...], name: str) -> Group | None:
+    """The first group that has a link, or a point."""
+    for group in groups:
+        if name in group.links or any(name in scene.links[k].points for k in group.links):
+            return group
+    return None
+
+
+def called(scene: Scene, name: str) -> str:
+    """A link or a point in words."""
+    return f"link {name}" if name in scene.links else name
+
+
+def stray(scene: Scene, groups: tuple[Group, ...], group: Group) -> list[str]:
+    """The branches written under the other names of a group, where no group has a choice."""
+    allowed = choosing(groups)
+    own = {*group.links, *(point for link in group.links for point in scene.links[link].points)}
+    return [name for name in scene.branches if name in own and name not in allowed]
+
+
+def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem:
+    """The problem of a missing branch, together with the branches that seem to stand for it."""
+    if problem.found != MISSING or not names:
+        return problem
+    lines = " and ".join(f"{name} = {written(scene.branches[name])}" for name in names)
+    verb = "chooses" if len(names) == 1 else "choose"
+    own = problem.place.partition(".")[2]
+    expected = " or ".join(f"{own} = {words}" for words in problem.expected.split(" or "))
+    if problem.expected.startswith(f"{own} = "):
+        expected = problem.expected
+    return replace(
+        problem,
+        found=f"{MISSING}, while {lines} {verb} nothing",
+        expected=f"{expected} in place of {lines}",
     )
 
 
@@ -81,7 +143,7 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
     raise StructureError(
         Problem(
             f"branches.{dyad.inner.point}",
-            "is missing" if branch is None else "does not name the two known pins of its dyad",
+            MISSING if branch is None else "does not name the two known pins of its dyad",
             f'"left of {line}" or "right of {line}"',
             f"{dyad.inner.point} can lie on either side of the line {line}; the scene says which",
         )
@@ -106,7 +168,7 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
     raise StructureError(
         Problem(
             f"branches.{block}",
-            "is missing" if branch is None else "is not the branch of a sliding link",
+            MISSING if branch is None else f"{written(branch)} for a link that slides or rolls",
             '"forward" or "backward"',
             hint,
         )
@@ -115,21 +177,25 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
 
 def closure_of(scene: Scene, group: Higher) -> int:
     """The stated number of a higher group's closure, counted from one."""
-    stated = [scene.branches[name] for name in group.links if name in scene.branches]
-    numbers = [branch.number for branch in stated if isinstance(branch, Closure)]
+    stated = {name: scene.branches[name] for name in group.links if name in scene.branches}
+    numbers = [branch.number for branch in stated.values() if isinstance(branch, Closure)]
     if numbers and len(stated) == 1:
         return numbers[0]
-    link = next((name for name in group.links if name in scene.branches), None)
-    link = link or first_written(scene, group)
-    found = "is missing"
-    if stated:
-        found = "is given twice" if len(stated) > 1 else 'is not "closure 1" or another number'
+    link = next(iter(stated), first_written(scene, group))
+    hint = "they close together in several ways; graphkin check lists them"
+    found = MISSING
+    if len(numbers) > 1:
+        found = "is given twice"
+    elif stated:
+        lines = " and ".join(f"{name} = {written(branch)}" for name, branch in stated.items())
+        found = f"{lines} for one {group.title}"
+        hint += "; if two of them should close by themselves, a guide or a pin is on the wrong link"
     raise StructureError(
         Problem(
             f"branches.{link}",
             found,
             f'{link} = "closure 1", or another number, for the links {", ".join(group.links)}',
-            "they close together in several ways; graphkin check lists them",
+            hint,
         )
     )
 

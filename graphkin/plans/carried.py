@@ -6,16 +6,20 @@ from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.links import under
 from graphkin.plans.pen import Pen, Says, image, letter, second_image
 from graphkin.scene.model import FRAME
+from graphkin.steps.effect import Effect
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     centripetal,
+    difference,
     driven_tangential,
     epsilon,
     in_proportion,
     omega,
     similar_point,
+    sum_of,
     turned_velocity,
 )
+from graphkin.steps.wheels import speed_rolled
 
 RATES = {"omega": ("velocity", omega), "epsilon": ("acceleration", epsilon)}
 
@@ -32,14 +36,14 @@ def omega_of(pen: Pen, link: str, quantity: str = "omega") -> int:
 def rate_of(pen: Pen, link: str, quantity: str) -> int:
     """The step that finds an angular velocity or acceleration that is not known yet."""
     if not pen.turns(link):
-        return pen.given("nought")
+        return pen.given("nought", name=f"no {quantity}")
     base = pen.bases[link]
     if base.end is None:
         return omega_of(pen, pen.leads[link], quantity)
     plan, action = RATES[quantity]
     points = (base.start, base.end)
     ends = [pen.the(what, point) for what in ("position", plan) for point in points]
-    with pen.on(Part.RESULT, Plane.NUMBERS):
+    with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for(None):
         p, q = map(letter, points)
         return pen.draw(action, *ends, name=link, p=p, q=q)
 
@@ -108,7 +112,28 @@ def found_by_turning(pen: Pen, link: str, point: str, quantity: str) -> int:
     if quantity == "velocity":
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             return pen.draw(turned_velocity, start, *ends, turning, name=image(name), **says)
-    rate = omega_of(pen, link, "epsilon")
+    rate, called = omega_of(pen, link, "epsilon"), second_image(name)
+    steady = pen.is_nought(rate)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = pen.draw(centripetal, start, *ends, turning, **says)
-        return pen.draw(driven_tangential, corner, *ends, rate, name=second_image(name), **says)
+        with pen.calls_for(Effect.NORMAL):
+            given = called if steady else ""
+            corner = pen.draw(centripetal, start, *ends, turning, name=given, **says)
+        if steady:
+            return corner
+        with pen.calls_for(tangential_effect(pen, rate)):
+            return pen.draw(driven_tangential, corner, *ends, rate, name=called, **says)
+
+
+def tangential_effect(pen: Pen, rate: int) -> Effect:
+    """A tangential component is a driver's where its rate holds what that is accelerated by."""
+    return Effect.DRIVER if accelerated(pen, rate) else Effect.TANGENTIAL
+
+
+def accelerated(pen: Pen, rate: int) -> bool:
+    """Whether a rate is a driver's acceleration, alone or with another's, and not nought."""
+    step = pen.steps[rate]
+    if step.given is not None:
+        given = {drive.acceleration for drive in pen.drives.values()}
+        return rate in given and not pen.is_nought(rate)
+    passed_on = step.action in (sum_of, difference, speed_rolled)
+    return passed_on and any(accelerated(pen, arg) for arg in step.args)

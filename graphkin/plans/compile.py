@@ -16,7 +16,7 @@ from graphkin.plans import (
     velocity,
     wheels,
 )
-from graphkin.plans.branches import refuse_unstated, unused_branches
+from graphkin.plans.branches import in_place_of, refuse_unstated, stray, unused_branches
 from graphkin.plans.guides import axis, standing_guide
 from graphkin.plans.links import Base, bases, crank_tip, leads_of
 from graphkin.plans.pen import Pen
@@ -72,7 +72,8 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
             standing.append((group, bases(scene, group)))
             refuse_unstated(scene, group)
         except StructureError as error:
-            problems += error.problems
+            others = stray(scene, groups, group)
+            problems += [in_place_of(scene, each, others) for each in error.problems]
     problems += [] if problems else unused_branches(scene, groups)
     if problems:
         raise StructureError(problems)

@@ -6,6 +6,7 @@ from graphkin.plans.carried import image_under, omega_of, second_image_under
 from graphkin.plans.links import under
 from graphkin.plans.pen import PRIME, Pen, Says, letter, named
 from graphkin.scene.model import FRAME
+from graphkin.steps.effect import Effect
 from graphkin.steps.guides import (
     coriolis,
     coriolis_base,
@@ -38,8 +39,9 @@ def coriolis_of(pen: Pen, link: str, tail: int, tip: int, point: str, block: str
             "i": letter(point) + letter(under(point, link)),
             "g": block,
         }
-        by_hand = coriolis_triangle(pen, link, tail, tip, point, says)
-        with pen.on(Part.NORMAL, Plane.NUMBERS):
+        with pen.calls_for(Effect.CORIOLIS):
+            by_hand = coriolis_triangle(pen, link, tail, tip, point, says)
+        with pen.on(Part.NORMAL, Plane.NUMBERS), pen.calls_for(Effect.CORIOLIS):
             name = f"a_{says['i']}^c"
             rate = omega_of(pen, link)
             pen.shared[key] = pen.draw(
@@ -102,14 +104,16 @@ def lay_off_coriolis(
         assert vector is not None
         tip = pen.the("acceleration", point)
         says = coriolis_says(pen, link, point, named(pen, tip))
-        corner = pen.draw(lay_back, tip, vector, **says)
+        with pen.calls_for(Effect.CORIOLIS):
+            corner = pen.draw(lay_back, tip, vector, **says)
         coriolis_arrow(pen, corner, tip, says)
         return corner
     start = second_image_under(pen, partner(pair, link), point)
     if vector is None:
         return start
     says = coriolis_says(pen, partner(pair, link), point, named(pen, start))
-    corner = pen.draw(lay_off_turned, start, vector, **says)
+    with pen.calls_for(Effect.CORIOLIS):
+        corner = pen.draw(lay_off_turned, start, vector, **says)
     coriolis_arrow(pen, start, corner, says)
     return corner
 

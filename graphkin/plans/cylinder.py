@@ -9,6 +9,7 @@ from graphkin.plans.guides import local_line
 from graphkin.plans.links import under
 from graphkin.plans.pen import Pen, Says, image, letter, named, second_image
 from graphkin.plans.shape import Shapes
+from graphkin.steps.effect import Effect
 from graphkin.steps.guides import (
     axis_by_guide,
     axis_stretched,
@@ -86,10 +87,12 @@ def accelerate(pen: Pen, shapes: Shapes, group: Stretched) -> None:
     says: Says = {"q": letter(foot), "g": group.slide.block, "s": named(pen, start)}
     index: Says = {"i": letter(point) + letter(foot), "k": far, "q": point, "s": named(pen, start)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = pen.draw(lay_off_turned, start, vector, **index)
+        with pen.calls_for(Effect.CORIOLIS):
+            corner = pen.draw(lay_off_turned, start, vector, **index)
         coriolis_arrow(pen, start, corner, index)
         name = second_image(foot)
-        found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)
+        with pen.calls_for(acceleration.sliding_effect(pen, rate)):
+            found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)
         slide_arrow(pen, corner, found, far, point)
     pen.want("acceleration", foot, found)
     acceleration.dyad(pen, shapes, group.dyad)

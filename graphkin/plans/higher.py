@@ -105,14 +105,18 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     dyads = choosing_dyads(group)
     signs = [fork.input_step() for _ in dyads]
     fork.chosen |= {dyad.links: sign for dyad, sign in zip(dyads, signs, strict=True)}
-    turns = isinstance(group.trial.pair, Pin)
+    pair = group.trial.pair
+    turns = isinstance(pair, Pin)
     build(fork, shapes, group, each, tried)
     with fork.on(Part.POSITION, Plane.NUMBERS):
         fit = misfit(fork, shapes, group.last)
         written = [name for name in pen.scene.links if name in group.links]
         axes = tuple(axis(fork, shapes, name) for name in written)
         reach = None if turns else reach_of(fork, shapes, group)
+        rim = rolling.radius_of(fork, pair) if isinstance(pair, Contact) else None
     point = traced_point(pen, group.last)
+    traced = None if point is None else fork.the("position", point)
+    fork.keep_inputs(fit.size, fit.locus, fit.facing, *axes, reach, rim, traced)
     trying = Trying(
         fork.program(),
         pen.scene.values,
@@ -125,7 +129,8 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
         fit.facing,
         axes,
         reach,
-        None if point is None else fork.the("position", point),
+        rim,
+        traced,
     )
     return trying, list(fork.inputs.values())
 

@@ -55,8 +55,7 @@ def contact_name(contact: Contact) -> str:
 
     The mark before it keeps it apart from the points of the scene.
     """
-    names = [link if link.isdigit() else f"_{link}" for link in contact.links]
-    return CONTACT + "I" + "".join(names)
+    return CONTACT + contact.letter
 
 
 def crank_tip(scene: Scene, crank: Crank) -> str | None:

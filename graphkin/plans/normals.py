@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graphkin.plans.pen import Pen, Says, about, letter, named
+from graphkin.steps.effect import Effect
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     bar_line,
@@ -27,9 +28,9 @@ def normal_component(pen: Pen, pivot: str, pin: str) -> int:
     images = pen.the("velocity", pivot), pen.the("velocity", pin)
     index = about(pen, pin, pivot)
     says: Says = {"p": letter(pivot), "q": letter(pin), "i": index}
-    with pen.on(Part.NORMAL, Plane.MECHANISM):
+    with pen.on(Part.NORMAL, Plane.MECHANISM), pen.calls_for(Effect.NORMAL):
         by_hand = right_triangle(pen, places, images, says)
-    with pen.on(Part.NORMAL, Plane.NUMBERS):
+    with pen.on(Part.NORMAL, Plane.NUMBERS), pen.calls_for(Effect.NORMAL):
         name = f"a_{index}^ν"
         return pen.draw_shared(key, normal, *places, *images, name=name, by_hand=by_hand, **says)
 
@@ -54,7 +55,8 @@ def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
     start = pen.the("acceleration", pivot)
     says: Says = {"p": letter(pivot), "q": letter(pin), "s": named(pen, start)}
     says["i"] = about(pen, pin, pivot)
-    end = pen.draw(lay_off, start, vector, **says)
+    with pen.calls_for(Effect.NORMAL):
+        end = pen.draw(lay_off, start, vector, **says)
     component_arrow(pen, start, end, "ν", pin, pivot)
     return end
 
@@ -63,7 +65,8 @@ def square(pen: Pen, pivot: str, pin: str, corner: int) -> int:
     """Through the end of a normal component the perpendicular to its bar."""
     ends = pen.the("position", pivot), pen.the("position", pin)
     says: Says = {"p": letter(pivot), "q": letter(pin), "i": about(pen, pin, pivot)}
-    return pen.draw(square_to, corner, *ends, **says)
+    with pen.calls_for(Effect.TANGENTIAL):
+        return pen.draw(square_to, corner, *ends, **says)
 
 
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:

@@ -11,6 +11,7 @@ from graphkin.errors import ClosureError
 from graphkin.plans.branches import block_of, side_of, way_of
 from graphkin.plans.links import Base
 from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.steps.effect import Effect
 from graphkin.steps.program import CONTACT, Drive, Given, Part, Plane, Program, Step, Target
 from graphkin.steps.run import StepFailed, evaluate
 from graphkin.steps.vocabulary import Action, pole
@@ -42,6 +43,7 @@ class Pen:
         self.layer: dict[Target, int] | None = None
         self.tag = ""
         self.part, self.plane, self.hand = Part.SHAPE, Plane.NUMBERS, False
+        self.effect: Effect | None = None
 
     @contextmanager
     def on(self, part: Part, plane: Plane) -> Iterator[None]:
@@ -50,6 +52,13 @@ class Pen:
         self.part, self.plane = part, plane
         yield
         self.part, self.plane = before
+
+    @contextmanager
+    def calls_for(self, effect: Effect | None) -> Iterator[None]:
+        """Steps that an effect of the motion calls for; None leaves it to the part of the work."""
+        before, self.effect = self.effect, effect
+        yield
+        self.effect = before
 
     @contextmanager
     def hands_way(self) -> Iterator[None]:
@@ -70,7 +79,7 @@ class Pen:
         action: Action,
         *args: int,
         name: str = "",
-        extra: tuple[int, ...] = (),
+        extra: tuple[float, ...] = (),
         by_hand: int | None = None,
         **says: Any,
     ) -> int:
@@ -89,6 +98,7 @@ class Pen:
                 by_hand,
                 self.hand,
                 says=says,
+                effect=self.effect,
             )
         )
 
@@ -147,6 +157,12 @@ class Pen:
         if self.layer and (quantity, of) in self.layer:
             return self.layer[quantity, of]
         return self.targets[quantity, of]
+
+    def is_nought(self, number: int) -> bool:
+        """True when a step holds a given rate that is nought whatever the parameters."""
+        given = self.steps[number].given
+        quantities = given.quantities if given is not None else ()
+        return bool(quantities) and all(quantity.is_zero() for quantity in quantities)
 
     def pole(self, plane: Plane) -> int:
         """The pole of a plan: o of the velocities, o′ of the accelerations."""

@@ -230,19 +230,31 @@ def swivelling(pen: Pen, shapes: Shapes, group: Dyad) -> None:
     places = [pen.the("position", pins[link]) for link in (carrier, block)]
     height = height_of(pen, shapes, group.inner, pins)
     way, extra = pen.choice(group)
+    breadth = breadth_about(pen, places[0])
     says: Says = {"p": pins[carrier], "q": pins[block], "k": carrier, "g": block}
     with pen.on(Part.POSITION, Plane.MECHANISM):
         if height is None:
-            turn = pen.draw(swing_through, *places, *way, extra=extra, **says)
+            turn = pen.draw(swing_through, *places, *way, extra=(*extra, breadth), **says)
         else:
             by_hand = None if way else tangent(pen, places, height, extra[0], says)
-            turn = pen.draw(swing, *places, height, *way, extra=extra, by_hand=by_hand, **says)
+            sized = (*extra, breadth)
+            turn = pen.draw(swing, *places, height, *way, extra=sized, by_hand=by_hand, **says)
         pen.draw_shared(("swing", carrier), ray, places[0], turn, p=pins[carrier], g=block)
     ends = local_line(pen, shapes, group.inner.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
         pen.want("axis", block, turn)
     pen.want("position", pen.bases[carrier].end or "", places[1])
+
+
+def breadth_about(pen: Pen, pivot: int) -> float:
+    """The largest distance of a point that stands already from a pivot; nought if none is known."""
+    start = pen.peek(pivot)
+    stands = [number for (what, _), number in pen.targets.items() if what == "position"]
+    places = [pen.peek(number) for number in stands]
+    if start is None:
+        return 0.0
+    return max((abs(place - start) for place in places if place is not None), default=0.0)
 
 
 def tangent(pen: Pen, places: list[int], height: int, way: int, says: Says) -> int | None:

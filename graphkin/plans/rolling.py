@@ -9,6 +9,7 @@ from graphkin.plans.guides import axis, guide_line, local_line, path_of
 from graphkin.plans.links import contact_name, no_construction, under
 from graphkin.plans.pen import Pen, Says, letter
 from graphkin.plans.shape import Shapes
+from graphkin.plans.touching import by_contact
 from graphkin.scene.model import FRAME, Driver, Wheel
 from graphkin.steps.guides import placed, set_at
 from graphkin.steps.program import Part, Plane
@@ -34,6 +35,7 @@ from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
 
 
+@by_contact
 def track_of(pen: Pen, shapes: Shapes, contact: Contact) -> int:
     """The line of a straight track in the plane."""
     key = ("track", *contact.links)
@@ -45,6 +47,7 @@ def track_of(pen: Pen, shapes: Shapes, contact: Contact) -> int:
     return pen.shared[key]
 
 
+@by_contact
 def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
     """The radius of a wheel, negative where it rolls to the right of a track or is a ring."""
     chosen = contact.wheel if wheel else contact.track
@@ -63,6 +66,7 @@ def start_of(pen: Pen, contact: Contact, link: str) -> int:
         return pen.given("ahead") if angle is None else pen.given("direction", angle)
 
 
+@by_contact
 def path_of_centre(pen: Pen, shapes: Shapes, contact: Contact) -> int:
     """The line on which a wheel's centre moves along a straight track."""
     line = track_of(pen, shapes, contact)
@@ -77,6 +81,7 @@ def start_turn(pen: Pen, contact: Contact, link: str) -> int:
         return pen.given("nought") if angle is None else pen.given("number", angle)
 
 
+@by_contact
 def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
     """How far a driver has rolled, or by turning has made roll, a wheel along a straight track."""
     if driver.kind == "roll":
@@ -86,6 +91,7 @@ def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
         return pen.draw(way_rolled, pen.driven_angle(driver), *ends)
 
 
+@by_contact
 def set_on_track(pen: Pen, shapes: Shapes, contact: Contact, centre: str, way: int) -> None:
     """A wheel that has rolled a way along a straight track: centre, contact, axis."""
     path = path_of_centre(pen, shapes, contact)
@@ -95,6 +101,7 @@ def set_on_track(pen: Pen, shapes: Shapes, contact: Contact, centre: str, way: i
     touch_and_turn(pen, shapes, contact)
 
 
+@by_contact
 def touch_and_turn(pen: Pen, shapes: Shapes, contact: Contact) -> None:
     """A wheel whose centre stands: its contact with the straight track, and its axis."""
     wheel, on = contact.links
@@ -129,6 +136,7 @@ def mark_contact(pen: Pen, contact: Contact, draw: Callable[[], int]) -> int:
     return pen.the("position", name)
 
 
+@by_contact
 def geared(pen: Pen, shapes: Shapes, group: Geared) -> None:
     """A wheel on its pin, a rack on its guide, or a roller between two tracks: where it stands."""
     match group.pair:
@@ -196,6 +204,7 @@ def settle_turn(pen: Pen, link: str, turn: int) -> None:
     pen.want("axis", link, pen.draw(axis_turned, turn))
 
 
+@by_contact
 def train(pen: Pen, shapes: Shapes, group: Train) -> None:
     """The arm of a planet between two wheels: how far they have turned says where it is."""
     sides = [seen_from(pen, contact, group.wheel) for contact in group.contacts]

@@ -10,6 +10,7 @@ from graphkin.plans.normals import component_arrow, lay_off_normal, normal_compo
 from graphkin.plans.pen import Pen, Says, image, letter, named, second_image
 from graphkin.plans.rolling import radius_of
 from graphkin.plans.shape import Shapes
+from graphkin.plans.touching import by_contact
 from graphkin.scene.model import Driver
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
@@ -32,6 +33,7 @@ from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
 
 
+@by_contact
 def given_speed(pen: Pen, driver: Driver, contact: Contact, which: str) -> int:
     """The speed, or acceleration, of a driven wheel's centre along its track."""
     given = getattr(pen.drive(driver), which)
@@ -41,12 +43,14 @@ def given_speed(pen: Pen, driver: Driver, contact: Contact, which: str) -> int:
         return pen.draw(speed_rolled, given, radius_of(pen, contact))
 
 
+@by_contact
 def touch(pen: Pen, contact: Contact) -> int:
     """The image of a wheel's point of contact: that of the track's point under it."""
     wheel, on = contact.links
     return touched(pen, contact, wheel, on)
 
 
+@by_contact
 def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     """The image of one link's point of contact, from the other link."""
     name = contact_name(contact)
@@ -54,6 +58,7 @@ def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     return pen.want("velocity", under(name, link), found)
 
 
+@by_contact
 def geared(pen: Pen, group: Geared) -> None:
     """A wheel or rack: the contact has the velocity of what it touches."""
     link, contact = group.link, group.contact
@@ -92,12 +97,14 @@ def geared(pen: Pen, group: Geared) -> None:
             pen.want("omega", link, turning)
 
 
+@by_contact
 def second_touch(pen: Pen, contact: Contact) -> int:
     """The second image of a wheel's point of contact, from the track's point under it."""
     wheel, on = contact.links
     return second_touched(pen, contact, wheel, on)
 
 
+@by_contact
 def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     """The second image of one link's point of contact, from its centre and the other link.
 
@@ -120,6 +127,7 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     return pen.want("acceleration", own, found)
 
 
+@by_contact
 def train(pen: Pen, group: Train) -> None:
     """A planet between two wheels: its centre divides the line of its contacts' images."""
     link, centre = group.wheel, group.centre.point
@@ -140,6 +148,7 @@ def on_line_of(pen: Pen, names: list[str], images: list[int], centre: str) -> tu
         return images[0], images[1], pen.draw(in_proportion, *places)
 
 
+@by_contact
 def second_train(pen: Pen, group: Train) -> None:
     """Second image of a planet's centre: normal about the arm's pin, and as the contacts move.
 
@@ -168,6 +177,7 @@ def second_train(pen: Pen, group: Train) -> None:
     second_touched(pen, group.contacts[0], link, partner(group.contacts[0], link))
 
 
+@by_contact
 def second_geared(pen: Pen, shapes: Shapes, group: Geared) -> None:
     """A wheel or rack in the acceleration plan, from the contact that settles it."""
     link, contact = group.link, group.contact

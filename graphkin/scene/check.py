@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 
+from graphkin.scene.check_blocks import check_blocks
 from graphkin.scene.check_drivers import check_drivers
+from graphkin.scene.check_far import check_far
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.known import all_points, known_link, known_point, place_of
+from graphkin.scene.known import all_points, known_link, known_point, named, place_of, quoted
 from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
 
 
@@ -17,9 +19,11 @@ def check_scene(scene: Scene, findings: Findings) -> None:
     for link in (scene.frame, *scene.links.values()):
         check_link(scene, link, findings)
     check_alone(scene, findings)
+    check_blocks(scene, findings)
     check_drivers(scene, findings)
     check_branches(scene, findings)
     check_ask(scene, findings)
+    check_far(scene, findings)
 
 
 def check_namespace(scene: Scene, findings: Findings) -> None:
@@ -113,12 +117,19 @@ def check_guide(
     on = known_link(scene, joint.on, f"{place}.on", findings)
     if on is None:
         return
-    where = "the frame" if joint.on == FRAME else f"link {joint.on}"
+    where = named(joint.on)
     if isinstance(joint.through, str):
         known_point(joint.through, on.points, where, f"{place}.through", findings)
     if isinstance(joint, Slide) and joint.along:
         for point in joint.along:
-            known_point(point, on.points, where, f"{place}.along", findings)
+            if point in on.points or point not in link.points:
+                known_point(point, on.points, where, f"{place}.along", findings)
+            else:
+                found = f"{point} is a point of link {link.name}, not of {where}"
+                hint = f"to slide {where} along this link, write slides in {where}"
+                if joint.on != FRAME:
+                    hint += f", with on = {quoted(link.name)}"
+                findings.add(f"{place}.along", found, listed(on.points), hint)
 
 
 def check_rolling(
@@ -132,7 +143,9 @@ def check_rolling(
     on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
     if rolling.through is None and on is not None and not on.wheels and on is not link:
         expected = "a wheel there, or through and angle for a straight track"
-        findings.add(place, f"link {rolling.on} has no wheel to roll on", expected)
+        wheels = [name for name, each in scene.links.items() if each.wheels and each is not link]
+        hint = f"did you mean on = {quoted(wheels[0])}?" if len(wheels) == 1 else ""
+        findings.add(place, f"{named(rolling.on)} has no wheel to roll on", expected, hint)
     for name in rolling.start:
         known_link(scene, name, f"{place}.start.{name}", findings)
 
@@ -148,8 +161,9 @@ def check_branches(scene: Scene, findings: Findings) -> None:
         elif isinstance(branch, Side):
             if name not in points:
                 expected = '"forward", "backward", "closure 1"'
-                hint = f"sides are written under the pin's name: {side_of_pin(scene, name, branch)}"
-                findings.add(place, f"a side for link {name}", expected, hint)
+                findings.add(
+                    place, f"a side for link {name}", expected, side_hint(scene, name, branch)
+                )
             for point in (branch.first, branch.second):
                 known_point(point, points, "the mechanism", place, findings)
             if name in (branch.first, branch.second):
@@ -160,7 +174,16 @@ def check_branches(scene: Scene, findings: Findings) -> None:
             hint = "a block's branch is written under the link's name: "
             hint += " or ".join(f"{block.name} = {written(branch)}" for block in blocks)
             found = f"forward, backward or a closure for point {name}"
-            findings.add(place, found, expected, hint if blocks else "")
+            outer = f"P and Q are the outer pins of the two links that {name} joins"
+            findings.add(place, found, expected, hint if blocks else outer)
+
+
+def side_hint(scene: Scene, name: str, side: Side) -> str:
+    """Where a side belongs that is written under a link: a block takes a way, a pin a side."""
+    pin = side_of_pin(scene, name, side)
+    if scene.links[name].slides or scene.links[name].rolls:
+        return f'link {name} slides or rolls: {name} = "forward" or "backward"; a side is for a pin'
+    return f"sides are written under the pin's name: {pin}"
 
 
 def side_of_pin(scene: Scene, name: str, side: Side) -> str:

@@ -7,7 +7,7 @@ from fractions import Fraction
 from graphkin.scene.expression import Number
 from graphkin.scene.expression import Pair as Product
 from graphkin.scene.findings import Table, numbered, one_or_many, shown
-from graphkin.scene.measures import Measures, Pair
+from graphkin.scene.measures import FloatText, Measures, Pair
 from graphkin.scene.model import FRAME, Rolling, Slide, Wheel
 from graphkin.scene.quantity import Quantity
 from graphkin.scene.words import SIDES, line_words, link_name, point_name
@@ -75,8 +75,11 @@ def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quan
         through = measures.point(table.at("through"), raw)
     elif raw is None:
         through = None
-    else:
+    elif isinstance(raw, str) and not isinstance(raw, FloatText):
         through = point_name(table.at("through"), raw, measures.findings)
+    else:
+        through, expected = None, 'the name of a point, "P", or two coordinates [x, y]'
+        measures.findings.add(table.at("through"), shown(raw), expected)
     angle = None if turned is None else measures.angle(table.at("angle"), turned)
     return through, angle
 

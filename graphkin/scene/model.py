@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from graphkin.arithmetic import FLOAT, Kind
+from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
 
 FRAME = "0"
@@ -264,3 +266,9 @@ class Scene:
     def link(self, name: str) -> Link:
         """The link of a name, the frame included."""
         return self.frame if name == FRAME else self.links[name]
+
+    def values_in(self, kind: Kind) -> Mapping[str, object]:
+        """The values, with the moment as a number of a kind, for it may be no fraction."""
+        if kind is FLOAT or self.time is None:
+            return self.values
+        return {**self.values, TIME: self.time.number(self.values, kind)}

@@ -153,7 +153,7 @@ def root(value: Any, kind: Kind) -> Any:
         above, below = isqrt(value.numerator), isqrt(value.denominator)
         if above * above == value.numerator and below * below == value.denominator:
             return Fraction(above, below)
-        value = kind.number(value)
+        return kind.sqrt(kind.number(value))
     if not hasattr(value, "shape") and value < 0:
         raise UnreckonableError("the square root of a negative number")
     return kind.sqrt(value)

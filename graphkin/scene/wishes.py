@@ -11,7 +11,7 @@ from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Sheet
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.scene.words import asked_point, branch_words, link_name, point_name
+from graphkin.scene.words import asked_point, branch_hint, branch_words, link_name, point_name
 
 LANGUAGES = ("en", "it", "ro")
 POINTS_ASKED = ("velocity", "acceleration")
@@ -30,7 +30,7 @@ def read_branches(table: Table, findings: Findings) -> dict[str, Branch]:
         branch = branch_words(raw) if isinstance(raw, str) else None
         name = link_name(table.at(key), key, findings)
         if branch is None:
-            findings.add(table.at(key), shown(raw), BRANCH_WORDS)
+            findings.add(table.at(key), shown(raw), BRANCH_WORDS, branch_hint(raw))
         elif name == FRAME:
             findings.add(
                 table.at(key), "a branch of the frame, which is at rest", "a pin or a link"

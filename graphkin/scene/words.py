@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
-from graphkin.scene.findings import Findings, shown, shown_key
+from graphkin.scene.findings import Findings, nearest, shown, shown_key
 from graphkin.scene.model import FRAME, Branch, Closure, Side, Way
 
 FRAME_WORD = "frame"
@@ -129,6 +130,19 @@ def branch_words(text: str) -> Branch | None:
         case ["closure", number] if is_link_name(number) and number.isdigit() and len(number) < 5:
             return Closure(int(number))
     return side_words(text)
+
+
+def branch_hint(raw: object) -> str:
+    """How a phrase that is no branch may have been meant; empty where that cannot be told."""
+    words = phrase(raw) if isinstance(raw, str) else []
+    if not words:
+        return ""
+    ends = words[-1].split("-")
+    for end in ends if len(words) == 3 and len(ends) == 2 else ():
+        if re.fullmatch(r"0\w*", end) and is_name(f"O{end[1:]}"):
+            return f"{end} begins with a nought: did you mean O{end[1:]}, with the letter?"
+    close = nearest(words[0], (*SIDES, *WAYS, "closure"))
+    return close if words[0] not in (*SIDES, *WAYS, "closure") else ""
 
 
 def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | None:

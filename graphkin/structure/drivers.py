@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import combinations
 
 from graphkin.errors import Problem, StructureError
-from graphkin.scene.known import quoted
+from graphkin.scene.known import named, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
-from graphkin.structure.graph import contacts, pairs, sharers
+from graphkin.structure.graph import Sliding, contacts, pairs, sharers
 from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
 from graphkin.structure.held import impossible
 from graphkin.structure.mobility import count
@@ -37,7 +38,7 @@ def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
     ties = [group.link for group in groups if isinstance(group, Tie)]
     loose = [link for group in groups if isinstance(group, Unresolved) for link in group.links]
     if ties and loose:
-        raise StructureError(misplaced(drivers, ties, loose))
+        raise StructureError(misplaced(scene, ties, loose))
     known = {FRAME, *(link for group in groups for link in group.links)} - {*loose}
     idle = [each for each in unused(scene, groups) if {each.link, each.against} <= known]
     if idle and loose:
@@ -77,9 +78,12 @@ def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Pro
 
 def too_few_hint(scene: Scene) -> str:
     """A driver to add, or what seems to be missing."""
-    loose = lone_points(scene)
+    loose, alike = lone_points(scene), alike_points(scene)
     if loose:
-        return f"add a driver, or a pin is missing: only one link has the points {', '.join(loose)}"
+        lone = f"only one link has the points {', '.join(loose)}"
+        return f"add a driver, or a pin is missing: {'; '.join(filter(None, (lone, alike)))}"
+    if alike:
+        return f"add a driver, or a pin is missing: {alike}"
     free = drivable(scene)
     return f"add a driver, such as turn = {quoted(free[0])}" if free else "add a driver"
 
@@ -87,13 +91,31 @@ def too_few_hint(scene: Scene) -> str:
 def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
     """The drivers of which some are to be taken away; the count alone is not certain of it."""
     if freedoms <= 0:
-        return "nothing can move" + ("" if certain else ", unless a constraint is idle")
+        twins = same_pins(scene)
+        if twins:
+            return f"nothing can move: {twins}"
+        idle = "" if certain else ", unless a constraint is idle"
+        return (
+            f"nothing can move{idle}; or a block is missing: a pin in a slot is a link of its own"
+        )
     names = [driver_name(driver) for driver in spare_drivers(scene) or scene.drivers]
     surplus = len(scene.drivers) - freedoms
     if surplus == len(names) == 1:
         return f"take {names[0]} away: its motion follows from the rest"
     away = "one driver" if surplus == 1 else f"{surplus} drivers"
     return f"take {away} away, of {', '.join(names)}: its motion follows from the rest"
+
+
+def same_pins(scene: Scene) -> str:
+    """Words for two links that share two pins, and so are one body; empty where none do."""
+    for one, other in combinations((scene.frame, *scene.links.values()), 2):
+        both = [point for point in one.points if point in other.points]
+        if len(both) > 1:
+            return (
+                f"{named(one.name)} and link {other.name} share the pins {both[0]} and {both[1]}, "
+                "so that they are one body"
+            )
+    return ""
 
 
 def spare_drivers(scene: Scene) -> list[Driver]:
@@ -123,16 +145,28 @@ def follows(scene: Scene) -> bool:
     return not any(isinstance(group, Higher | Unresolved) for group in decompose(scene))
 
 
-def misplaced(drivers: int, ties: Sequence[str], loose: Sequence[str]) -> Problem:
+def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Problem:
     """A link closes what is driven already, and others are free."""
+    drivers, lone = len(scene.drivers), ", ".join(lone_points(scene))
     tie = f"link {ties[0]}" if len(ties) == 1 else f"links {', '.join(ties)}"
     return Problem(
         "drivers",
         f"{drivers} given, but {tie} would join what is driven already, while "
-        f"{', '.join(loose)} hang on no driver",
+        f"{', '.join(loose)} {'hangs' if len(loose) == 1 else 'hang'} on no driver",
         "a driver for each freedom",
-        f"let a driver move link {loose[0]} instead, or add one if {tie} is idle",
+        f"let a driver move link {loose[0]} instead, or add one if {tie} is idle"
+        + (f"; or a pin is missing: only one link has the points {lone}" if lone else "")
+        + guide_hint(scene, ties, loose),
     )
+
+
+def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> str:
+    """Words for a block whose guide may have been meant to lie on a link that hangs loose."""
+    block = next((name for name in ties if scene.links[name].slides), None)
+    if block is None:
+        return ""
+    where = quoted(loose[0])
+    return f"; or, if the guide of block {block} lies on link {loose[0]}, write on = {where}"
 
 
 def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
@@ -173,10 +207,14 @@ def drivable(scene: Scene) -> list[str]:
 def lone_points(scene: Scene) -> list[str]:
     """The points at which a pin may be missing, each with its link.
 
-    They are points of one link alone, of a link that has a single pair and no driver; then also
+    They are points of one link alone, of a link that has a single joint and no driver; then also
     points of the frame that nothing uses.
     """
-    joined = Counter(link for pair in (*pairs(scene), *contacts(scene)) for link in pair.links)
+    owners = sharers(scene)
+    slides = [pair for pair in pairs(scene) if isinstance(pair, Sliding)]
+    joined = Counter(link for pair in slides for link in pair.links)
+    joined.update(link for contact in contacts(scene) for link in contact.links)
+    joined.update(link for links in owners.values() if len(links) > 1 for link in links)
     driven = {driver.link for driver in scene.drivers}
     ends = {name for name in scene.links if joined[name] < 2 and name not in driven}
     used = {name for link in scene.links.values() for name in points_used(link)}
@@ -184,9 +222,30 @@ def lone_points(scene: Scene) -> list[str]:
         ends.add(FRAME)
     return [
         f"{point} ({'the frame' if links[0] == FRAME else links[0]})"
-        for point, links in sharers(scene).items()
+        for point, links in owners.items()
         if len(links) == 1 and links[0] in ends and point not in used
     ]
+
+
+def alike_points(scene: Scene) -> str:
+    """A question about a point of one moving link whose name seems to be another's, misspelt.
+
+    One is the other with a letter or a digit more, which that link does not have.
+    """
+    owners = sharers(scene)
+    lone = [point for point, links in owners.items() if len(links) == 1]
+    for point in lone:
+        own = owners[point][0]
+        others = [p for p in (*lone, *owners) if p not in scene.link(own).points]
+        near = [p for p in others if begins(p, point) or begins(point, p)]
+        if own != FRAME and near:
+            return f"did you mean {near[0]} where link {own} has {point}?"
+    return ""
+
+
+def begins(short: str, long: str) -> bool:
+    """Whether a name is another with one sign more, capitals apart."""
+    return len(long) == len(short) + 1 and long.lower().startswith(short.lower())
 
 
 def points_used(link: Link) -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
+from graphkin.scene.contacts import contact_letters
 from graphkin.scene.model import FRAME, Rolling, Scene, Slide, Wheel
 from graphkin.structure.rolling import touching
 from graphkin.structure.turning import guides_under, turns
@@ -17,6 +18,7 @@ __all__ = [
     "contacts",
     "contacts_between",
     "guides_under",
+    "meshes",
     "pairs",
     "pairs_between",
     "sharers",
@@ -51,7 +53,7 @@ class Contact:
 
     ``links`` are the wheel's and the track's; ``track`` is the wheel rolled on, None on a straight
     track. ``arm`` is the link that keeps the two together already, None where only the contact
-    does.
+    does. ``letter`` names the place where they touch.
     """
 
     rolling: Rolling
@@ -59,6 +61,7 @@ class Contact:
     wheel: Wheel
     track: Wheel | None
     arm: str | None
+    letter: str
 
     @property
     def taken(self) -> int:
@@ -67,6 +70,15 @@ class Contact:
 
 
 Pair = Pin | Sliding
+
+
+def meshes(scene: Scene, contact: Contact) -> bool:
+    """Whether a contact is one of gears: of two wheels, or of a wheel on its pin with a rack.
+
+    Other wheels roll along their track.
+    """
+    pinned = contact.arm is not None and contact.wheel.centre in scene.link(contact.arm).points
+    return contact.track is not None or pinned
 
 
 def pairs(scene: Scene) -> tuple[Pair, ...]:
@@ -109,16 +121,17 @@ def pairs_between(scene: Scene, link: str, others: frozenset[str]) -> tuple[Pair
 
 def contacts(scene: Scene) -> tuple[Contact, ...]:
     """All rolling pairs, as written. Raises StructureError for wheels that do not touch."""
-    return tuple(contact for link in scene.links for contact in contacts_of(scene, link))
+    letters = contact_letters(scene)
+    return tuple(each for link in letters for each in contacts_of(scene, link, letters[link]))
 
 
-def contacts_of(scene: Scene, link: str) -> list[Contact]:
+def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Contact]:
     """The rolling pairs that a link is written with; each may rest on the tracks before it."""
     found: list[Contact] = []
-    for rolling in scene.links[link].rolls:
+    for rolling, letter in zip(scene.links[link].rolls, letters, strict=True):
         before = [(each.rolling, each.wheel) for each in found if each.track is None]
         touch = touching(scene, link, rolling, before)
-        found.append(Contact(rolling, (link, rolling.on), *touch))
+        found.append(Contact(rolling, (link, rolling.on), *touch, letter))
     return found
 
 

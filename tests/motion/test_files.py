@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 
 from graphkin.curves.files import picture_files
-from graphkin.mechanism import load
+from graphkin.mechanism import Mechanism, load
 from graphkin.motion import cycle
 from graphkin.report.cycle import cycle_lines
 from graphkin.report.cycle_table import cycle_table
+from graphkin.report.table import labelled
+from graphkin.scene.read import read_text
 from tests.cli.conftest import Run, run  # noqa: F401
 from tests.motion.linkages import five_bar, four_bar, slider_crank
 
@@ -148,3 +150,49 @@ def test_the_words_of_a_cycle(mechanism, said):
     for words in said:
         assert words in text
     assert "DOES NOT AGREE" not in text
+
+
+ARM = """graphkin = 1
+title = "Planet between a sun and a ring"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[frame]
+O = [0, 0]
+[links.sun]
+O-S = 20
+wheel = { centre = "O", radius = 60 }
+[links.arm]
+O-P = 90
+[links.planet]
+P-Q = 20
+wheel = { centre = "P", radius = 30 }
+rolls = [{ on = "sun" }, { on = "ring" }]
+[links.ring]
+O-R = 30
+wheel = { centre = "O", radius = 120, inside = true }
+[[drivers]]
+turn = "ring"
+angle = 40
+speed = 100
+[[drivers]]
+turn = "sun"
+angle = 0
+speed = -50
+"""
+
+
+def test_an_arm_that_turns_on_and_on_does_not_swing():
+    """Willis: the arm makes (120·100 - 60·50)/(120 + 60) = 50 rev/min, half a turn in 0.6 s."""
+    scene = read_text(ARM, "arm")
+    text = "\n".join(cycle_lines(cycle(Mechanism(scene))))
+    assert "link arm (line O-P) turns one way by 180.000°: 26.667° (at t = 0 s)" in text
+    assert "swings" not in text
+
+
+def test_a_follower_between_dead_points_swings():
+    """A driver that dead points stop goes to and fro, and what it moves with it."""
+    text = "\n".join(cycle_lines(cycle(load(str(SCENES / "slider-crank-slider.toml")))))
+    assert "link 1 (line O-A) swings 188.939°" in text
+
+
+def test_a_label_is_never_run_into_its_line():
+    assert labelled("in range 12", ["link upper"]) == ["in range 12 link upper"]

@@ -265,7 +265,7 @@ Q-C = 1
 B = "on Q-C"
 Q-B = 0.5
 [links.ring]
-C = [0, 0]
+D = [0, 0]
 slides = { on = "lever", along = "Q-C" }
 """
     scene = made(text, '"lever"')

@@ -56,7 +56,8 @@ def test_the_truth_goes_before_the_count():
     assert words(PARALLEL + DRIVEN, true=1) == ""
     assert words(PARALLEL + DRIVEN) == (
         "drivers: 1 given, but the count 3·4 - 2·6 leaves 0 freedoms; "
-        "expected as many drivers as freedoms; nothing can move, unless a constraint is idle"
+        "expected as many drivers as freedoms; nothing can move, unless a constraint is idle; or a "
+        "block is missing: a pin in a slot is a link of its own"
     )
     assert words(PARALLEL + DRIVEN + OTHER, true=1) == (
         "drivers: 2 given, but the rank of the constraints leaves 1 "

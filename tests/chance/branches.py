@@ -13,17 +13,26 @@ from graphkin.scene.model import Closure
 from graphkin.scene.read import read_text
 from graphkin.steps.run import run
 from graphkin.steps.trying import Closer
-from graphkin.structure.graph import Pin
+from graphkin.structure.graph import Pin, Sliding
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
-from tests.random.records import Standing
-from tests.random.written import Written
+from tests.chance.records import Standing
+from tests.chance.written import Written
 
+DEAD = 1e-6
+"""Sine below which a dyad stands on its dead point."""
 SAME = 1e-6
 """How far a closure may be from where its links stand, in radians, or parts of the mechanism."""
 
 
 class NoSuchClosureError(LookupError):
     """A position that is not among the closures that were found."""
+
+
+class DeadChainError(LookupError):
+    """A group whose chain of dyads stands on a dead point of one of them where it closes.
+
+    The plans of such a chain cannot be drawn, though the group as a whole may move.
+    """
 
 
 def branches_of(written: Written) -> dict[str, str]:
@@ -33,6 +42,7 @@ def branches_of(written: Written) -> dict[str, str]:
     higher = []
     for group in open_scene.groups:
         if isinstance(group, Higher):
+            refuse_dead(written.standing, group)
             first = next(name for name in open_scene.scene.links if name in group.links)
             found[first] = "closure 1"
             higher.append((first, group))
@@ -43,6 +53,34 @@ def branches_of(written: Written) -> dict[str, str]:
         number = closure_number(written.standing, Mechanism(scene), group, count)
         found[first] = f"closure {number}"
     return found
+
+
+def refuse_dead(standing: Standing, group: Higher) -> None:
+    """Raise DeadChainError where a dyad of a group's chain stands on its dead point."""
+    for each in group.chain:
+        dyad = each.dyad if isinstance(each, Stretched) else each
+        if isinstance(dyad, Dyad) and abs(sine_of(standing, dyad)) < DEAD:
+            raise DeadChainError(f"links {', '.join(dyad.links)}")
+
+
+def sine_of(standing: Standing, dyad: Dyad) -> float:
+    """How far a dyad is from its dead point; 1 for those that have none."""
+    guides = [pair for pair in (dyad.left, dyad.inner, dyad.right) if isinstance(pair, Sliding)]
+    if len(guides) == 2:
+        first, second = (standing.slides[pair.links[0]].along for pair in guides)
+        return cross(first, second)
+    left, inner, right = (
+        standing.place(pair.point.partition("@")[0]) if isinstance(pair, Pin) else 0j
+        for pair in (dyad.left, dyad.inner, dyad.right)
+    )
+    if dyad.type == "RRR":
+        return cross((inner - left) / abs(inner - left), (right - inner) / abs(right - inner))
+    if dyad.type == "RRP":
+        return dot(standing.slides[dyad.right.links[0]].along, (inner - left) / abs(inner - left))
+    if dyad.type == "RPR":
+        along = standing.slides[dyad.inner.links[0]].along
+        return dot(along, (right - left) / abs(right - left))
+    return 1.0
 
 
 def words_of(standing: Standing, group: Group) -> dict[str, str]:

@@ -13,9 +13,9 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from tests.random.constraints import Equation, Moved, Pose, equations, fixed_frame
-from tests.random.records import FRAME, Standing
-from tests.random.written import DIGITS, Exact, Written
+from tests.chance.constraints import Equation, Moved, Pose, equations, fixed_frame
+from tests.chance.records import FRAME, Standing
+from tests.chance.written import DIGITS, Exact, Written
 
 INSTANT = mpmath.mpf(10) ** -13
 """The time between the moments, in parts of the time that a driver needs for its own size."""
@@ -43,8 +43,8 @@ class Motion:
 class Closing:
     """The equations of a mechanism and their Jacobian where it was generated."""
 
-    def __init__(self, written: Written) -> None:
-        self.standing, self.geometry = written.standing, Exact(written)
+    def __init__(self, written: Written, geometry: Exact | None = None) -> None:
+        self.standing, self.geometry = written.standing, geometry or Exact(written)
         self.size = mpmath.mpf(self.standing.size)
         self.equations: list[Equation] = equations(self.standing)
         self.names = [name for name in self.standing.bodies if name != FRAME]
@@ -110,10 +110,13 @@ class Closing:
         raise NotClosedError(f"still moves by {moved:.1e}")
 
 
-def motion(written: Written) -> Motion:
-    """Positions, velocities and accelerations of everything. Raises NotClosedError."""
+def motion(written: Written, geometry: Exact | None = None) -> Motion:
+    """Positions, velocities and accelerations of everything. Raises NotClosedError.
+
+    The geometry is that of what is written, or one beside it.
+    """
     with mpmath.workdps(DIGITS):
-        closing, standing = Closing(written), written.standing
+        closing, standing = Closing(written, geometry), written.standing
         h = INSTANT * period(standing)
         here = closing.closed(closing.first, mpmath.mpf(0))
         ends = [closing.closed(here, way * h) for way in (-1, 1)]

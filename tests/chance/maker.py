@@ -11,8 +11,8 @@ from random import Random
 
 import numpy as np
 
-from tests.random.constraints import Moved, equations
-from tests.random.records import FRAME, Body, Drive, Slide, Standing, Straight
+from tests.chance.constraints import Moved, equations
+from tests.chance.records import FRAME, Body, Drive, Slide, Standing, Straight
 
 STIFF = 0.03
 """Least share by which a group must resist every way of moving it, or it is made anew."""

@@ -6,10 +6,13 @@ closes from the outset. How the scene is to tell it is decided when it is writte
 
 from __future__ import annotations
 
+import math
 from cmath import phase
 from dataclasses import dataclass, field
 
 FRAME = "0"
+ROUND = 1e-9
+"""Radians by which rounding may put half a turn on its other side."""
 
 
 @dataclass
@@ -103,8 +106,9 @@ class Body:
 
     @property
     def angle(self) -> float:
-        """The angle of its x axis in radians."""
-        return phase(self.axis)
+        """The angle of its x axis in radians; half a turn back, but for rounding, is one ahead."""
+        angle = phase(self.axis)
+        return angle + math.tau if angle < ROUND - math.pi else angle
 
 
 @dataclass

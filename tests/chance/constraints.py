@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from tests.random.records import FRAME, Drive, Gear, Slide, Standing, Straight
+from tests.chance.records import FRAME, Drive, Gear, Slide, Standing, Straight
 
 Pose = tuple[Any, Any, Any]
 

@@ -1,4 +1,7 @@
-"""Many mechanisms made at random, as many as the first argument says: which routes differ."""
+"""Many mechanisms made at random: which routes differ.
+
+As many as the first argument says, the first seed being the second argument.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 
-from tests.random.checking import case, checked
+from tests.chance.checking import case, checked
 
 
 def judged(seed: int) -> tuple[str, str]:
@@ -27,9 +30,9 @@ def judged(seed: int) -> tuple[str, str]:
 
 def main() -> None:
     """Print every seed at which the routes differ, and how many agree."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 2000
+    count, start = (int(each) for each in (*sys.argv[1:], *("2000", "0")[len(sys.argv) - 1 :]))
     with ProcessPoolExecutor() as pool:
-        rows = list(pool.map(judged, range(count), chunksize=10))
+        rows = list(pool.map(judged, range(start, start + count), chunksize=10))
     for _, words in rows:
         if words:
             print(words)

@@ -6,8 +6,8 @@ import math
 from cmath import phase, rect
 from random import Random
 
-from tests.random.maker import LooseError, Maker
-from tests.random.records import FRAME, Gear, Standing, Straight
+from tests.chance.maker import LooseError, Maker
+from tests.chance.records import FRAME, Gear, Standing, Straight
 
 # --- drivers -------------------------------------------------------------------------------------
 

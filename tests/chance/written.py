@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from cmath import phase
+from random import Random
 from typing import Any
 
 import mpmath
 
+from tests.chance.records import FRAME, Body, Drive, Gear, Slide, Standing, Straight
 from tests.mechanisms import HEAD, angled, number, pair, sided
-from tests.random.records import FRAME, Body, Drive, Gear, Slide, Standing, Straight
 
 DIGITS = 50
 """Digits of the exact numbers."""
+SHARE = mpmath.mpf(10) ** -16
+"""By what share numbers are shaken: no more than doubles are rounded by."""
 
 
 class Written:
@@ -197,6 +200,54 @@ class Exact:
     def drive(self, drive: Drive, time: Any) -> Any:
         """The given position at a time."""
         where, speed, rate = self.written.numbers[id(drive)]
+        return where + speed * time + rate * time * time / 2
+
+
+class Shaken(Exact):
+    """The same with every number off by a tiny share, as if it had been rounded so.
+
+    Places are off by a share of the whole mechanism: so are those that rounded steps find.
+    """
+
+    def __init__(self, written: Written, seed: int) -> None:
+        super().__init__(written)
+        self.seed = seed
+        self.size = mpmath.mpf(written.standing.size)
+
+    def share(self, *what: Any) -> Any:
+        """A tiny share of its own, between -SHARE and SHARE, for every number."""
+        return SHARE * Random(f"{self.seed} {what}").uniform(-1, 1)
+
+    def local(self, body: str, point: str) -> Any:
+        """A point of a body, beside its place."""
+        off = mpmath.mpc(self.share(body, point, "x"), self.share(body, point, "y"))
+        return super().local(body, point) + self.size * off
+
+    def guide(self, slide: Slide) -> tuple[Any, ...]:
+        """A guide, turned and shifted."""
+        through, along, offset = super().guide(slide)
+        return through, along * self.cis(self.share(slide.block)), offset
+
+    def track(self, straight: Straight) -> tuple[Any, ...]:
+        """A track, and a wheel, a little off."""
+        through, along, radius, start = super().track(straight)
+        turned = along * self.cis(self.share(straight.wheel, straight.on))
+        radius *= 1 + self.share(straight.wheel)
+        return through, turned, radius, start * (1 + self.share(straight.wheel, "start"))
+
+    def gear(self, gear: Gear) -> Any:
+        """Wheels of other sizes, counted from other angles."""
+        (own, other), zero = super().gear(gear)
+        zero = {name: angle * (1 + self.share(gear.wheel, name)) for name, angle in zero.items()}
+        return (own * (1 + self.share(gear.wheel, gear.on)), other), zero
+
+    def drive(self, drive: Drive, time: Any) -> Any:
+        """A driver that is ahead or behind, and faster or slower."""
+        where, speed, rate = self.written.numbers[id(drive)]
+        ahead = 1 if drive.kind == "turn" else self.size
+        where += self.share(drive.body, "where") * ahead
+        speed *= 1 + self.share(drive.body, "speed")
+        rate *= 1 + self.share(drive.body, "rate")
         return where + speed * time + rate * time * time / 2
 
 

@@ -1,0 +1,201 @@
+"""The construction of a random mechanism against the loops and against exact differences."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import mpmath
+
+from graphkin.errors import WitnessError
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read import read_text
+from graphkin.steps.solution import Solution
+from graphkin.structure.groups import Dyad, Higher, Stretched
+from tests.chance.branches import DeadChainError, branches_of
+from tests.chance.exact import Motion, motion
+from tests.chance.groups import made
+from tests.chance.records import Standing
+from tests.chance.written import DIGITS, Shaken, Written
+
+EPS = 2.0**-52
+FLATTEST = 1e-4
+"""Sine below which nothing is drawn any more."""
+CLOSE = 1e-10
+"""What the routes may differ by, in parts of the largest."""
+ROUNDED = 16
+"""How many times they may differ beyond that as what one rounding of every number makes."""
+SHAKES = 3
+"""How often all numbers are shaken to see that."""
+TINY = 1e-9
+"""What counts as rest, in parts of what the drivers could do."""
+
+
+@dataclass
+class Case:
+    """A mechanism made at random, with its scene."""
+
+    seed: int
+    kinds: tuple[str, ...]
+    standing: Standing
+    written: Written
+    text: str
+    mechanism: Mechanism
+
+    @property
+    def types(self) -> list[str]:
+        """What its groups are called."""
+        return [title_of(group) for group in self.mechanism.groups]
+
+    @cached_property
+    def exact(self) -> Motion:
+        """The motion by exact differences."""
+        return motion(self.written)
+
+    def law(self, sine: float) -> float:
+        """What rounding may grow to in accelerations by the least sine and the shortest bar.
+
+        Positions, velocities and accelerations lose once, twice and three times by a flat crossing.
+        """
+        spread = self.standing.size / self.standing.least
+        return 64 * EPS * spread / max(sine, FLATTEST) ** 3
+
+    @cached_property
+    def shaken(self) -> float:
+        """How far the exact motion moves when every number is off by the share of a rounding."""
+        with mpmath.workdps(DIGITS):
+            others = [motion(self.written, Shaken(self.written, n)) for n in range(SHAKES)]
+        return max(max(differences(each, self.exact))[0] for each in others)
+
+
+def title_of(group: object) -> str:
+    """The kind of a group, without the names of its links."""
+    if isinstance(group, Stretched):
+        return f"cylinder {group.dyad.type}"
+    if isinstance(group, Dyad):
+        return f"dyad {group.type}"
+    if isinstance(group, Higher):
+        return group.title
+    return type(group).__name__.lower()
+
+
+def case(seed: int) -> Case | None:
+    """The mechanism of a seed, its scene complete.
+
+    None where nothing could be made, or where a group is tried by a dyad on its dead point.
+    """
+    standing, kinds = made(seed)
+    if not kinds:
+        return None
+    written = Written(standing)
+    try:
+        text = written.text(branches_of(written))
+    except DeadChainError:
+        return None
+    return Case(
+        seed, kinds, standing, written, text, Mechanism(read_text(text, f"made-{seed}", None, {}))
+    )
+
+
+@dataclass
+class Checked:
+    """How far the construction is from the loops and from exact differences."""
+
+    case: Case
+    loops: float
+    where_loops: str
+    exact: float
+    where_exact: str
+    margin: float
+    """The least sine of the construction, which may cross flatly where the mechanism does not."""
+    refused: bool = False
+    """Whether the loops say that the position is singular."""
+
+    @property
+    def bound(self) -> float:
+        """How far the routes may lie apart.
+
+        Farther where rounding the scene alone does as much, or where lines cross flatly and short
+        bars carry far points.
+        """
+        if self.loops <= CLOSE and self.exact <= CLOSE:
+            return CLOSE
+        return max(CLOSE, ROUNDED * self.case.shaken, self.case.law(self.margin))
+
+    @property
+    def agrees(self) -> bool:
+        """Whether all three routes agree; NaN does not.
+
+        The loops may refuse only what rounding the scene moves by more than routes may differ.
+        """
+        if self.refused:
+            return self.case.shaken > CLOSE and self.exact <= self.bound
+        return self.loops <= self.bound and self.exact <= self.bound
+
+
+def checked(case: Case) -> Checked:
+    """Construct, and hold the construction against both other routes."""
+    solution = case.mechanism.solve()
+    found = max(differences(solution, case.exact), key=lambda pair: pair[0])
+    try:
+        verdict = case.mechanism.witness(solution)
+    except WitnessError as error:
+        refused = "singular" in str(error)
+        return Checked(case, math.nan, str(error), *found, solution.margin, refused)
+    loops = verdict.largest_difference if not verdict.branches else math.nan
+    where = verdict.quantity + "".join(f" branch {name}" for name in verdict.branches)
+    return Checked(case, loops, where, *found, solution.margin)
+
+
+def differences(solution: Solution | Motion, exact: Motion) -> Iterator[tuple[float, str]]:
+    """Every difference over the largest such quantity in the mechanism."""
+    points, links, slides = exact.points, exact.links, exact.slides
+    first = next(iter(points.values()))[0]
+    length = max(abs(z - first) for z, _, _ in points.values())
+    omega = max(abs(each[1]) for each in links.values())
+    twist = max(abs(each[2]) for each in links.values())
+    speed = max(abs(each[1]) for each in (*points.values(), *slides.values()))
+    push = max(abs(each[2]) for each in (*points.values(), *slides.values()))
+    time = exact.period
+    natural = max(speed**2 / length, omega**2 * length)
+    speed = max(speed, 1e-3 * omega * length, TINY * length / time)
+    omega = max(omega, 1e-3 * speed / length)
+    push = max(push, 1e-3 * max(natural, twist * length), TINY * length / time**2)
+    twist = max(twist, 1e-3 * max(natural, push) / length)
+    sizes = length, speed, push
+    ours = states_of(solution)
+    for name, states in points.items():
+        yield from over(f"point {name}", states, ours["point", name], sizes)
+    for name, (_, *states) in links.items():
+        yield from over(f"link {name}", states, ours["link", name], (omega, twist))
+    for name, (*states, coriolis) in slides.items():
+        *values, found = ours["slide", name]
+        yield from over(f"slide {name}", states, values, sizes)
+        yield abs(found - coriolis) / sizes[2], f"slide {name} Coriolis"
+
+
+def states_of(found: Solution | Motion) -> dict[tuple[str, str], tuple]:
+    """All that is compared of a motion: places and their rates, links' rates, slides."""
+    if isinstance(found, Motion):
+        links = {("link", name): tuple(rates) for name, (_, *rates) in found.links.items()}
+        points = {("point", name): states for name, states in found.points.items()}
+        return points | links | {("slide", name): each for name, each in found.slides.items()}
+    points = {
+        ("point", name): (each.position, each.velocity, each.acceleration)
+        for name, each in found.points.items()
+    }
+    links = {("link", name): (each.omega, each.epsilon) for name, each in found.links.items()}
+    slides = {
+        ("slide", name): (each.position, each.speed, each.acceleration, each.coriolis or 0j)
+        for name, each in found.slides.items()
+    }
+    return points | links | slides
+
+
+def over(name, states, ours, sizes) -> Iterator[tuple[float, str]]:
+    """Differences of a few quantities, each over its size."""
+    kinds = ("position", "velocity", "acceleration")[-len(states) :]
+    for kind, expected, found, size in zip(kinds, states, ours, sizes, strict=True):
+        yield abs(found - expected) / size, f"{name} {kind}"

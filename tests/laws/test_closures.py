@@ -1,0 +1,33 @@
+"""The construction and the loops find the same closures of every group of higher class."""
+
+import pytest
+
+from graphkin.closures import choices
+from graphkin.loops.closures import closures
+from graphkin.loops.equations import equations
+from graphkin.loops.groups import groups
+from graphkin.loops.poses import pose_of, setting_of, unknowns_of
+from graphkin.structure.groups import Higher
+from graphkin.witness.examine import examine
+from tests.chance.checking import case
+
+SEEDS = (9, 16, 52, 78, 302, 434, 690, 1263)
+"""Plates, wheels on long tracks, drivers within, windows narrower than a degree."""
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_as_many_closures_by_trial_as_by_newton(seed):
+    mechanism = case(seed).mechanism
+    solved = examine(mechanism.scene, mechanism.solve(), None).solved
+    drawn = {
+        frozenset(choice.links): len(choice.closures)
+        for choice in choices(mechanism.scene, mechanism.groups, mechanism.program)
+    }
+    known = {frozenset(group.links): group for group in groups(mechanism.scene, solved.loops)}
+    higher = [frozenset(g.links) for g in mechanism.groups if isinstance(g, Higher)]
+    assert higher
+    for links in higher:
+        group = known[links]
+        part = equations(mechanism.scene, setting_of(solved.loops, 0), group.known | links)
+        stands = unknowns_of(part, pose_of(solved.loops, solved.unknowns[0]))
+        assert len(closures(part, stands, group)) == drawn[links]

@@ -1,0 +1,68 @@
+"""Letters of the points where wheels touch: short, their own, and no point's of the scene."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.scene.contacts import contact_letters
+from graphkin.scene.read import read_text
+from graphkin.structure.graph import contacts
+
+TRAIN = """
+graphkin = 1
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+module = 2
+[frame]
+O = [0, 0]
+wheel = { centre = "O", teeth = 60, inside = true }
+[links.arm]
+O-P = 40
+[links.planet]
+P-Q = 20
+wheel = { centre = "P", teeth = 20 }
+rolls = [{ on = 0 }, { on = "sun" }]
+[links.sun]
+O-S = 20
+wheel = { centre = "O", teeth = 20 }
+[[drivers]]
+turn = "arm"
+angle = 0
+speed = 1
+"""
+
+
+def letters(*changes: tuple[str, str]) -> tuple[str, ...]:
+    """The letters of the planet's contacts in the train with pieces of its text replaced."""
+    text = TRAIN
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return contact_letters(read_text(text, "train"))["planet"]
+
+
+def test_several_contacts_are_numbered_in_the_order_written() -> None:
+    assert letters() == ("T1", "T2")
+
+
+def test_one_contact_has_no_number() -> None:
+    assert letters((', { on = "sun" }', "")) == ("T",)
+
+
+@pytest.mark.parametrize(
+    ("point", "stem"), [("T", "K"), ("T7", "K"), ("t1", "K"), ("TU", "T"), ("K1", "T")]
+)
+def test_a_letter_of_the_scene_is_left_to_it(point: str, stem: str) -> None:
+    assert letters(("O-S", f"O-{point}")) == (f"{stem}1", f"{stem}2")
+
+
+def test_all_letters_taken() -> None:
+    taken = "T = [1, 1]\nK3 = [2, 1]\nH = [3, 1]\nTT2 = [4, 1]\n[links.arm]"
+    assert letters(("[links.arm]", taken)) == ("TTT1", "TTT2")
+
+
+def test_the_pairs_carry_the_letters() -> None:
+    found = contacts(read_text(TRAIN, "train"))
+    assert [(each.links, each.letter) for each in found] == [
+        (("planet", "0"), "T1"),
+        (("planet", "sun"), "T2"),
+    ]
