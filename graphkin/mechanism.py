@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -26,14 +26,16 @@ from graphkin.structure.drivers import refuse_drivers
 from graphkin.structure.groups import Group
 from graphkin.structure.order import decompose
 
-
-DECIDED = 1e-6
-"""Sine of a crossing below which it is decided without rounding whether there is one."""
-
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from graphkin.notebook import Which
+
+DECIDED = 1e-6
+"""Sine of a crossing below which it is decided without rounding whether there is one."""
+
+STREAMED = 65_536
+"""Variants of a stream that are run at once."""
 
 
 def load(name: str | Path, /, **settings: object) -> Mechanism:
@@ -111,7 +113,7 @@ class Mechanism:
         overrides |= self.trial_rates if by_hand else {}
         try:
             with kind.working():
-                trace = run(program, needed, self.scene.values, kind, overrides=overrides)
+                trace = run(program, needed, self.scene.values_in(kind), kind, overrides=overrides)
         except StepFailed as failed:
             from graphkin.reach import does_not_close
 
@@ -144,11 +146,40 @@ class Mechanism:
         """The motion of many variants at once, each parameter an array of equal length.
 
         What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each: below
-        the root of eps, 1.5e-8, no digit of a velocity is right. Values
-        between a parameter's steps are allowed, to sweep it. ``kind`` names the numbers: float32,
-        float64 or longdouble. Raises SceneError for a name that is
-        no parameter of the scene, and for values outside a parameter's range.
+        the root of eps, 1.5e-8, no digit of a velocity is right. Values between a parameter's
+        steps are allowed, to sweep it. ``kind`` names the numbers: float32, float64 or longdouble.
+        Raises SceneError for a name that is no parameter of the scene, and for values outside a
+        parameter's range.
         """
+        return self.run_many(self.entered(parameters), asked, margins, kind)
+
+    def stream(
+        self,
+        *,
+        asked: bool = False,
+        margins: bool = False,
+        kind: str = "float64",
+        block: int = STREAMED,
+        **parameters: Any,
+    ) -> Iterator[Solution]:
+        """As batch, so many variants at a time: for what is summed up as it comes.
+
+        Only one block is held, however many variants there are. Raises as batch before the first.
+        """
+        given = self.entered(parameters)
+        size = max((len(array) for array in given.values()), default=1)
+        return (
+            self.run_many(
+                {name: array[start : start + block] for name, array in given.items()},
+                asked,
+                margins,
+                kind,
+            )
+            for start in range(0, size, block)
+        )
+
+    def entered(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """Parameters as arrays of floats of one length. Raises SceneError as batch does."""
         import numpy as np
 
         strangers = sorted(set(parameters) - set(self.scene.values))
@@ -159,6 +190,12 @@ class Mechanism:
         floats = [np.asarray(array, dtype=float) for array in arrays]
         given = dict(zip(parameters, floats, strict=True))
         refuse_out_of_range(self.scene, given)
+        return given
+
+    def run_many(self, given: Mapping[str, Any], asked: bool, margins: bool, kind: str) -> Solution:
+        """The motion of variants whose parameters are arrays of floats."""
+        import numpy as np
+
         values = {**self.scene.values, **given}
         targets = self.asked() if asked else self.program.answers
         needed = self.program.needed(targets)
