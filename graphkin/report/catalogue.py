@@ -1,17 +1,13 @@
-"""The texts of list and explain."""
+"""The text of list."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from graphkin import labs
-from graphkin.report.table import labelled, listed, table
+from graphkin.report.table import labelled, listed
 from graphkin.scene.model import Ask, Parameter, Scene
 from graphkin.scene.parameters import range_words
-
-if TYPE_CHECKING:
-    from graphkin.mechanism import Mechanism
 
 ASKED = (
     ("velocity", "velocity of"),
@@ -57,22 +53,3 @@ def ask_words(ask: Ask) -> str:
     """What a scene asks for, in words."""
     wanted = [(words, getattr(ask, key)) for key, words in ASKED]
     return "; ".join(f"{words} {listed(names)}" for words, names in wanted if names) or "nothing"
-
-
-def effects_lines(mechanism: Mechanism) -> Iterator[str]:
-    """Which effects are in the construction of what is asked, which are out, and why."""
-    from graphkin.effects import BY_HAND, effects
-
-    found = effects(mechanism)
-    counted = sum(effect.steps for effect in found if effect.name != BY_HAND)
-    scene, whole = mechanism.scene, len(mechanism.program.needed(mechanism.program.targets))
-    yield f"{scene.title} ({scene.name})"
-    yield f"asked: {ask_words(scene.ask)}"
-    yield ""
-    rows = [
-        (effect.name, "in" if effect.included else "out", f"{effect.steps:5d}", effect.reason)
-        for effect in found
-    ]
-    yield from table(("effect", "", "steps", "why"), rows)
-    yield ""
-    yield f"{counted} steps give what is asked; {whole} would give everything."

@@ -8,6 +8,7 @@ from dataclasses import replace
 from math import degrees
 from typing import Any
 
+from graphkin.arithmetic import at
 from graphkin.plane import Ratio
 from graphkin.report.table import NOISE, Cell, number, table
 from graphkin.scene.model import FRAME, Scene
@@ -87,7 +88,7 @@ def carried(scene: Scene, name: str, solution: Solution) -> LinkMotion:
     if motion.velocity is not None:
         centre = Ratio(motion.position, 1j * motion.velocity, omega)
     if motion.acceleration is not None and epsilon is not None:
-        pole = Ratio(motion.position, -motion.acceleration, 1j * epsilon - omega * omega)
+        pole = Ratio(motion.position, -motion.acceleration, at(-omega * omega, epsilon))
     return LinkMotion(omega, epsilon, centre, pole)
 
 

@@ -9,10 +9,12 @@ from graphkin.closures import Choice, choices
 from graphkin.errors import ClosureError, GraphkinError, Problem, WitnessError
 from graphkin.mechanism import Mechanism
 from graphkin.ranges import closing_ranges, reached_words
+from graphkin.report.coincident import fallen_together
+from graphkin.report.crossings import crossing
 from graphkin.report.motion import flat_words, is_flat, verdict_words
 from graphkin.report.record import plain, settings_words
 from graphkin.report.structure import group_lines, structure
-from graphkin.report.table import crossing, labelled, listed, table
+from graphkin.report.table import labelled, listed, table
 from graphkin.scene.model import Scene
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
@@ -42,6 +44,7 @@ class Checking:
             yield from labelled("rank", self.rank())
             trace = self.mechanism.trace()
             yield from labelled("crossings", crossing_lines(trace))
+            yield from labelled("note", fallen_together(scene, trace))
             self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
             yield from labelled("witness", [self.witness(trace)])
         except GraphkinError as error:
@@ -127,11 +130,12 @@ def crossing_lines(trace: Trace) -> list[str]:
     """The flattest crossings: the angle, the part of the work, and the point."""
     program = trace.program
     drawn = [(s, n) for n, s in trace.margins.items() if not program.steps[n].hand]
-    flattest = sorted(drawn)[:WORST]
-    rows = []
-    for sine, step in flattest:
-        point, part = crossing(program, step)
-        rows.append((f"{degrees(asin(min(1.0, sine))):.2f}°", part, point))
+    rows: dict[tuple[str, str], str] = {}
+    for sine, step in sorted(drawn):
+        rows.setdefault(crossing(program, step), f"{degrees(asin(min(1.0, sine))):.2f}°")
+        if len(rows) == WORST:
+            break
     if not rows:
         return ["nothing crosses"]
-    return table(("angle", "part", "point (flattest crossings)"), rows)
+    lines = [(angle, part, point) for (point, part), angle in rows.items()]
+    return table(("angle", "part", "point (flattest crossings)"), lines)

@@ -48,7 +48,10 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
         yield from labelled("pieces", [piece_words(cycle, piece) for piece in cycle.pieces])
     several = len(cycle.path.ranges) > 1
     for i in range(len(cycle.path.ranges)):
-        found = [line for each in followers(cycle, i) for line in follower_words(cycle, each)]
+        steady = not any(stops(cycle, i))
+        found = [
+            line for each in followers(cycle, i) for line in follower_words(cycle, each, steady)
+        ]
         yield from labelled(f"in range {i + 1}" if several else "followers", found)
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
@@ -150,13 +153,24 @@ def piece_words(cycle: Cycle, piece: Piece) -> str:
     return f"{LETTER[sweep.what]} from {low} to {high}: {', '.join(branches) or 'nothing to pick'}"
 
 
-def follower_words(cycle: Cycle, found: Follower) -> list[str]:
-    """How far one follower goes, where it turns round, and the ratio of the times."""
+def stops(cycle: Cycle, number: int) -> tuple[bool, bool]:
+    """Whether a dead point ends a range of the driver, below and above."""
+    pieces = cycle.path.ranges[number]
+    return pieces[0].low.kind != "window", pieces[-1].high.kind != "window"
+
+
+def follower_words(cycle: Cycle, found: Follower, steady: bool) -> list[str]:
+    """How far one follower goes, where it turns round, and the ratio of the times.
+
+    ``steady`` tells that nothing stops the driver, so that a link without limits turns on.
+    """
     what = f"block {found.name}" if found.line is None else f"link {found.name}"
     line = "" if found.line is None else f" (line {'-'.join(found.line)})"
     if found.full:
         return [f"{what}{line} turns fully"]
     verb = "goes" if found.line is None else "swings"
+    if steady and found.line is not None and not found.limits:
+        verb = "turns one way by"
     words = f"{what}{line} {verb} {value_words(cycle, found, found.extent)}: "
     words += " to ".join(limit_words(cycle, found, end) for end in (found.low, found.high))
     lines = [words]

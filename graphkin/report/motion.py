@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.reach import beside_dead_point
+from graphkin.alignment import beside_dead_point
 from graphkin.report.centres import (
     breadth_of,
     centre_words,
@@ -15,8 +15,9 @@ from graphkin.report.centres import (
     pole_words,
     relative_table,
 )
+from graphkin.report.crossings import crossing
 from graphkin.report.record import Record, settings_words
-from graphkin.report.table import Cell, cleaned, crossing, number, table
+from graphkin.report.table import Cell, cleaned, number, table
 from graphkin.scene.model import Scene
 from graphkin.steps.run import Trace
 from graphkin.steps.solution import FAIR, Solution, Verdict
@@ -38,7 +39,7 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
         relative_table(solution, found.get("centres", {})),
         inflection_table(found["links"]),
         slides_table(found["slides"]),
-        scale_lines(found["scales"]),
+        scale_lines(found["scales"]) if "scales" in found else [],
         [f"witness  {verdict_words(verdict)}"],
     ]
     return "\n\n".join("\n".join(lines) for lines in parts if lines)

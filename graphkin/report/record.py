@@ -31,11 +31,14 @@ def record(
     scene: Scene,
     solution: Solution,
     verdict: Verdict | None,
-    scales: Scales,
+    scales: Scales | None,
     *,
     asked: bool = False,
 ) -> Record:
-    """Everything that solve reports, under the names of the scene and in its order."""
+    """Everything that solve reports, under the names of the scene and in its order.
+
+    Without ``scales`` there are none in it: they belong to a drawing, which nobody may have asked.
+    """
     full, wanted = completed(scene, solution), wanted_of(scene, asked)
     return {
         "name": scene.name,
@@ -44,10 +47,17 @@ def record(
         "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth_of(full))),
         **centres(scene, full),
         "slides": named(blocks(scene, full), lambda n: slide(n, full.slides[n], wanted)),
-        "scales": {"kL": scales.kL, "kv": scales.kv, "ka": scales.ka},
+        **drawn_at(scales),
         "witness": witness(verdict),
         "margin": real(solution.margin),
     }
+
+
+def drawn_at(scales: Scales | None) -> Record:
+    """The scale factors of the sheets, where they were looked for."""
+    if scales is None:
+        return {}
+    return {"scales": {"kL": scales.kL, "kv": scales.kv, "ka": scales.ka}}
 
 
 def wanted_of(scene: Scene, asked: bool) -> Wanted:
@@ -56,6 +66,7 @@ def wanted_of(scene: Scene, asked: bool) -> Wanted:
         return lambda quantity, of: True
     ask = scene.ask
     names = {
+        "position": ask.curves,
         "velocity": ask.velocity,
         "acceleration": ask.acceleration,
         "omega": ask.omega,

@@ -3,12 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
-
-from graphkin.steps.program import Part
-
-if TYPE_CHECKING:
-    from graphkin.steps.program import Program
 
 DIGITS = 6
 NOISE = 1e-12
@@ -63,6 +57,7 @@ def at_the_point(texts: Sequence[str]) -> list[str]:
 
 def labelled(label: str, lines: Sequence[str], width: int = 11) -> list[str]:
     """Lines with a label before the first and the others below it."""
+    width = max(width, len(label) + 1)
     return [f"{label if i == 0 else '':<{width}}{line}".rstrip() for i, line in enumerate(lines)]
 
 
@@ -72,20 +67,3 @@ def listed(names: Iterable[str], most: int = 12) -> str:
     if len(known) > most:
         known = [*known[:most], f"{len(known) - most} more"]
     return " and ".join([", ".join(known[:-1]), known[-1]]) if len(known) > 1 else "".join(known)
-
-
-def crossing(program: Program, number: int) -> tuple[str, str]:
-    """The point in which a step crosses, as the drawing calls it, and the part of the work.
-
-    The corner of a plate has its letter only where the plate is laid, in a later step.
-    """
-    step = program.steps[number]
-    name, reached = step.name, {number}
-    for later in range(number + 1, len(program.steps)):
-        after = program.steps[later]
-        if name or after.part not in (step.part, Part.POSITION):
-            break
-        if reached.intersection(after.args):
-            name = after.name
-            reached.add(later)
-    return name or "a point", step.part.value

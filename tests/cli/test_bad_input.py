@@ -411,7 +411,10 @@ O2-B = 40
 B = "left of A-O2"
 """
     words = said(HEAD + text + CRANK.replace("10", "1e-5"))
-    assert "B cannot be found: AB and O2B are in line, a dead point; " in words
+    assert "AB and O2B are in line, a dead point, but the arcs miss each other by 3.0" in words
+    assert words.endswith("it closes at this dead point alone: change the lengths")
+    touching = said(HEAD + text + CRANK.replace("10", "1e-7"))
+    assert "in line, a dead point; expected loci that cross; at this dead point" in touching
 
 
 @pytest.mark.parametrize("command", ["solve", "check"])
@@ -457,9 +460,9 @@ def test_beside_a_dead_point_the_bars_and_the_driver_are_named(
 @pytest.mark.parametrize(
     ("branch", "words"),
     [
-        ('O = "left of A-B"', "branches.O: no group has a choice here; expected branches of 3"),
-        ('1 = "forward"', "branches.1: no group has a choice here; expected branches of 3"),
-        ('1 = "closure 1"', "branches.1: no group has a choice here; expected branches of 3"),
+        ('O = "left of A-B"', "branches.O: link 1 is driven: nothing is left to choose at O; "),
+        ('1 = "forward"', "branches.1: link 1 is driven: nothing is left to choose at link 1"),
+        ('1 = "closure 1"', "at link 1; expected branches of 3; take it out"),
         ('Z = "left of A-B"', "branches.Z: Z is no point or link; expected one of 1, 2, 3, A"),
         ('B = "forward"', "a block's branch is written under the link's name: 3 = \"forward\""),
     ],
@@ -468,7 +471,10 @@ def test_branches_that_name_nothing(said: Said, branch: str, words: str) -> None
     assert words in said(scene("slider-crank", ("[branches]", f"[branches]\n{branch}")))
 
 
-@pytest.mark.parametrize(("written", "found"), [("", "is missing"), ('2 = "forward"', "is not ")])
+@pytest.mark.parametrize(
+    ("written", "found"),
+    [("", "is missing"), ('2 = "forward"', '2 = "forward" for one group of class III, order 3')],
+)
 def test_a_group_of_class_three_needs_its_number(said: Said, written: str, found: str) -> None:
     words = said(scene("rapid-return", ('2 = "closure 2"', written)))
     assert words.startswith(f"branches.2: {found}")

@@ -39,8 +39,8 @@ def test_a_crossing_is_told_by_its_angle_its_part_and_its_point(run: Run) -> Non
     at = next(i for i, line in enumerate(lines) if line.startswith("crossings"))
     assert [line.split() for line in lines[at + 1 : at + 4]] == [
         ["54.90°", "shape", "C"],
-        ["76.74°", "velocity", "b"],
-        ["76.74°", "acceleration", "b′"],
+        ["76.74°", "velocity", "B"],
+        ["76.74°", "acceleration", "B"],
     ]
     assert not any("sine" in line or "step" in line for line in lines)
 
@@ -410,3 +410,68 @@ ram = "forward"
     height = 1e3 * load(path).solve().points["B"].position.imag
     assert f"{-height:.3f}) mm" in shown[2]
     assert shown[3].startswith("C of links bar and ram")
+
+
+# --- what crosses, and what falls together -------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "rows"),
+    [
+        (
+            "crank-slot",
+            [
+                ("90.00°", "position", "the line B-C"),
+                ("90.00°", "velocity", "C on link 2"),
+                ("90.00°", "acceleration", "C on link 2"),
+            ],
+        ),
+        (
+            "gears-ring",
+            [
+                ("90.00°", "acceleration", "the contact T1 on link 2"),
+                ("90.00°", "acceleration", "the contact T2 on link 3"),
+            ],
+        ),
+        (
+            "rapid-return",
+            [
+                ("17.09°", "position", "P"),
+                ("17.09°", "velocity", "P"),
+                ("17.09°", "acceleration", "P"),
+            ],
+        ),
+        ("stephenson-2-binary", [("47.76°", "shape", "B")]),
+    ],
+)
+def test_crossings_are_named_as_the_scene_names_them(
+    run: Run, name: str, rows: list[tuple[str, str, str]]
+) -> None:
+    """Points, not the letters of the plans; a crossing that two trial plans have is told once."""
+    lines = run("check", ROOT / "examples" / "scenes" / f"{name}.toml").stdout.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("crossings"))
+    found = [tuple(line.split(maxsplit=2)) for line in lines[at + 1 : at + 1 + len(rows)]]
+    assert found == rows
+
+
+def test_a_group_that_closes_as_a_whole_is_named_by_its_links(run: Run) -> None:
+    text = run("check", ROOT / "examples" / "scenes" / "rod-and-wheel.toml").stdout
+    assert "position  links 3, 2 and 1 together" in text
+    assert "a point" not in text
+
+
+def test_a_closure_that_puts_one_pin_on_another_is_noted(
+    run: Run, four_bar: Callable[..., Path]
+) -> None:
+    """Two equal sides that meet at O1: a kite, in one closure folded onto itself."""
+    folded = four_bar(crank=30, coupler=30, rocker=80, base=80)
+    open_kite = folded.read_text(encoding="utf-8")
+    assert "note " not in run("check", folded).stdout
+    folded.write_text(open_kite.replace('"left of', '"right of'), encoding="utf-8")
+    result = run("check", folded)
+    note = next(line for line in result.stdout.splitlines() if line.startswith("note"))
+    assert note.split(maxsplit=1)[1] == (
+        "O1 of the frame and link 1 falls on B of link 2 and link 3 in this closure; if that is "
+        "not meant, take another closure or another position of the driver"
+    )
+    assert result.exit_code == 0

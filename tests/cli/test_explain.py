@@ -1,59 +1,45 @@
-"""Explain counts: every step of what is asked belongs to one effect."""
+"""Explain tells of each effect whether it is in, why, its steps, and the time of those alone."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from graphkin import load
-from graphkin.effects import BY_HAND, NAMES, Effect, effects
-from graphkin.steps.program import Part
-from tests.cli.conftest import Run
+from graphkin.effects import BY_COMMAND, BY_HAND, NAMES, Row, effects
+from graphkin.steps.effect import Effect
+from tests.cli.conftest import ROOT, Run
+
+SCENES = ROOT / "examples" / "scenes"
 
 
-def of(path: str | Path) -> dict[str, Effect]:
+def of(path: str | Path) -> dict[str, Row]:
     """The effects of a scene by name."""
-    return {effect.name: effect for effect in effects(load(str(path)))}
+    return {row.name: row for row in effects(load(str(path)))}
 
 
-@pytest.mark.parametrize("lab", ["pump", "pump-collinear"])
-def test_the_counts_add_up_to_the_sliced_program(lab: str) -> None:
-    mechanism = load(lab)
-    program, asked = mechanism.program, mechanism.asked()
-    found = {effect.name: effect.steps for effect in effects(mechanism)}
-    plain, drawn = program.needed(asked), program.needed(asked, by_hand=True)
-    assert sum(found[name] for name in NAMES) == len(plain)
-    assert found[BY_HAND] == len(drawn) - len(plain)
-
-
-def test_parts_are_counted_as_the_program_marks_them() -> None:
-    mechanism = load("pump")
-    steps = mechanism.program.steps
-    needed = mechanism.program.needed(mechanism.asked())
-    found = of("pump")
-    for part, name in (
-        (Part.POSITION, "position"),
-        (Part.VELOCITY, "velocity"),
-        (Part.CENTRE, "instantaneous centres"),
-        (Part.POLE, "acceleration poles"),
-        (Part.RESULT, "results"),
-    ):
-        drawn = [n for n in needed if steps[n].part is part and steps[n].given is None]
-        assert found[name].steps == len(drawn), name
+def told(run: Run, *args: object) -> Any:
+    """The JSON of explain."""
+    result = run("explain", *args, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
 
 
 def test_the_pump_runs_steadily_on_a_fixed_guide() -> None:
     found = of("pump")
-    assert not found["driver acceleration"].included
     assert found["driver acceleration"].reason == "every driver has a constant speed"
-    assert not found["Coriolis"].included
     assert found["Coriolis"].reason == "the guide of 5 does not turn"
-    assert found["rolling and gears"].reason == "no link rolls"
+    assert found["rolling"].reason == "no wheel rolls along a track"
+    assert found["gears"].reason == "no wheels are in mesh"
     assert found["laws of time"].reason == "no driver is written in t"
-    assert found["acceleration poles"].steps == 2
-    assert found["instantaneous centres"].steps == 1
+    assert found["centrodes"].reason == "[ask] names no centrodes"
+    out = ("driver acceleration", "Coriolis", "rolling", "gears", "laws of time", "centrodes")
+    assert not any(found[name].included or found[name].steps for name in out)
+    assert found["acceleration poles"].reason == "needed for pole of 3, 4"
 
 
 def test_velocity_alone_needs_no_acceleration(four_bar: Callable[..., Path]) -> None:
@@ -64,14 +50,14 @@ def test_velocity_alone_needs_no_acceleration(four_bar: Callable[..., Path]) -> 
     assert found["velocity"].reason == "needed for all that is asked"
 
 
-def test_an_accelerated_driver_costs_one_step(four_bar: Callable[..., Path]) -> None:
-    steady = four_bar(ask='acceleration = ["B"]')
-    before = of(steady)
+def test_an_accelerated_driver_is_named_and_counted(four_bar: Callable[..., Path]) -> None:
+    before = of(four_bar(ask='acceleration = ["B"]'))["driver acceleration"]
     after = of(four_bar(ask='acceleration = ["B"]', driver="acceleration = 5"))
-    assert (before["driver acceleration"].steps, after["driver acceleration"].steps) == (0, 1)
+    assert (before.steps, after["driver acceleration"].steps) == (0, 1)
     assert after["driver acceleration"].reason.startswith("driver 1 has an acceleration")
     without = of(four_bar(driver="acceleration = 5"))["driver acceleration"]
-    assert without == Effect("driver acceleration", 0, "velocity of B can be found without")
+    why = "velocity of B can be found without"
+    assert without == Row("driver acceleration", 0, why, False)
 
 
 def test_a_law_of_time_is_named(four_bar: Callable[..., Path]) -> None:
@@ -80,23 +66,93 @@ def test_a_law_of_time_is_named(four_bar: Callable[..., Path]) -> None:
     text = text.replace("angle = 60\nspeed = 2", 'angle = "60 + 10*t**2"')
     path.write_text(text.replace("graphkin = 1", "graphkin = 1\ntime = 0.5"))
     found = of(path)
-    assert found["laws of time"].included
     assert found["laws of time"].reason.startswith("driver 1 has a law of time")
     assert found["driver acceleration"].included
 
 
-def test_a_scene_that_asks_nothing_is_asked_everything(four_bar: Callable[..., Path]) -> None:
-    path = four_bar(ask="")
-    mechanism = load(path)
-    everything = len(mechanism.program.needed(mechanism.program.answers))
-    assert sum(e.steps for e in of(path).values() if e.name != "by-hand marks") == everything
+@pytest.mark.parametrize(
+    ("scene", "effect", "cause"),
+    [
+        ("oscillating-slide", "Coriolis", "the guide of 2 turns with its link"),
+        ("gears-planet", "gears", "in mesh are 3 on 1"),
+        ("gears-rack", "gears", "in mesh are 1 on 2"),
+        ("roller", "rolling", "without slip roll 1 on the frame"),
+        ("centrodes-four-bar", "centrodes", "the centres that are asked anyway"),
+    ],
+)
+def test_the_cause_in_the_scene_is_named(scene: str, effect: str, cause: str) -> None:
+    row = of(SCENES / f"{scene}.toml")[effect]
+    assert row.included
+    assert row.reason.startswith(cause)
+
+
+def test_what_only_a_command_asks_for_names_the_command() -> None:
+    found = of("pump")
+    for name, option in (("pencil", "--pencil"), ("certification", "--digits")):
+        assert name in BY_COMMAND
+        assert option in found[name].reason
+        assert not found[name].included
 
 
 def test_the_text_says_in_and_out_with_their_steps(run: Run) -> None:
-    result = run("explain", "pump")
+    result = run("explain", "pump", "--set", "n=9")
     assert result.exit_code == 0
     mechanism = load("pump")
     total = len(mechanism.program.needed(mechanism.asked()))
-    assert f"{total} steps give what is asked" in result.stdout
+    assert f"{total} steps give what is asked, in " in result.stdout
+    assert "n = 9" in result.stdout
     rows = [line.split() for line in result.stdout.splitlines()]
     assert ["Coriolis", "out", "0"] in [row[:3] for row in rows]
+    assert "median of 25 rounds" in result.stdout
+    assert max(map(len, result.stdout.splitlines())) < 250
+
+
+@pytest.mark.parametrize("name", ["pump", SCENES / "oscillating-slide.toml"])
+def test_every_effect_that_is_in_has_its_own_time_and_no_other(run: Run, name: object) -> None:
+    found = told(run, name)
+    assert {row["effect"] for row in found["effects"]} == {*NAMES, BY_HAND, *BY_COMMAND}
+    for row in found["effects"]:
+        assert (row["time"] is not None) == (row["steps"] > 0), row
+        if row["time"]:
+            assert 0 < row["time"]["low"] <= row["time"]["median"] <= row["time"]["high"]
+    assert sum(r["steps"] for r in found["effects"] if r["effect"] in NAMES) == found["steps_asked"]
+    assert found["steps_asked"] < found["steps_everything"]
+    assert found["time_asked"]["rounds"] == 25
+
+
+def test_only_the_steps_of_an_effect_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The steps handed to the clock are those of the slice, each once, under its own effect."""
+    from graphkin import effects as room
+    from graphkin.steps.timed import Timing
+
+    mechanism = load(str(SCENES / "oscillating-slide.toml"))
+    handed: list[list[int]] = []
+
+    def noted(trace: object, numbers: list[int], values: object) -> Timing:
+        handed.append(list(numbers))
+        return Timing(1.0, 1.0, 1.0, 1)
+
+    monkeypatch.setattr(room, "timed", noted)
+    rows = room.measured(mechanism)
+    assert [len(numbers) for numbers in handed] == [row.steps for row in rows if row.steps]
+    program, asked = mechanism.program, mechanism.asked()
+    every = sorted(number for numbers in handed for number in numbers)
+    assert every == list(program.needed(asked, by_hand=True))
+    in_order = iter(handed)
+    effect_of = {row.name: next(in_order) for row in rows if row.steps}
+    for number in effect_of[Effect.CORIOLIS.value]:
+        action = program.steps[number].action
+        assert action is not None
+        assert "coriolis" in action.key
+
+
+def test_a_position_that_does_not_close_is_explained_without_times(
+    run: Run, four_bar: Callable[..., Path]
+) -> None:
+    result = run("explain", four_bar(coupler=9))
+    assert result.exit_code == 0
+    assert "no time is measured: " in result.stdout
+    assert "the arcs miss each other by" in result.stdout
+    found = told(run, four_bar(coupler=9))
+    assert found["time_asked"] is None
+    assert found["steps_asked"] > 0

@@ -175,7 +175,7 @@ def test_a_flat_crossing_is_answered_with_a_warning_and_status_1(
     assert result.stderr.startswith("graphkin: ")
     assert "not fair to ask" in result.stderr
     assert "it is good to" in result.stderr
-    assert "the lines at b (velocity) cross at a sine of" in result.stderr
+    assert "the lines at B (velocity) cross at a sine of" in result.stderr
 
 
 def test_a_witness_that_disagrees_gives_status_1(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 HOUSE = Path(__file__).resolve().parents[2] / "graphkin"
-BASE = {"errors", "arithmetic", "plane"}
+BASE = {"errors", "arithmetic", "kinds", "plane"}
 NUMERIC = {
     "scene",
     "structure",
@@ -21,6 +21,7 @@ NUMERIC = {
     "witness",
     "freedom",
     "ranges",
+    "alignment",
     "reach",
     "mechanism",
     "labs",
@@ -28,6 +29,7 @@ NUMERIC = {
 TABLE: dict[str, set[str]] = {
     "errors": set(),
     "arithmetic": set(),
+    "kinds": {"arithmetic"},
     "plane": set(),
     "text": set(),
     "scene": set(),
@@ -39,15 +41,23 @@ TABLE: dict[str, set[str]] = {
     "freedom": {"scene", "structure", "loops"},
     "witness": {"scene", "steps", "loops"},
     "ranges": {"scene", "motion"},
-    "reach": {"scene", "steps", "ranges"},
-    "mechanism": {"scene", "structure", "steps", "plans", "witness", "reach", "labs"},
+    "exact": set(),
+    "meeting": {"steps", "exact"},
+    "alignment": {"scene", "steps", "ranges"},
+    "reach": {"scene", "steps", "ranges", "meeting", "alignment"},
+    "mechanism": {"scene", "structure", "steps", "plans", "witness", "reach", "labs", "notebook"},
+    "notebook": {"paper", "handout", "mechanism"},
     "paper": {"scene", "steps", "text"},
-    "handout": {"scene", "steps", "text", "paper", "mechanism", "witness", "motion"},
+    "loci": {"steps", "mechanism", "motion"},
+    "handout": {"scene", "steps", "text", "paper", "mechanism", "witness", "loci"},
     "effects": NUMERIC,
     "closures": NUMERIC,
+    "certified": NUMERIC | {"exact", "meeting"},
     "motion": NUMERIC,
     "curves": NUMERIC | {"motion"},
-    "report": NUMERIC | {"effects", "closures", "motion", "paper.scale"},
+    "pencil": NUMERIC,
+    "accuracy": NUMERIC | {"motion", "curves", "pencil"},
+    "report": NUMERIC | {"accuracy", "certified", "pencil", "effects", "closures", "motion", "paper.scale"},
     "console": set(),
     "__init__": {"mechanism"},
     "__main__": {"cli"},

@@ -1,0 +1,65 @@
+"""Where lines cross in a construction, in words: the point as the scene names it."""
+
+from __future__ import annotations
+
+from graphkin.alignment import closed_by
+from graphkin.plans.pen import image, letter, second_image
+from graphkin.report.table import listed
+from graphkin.steps.program import CONTACT, Part, Program
+
+TAGS = "¹²"
+"""The tags of the images of two trial plans."""
+CENTRES = {
+    "I": "the centre of link",
+    "J": "the acceleration pole of link",
+    "W": "the inflection pole of link",
+}
+
+
+def crossing(program: Program, number: int) -> tuple[str, str]:
+    """What a step finds by lines that cross, as the scene calls it, and the part of the work."""
+    step = program.steps[number]
+    return place_words(program, number) or "lines that help", step.part.value
+
+
+def place_words(program: Program, number: int) -> str:
+    """The point, the line, the centre or the links that a step settles; empty for none of them."""
+    step = program.steps[number]
+    says, key = step.says, step.action.key if step.action else ""
+    if key == "swing-through":
+        return f"the line {says['p']}-{says['q']}"
+    if not step.name and key.startswith(("close", "part", "share")):
+        return f"links {listed(closed_by(program, number))} together"
+    name = drawn_name(program, number)
+    kind, _, link = name.partition("_")
+    if step.part in (Part.CENTRE, Part.POLE) and kind in CENTRES and link:
+        return f"{CENTRES[kind]} {link}"
+    return point_words(program, name)
+
+
+def drawn_name(program: Program, number: int) -> str:
+    """The letter of a step, or of the later step that lays what it finds.
+
+    The corner of a plate has its letter only where the plate is laid.
+    """
+    step = program.steps[number]
+    name, reached = step.name, {number}
+    for later in range(number + 1, len(program.steps)):
+        after = program.steps[later]
+        if name or after.part not in (step.part, Part.POSITION):
+            break
+        if reached.intersection(after.args):
+            name = after.name
+            reached.add(later)
+    return name
+
+
+def point_words(program: Program, name: str) -> str:
+    """The point whose letter or whose image in a plan this is; a name that is none stays itself."""
+    bare = name.rstrip(TAGS)
+    for quantity, point in program.targets:
+        if quantity == "position" and bare in (letter(point), image(point), second_image(point)):
+            own, _, link = point.removeprefix(CONTACT).partition("@")
+            words = f"the contact {own}" if point.startswith(CONTACT) else own
+            return f"{words} on link {link}" if link else words
+    return name

@@ -1,0 +1,142 @@
+"""solve --pencil: what it prints, its JSON, and the warning that a lab is not for the hand."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+import pytest
+
+from graphkin.handout import scales
+from graphkin.mechanism import load
+from graphkin.pencil import Pencil, drawn
+from tests.cli.conftest import Run
+
+
+def by_pencil(run: Run, *args: object) -> Any:
+    """The key "pencil" of the JSON of solve."""
+    result = run("solve", *args, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)["pencil"]
+
+
+def text(run: Run, *args: object) -> str:
+    """What solve prints from the pencil on."""
+    result = run("solve", *args)
+    assert result.exit_code == 0, result.stderr
+    return result.stdout[result.stdout.index("\npencil") :]
+
+
+def test_the_record_tells_every_answer_that_is_drawn(run: Run) -> None:
+    found = by_pencil(run, "pump", "--set", "n=7", "--pencil", 0.25)
+    assert (found["point"], found["line"]) == (0.25, 0.25)
+    kinds = {quantity: list(names) for quantity, names in found["answers"].items()}
+    assert kinds == {
+        "velocity": ["D"],
+        "acceleration": ["D"],
+        "omega": ["2", "3", "4"],
+        "epsilon": ["2", "3", "4"],
+        "centre": ["3"],
+        "pole": ["3", "4"],
+    }
+    speed = found["answers"]["velocity"]["D"]
+    assert set(speed) == {"predicted", "unit", "relative", "millimetres", "mostly"}
+    assert speed["unit"] == "m/s"
+    assert speed["relative"] == pytest.approx(speed["predicted"] / 3.826845090)
+    assert found["answers"]["pole"]["3"]["relative"] is None
+
+
+def test_what_is_foretold_is_what_drawings_are_off(run: Run) -> None:
+    found = by_pencil(run, "pump", "--set", "n=20", "--pencil", 0.5)["answers"]
+    pump = load("pump", n=20)
+    many = drawn(pump, scales(pump), Pencil(0.5), 4000)
+    for quantity, of in many.index:
+        assert found[quantity][of]["predicted"] == pytest.approx(
+            many.error((quantity, of)), rel=0.1
+        )
+
+
+def test_every_crossing_is_told_with_its_lines_and_the_flattest_is_the_worst(run: Run) -> None:
+    found = by_pencil(run, "pump", "--set", "n=7", "--pencil", 0.25)
+    crossed = {crossing["point"]: crossing for crossing in found["crossings"]}
+    assert crossed["b′"]["lines"] == "⊥ AB and ⊥ O2B"
+    assert crossed["d"]["lines"] == "⊥ CD and ∥ guide 5"
+    assert crossed["B"]["lines"] == "the arc AB about A and the arc O2B about O2"
+    assert found["worst"] == min(found["crossings"], key=lambda crossing: crossing["angle"])
+    assert found["worst"]["point"] == "J3"
+    assert found["worst"]["factor"] == pytest.approx(6.6, abs=0.05)
+
+
+def test_the_lines_say_the_same_in_words(run: Run) -> None:
+    printed = text(run, "pump", "--set", "n=7", "--asked", "--pencil", "0.25")
+    assert "marks lie within 0.25 mm, lines within 0.25°" in printed
+    (row,) = re.findall(r"^velocity .*$", printed, re.MULTILINE)
+    assert re.split(r"\s{2,}", row)[:7] == ["velocity", "D", "3.82685", "0.20", "m/s", "5.2", "1.0"]
+    assert printed.rstrip().endswith(
+        "worst    J3 (acceleration pole): the ray at A and the ray at B cross at 17.5°, "
+        "1 mm of pencil becomes up to 6.6 mm"
+    )
+
+
+def test_without_a_pencil_nothing_is_said_of_one(run: Run) -> None:
+    result = run("solve", "pump", "--json")
+    assert "pencil" not in json.loads(result.stdout)
+    assert "pencil" not in run("solve", "pump").stdout
+
+
+def test_it_warns_by_the_error_of_what_is_asked_and_not_by_how_flat_lines_cross(run: Run) -> None:
+    """Student 25's piston is nearly at its greatest speed: hardly any acceleration is left."""
+    result = run("solve", "pump", "--set", "n=25", "--pencil", "0.25")
+    assert result.exit_code == 0
+    assert "should not be drawn by hand with a 0.25 mm pencil" in result.stderr
+    assert "acceleration of D (112 %)" in result.stderr
+    assert by_pencil(run, "pump", "--set", "n=25", "--pencil", 0.25)["warnings"]
+
+
+def test_it_does_not_warn_where_every_first_digit_is_sure(run: Run) -> None:
+    result = run("solve", "pump", "--set", "n=7", "--pencil", "0.25")
+    assert result.stderr == ""
+    assert by_pencil(run, "pump", "--set", "n=7", "--pencil", 0.25)["warnings"] == []
+
+
+def test_an_answer_that_is_nought_has_no_error_in_percent_and_is_not_warned_of(run: Run) -> None:
+    scene = "examples/scenes/mobility-parallel-cranks.toml"
+    found = by_pencil(run, scene, "--pencil", 0.5)
+    nought = found["answers"]["omega"]["4"]
+    assert nought["relative"] is None
+    assert nought["predicted"] > 0
+    assert not any("omega of 4" in warning for warning in found["warnings"])
+
+
+def test_a_drawing_that_may_not_close_is_called_one(run: Run) -> None:
+    scene = "examples/scenes/eight-link-2.toml"
+    assert by_pencil(run, scene, "--pencil", 3)["answers"]["velocity"]["E"]["predicted"] is None
+    assert "may not close" in text(run, scene, "--pencil", 3)
+
+
+def test_a_perfect_pencil_makes_no_error_to_speak_of(run: Run) -> None:
+    for names in by_pencil(run, "pump", "--pencil", 0)["answers"].values():
+        for answer in names.values():
+            assert answer["millimetres"] < 1e-9
+
+
+def test_a_scene_that_is_all_given_has_no_errors_of_a_drawing(run: Run) -> None:
+    result = run("solve", "examples/scenes/jumper.toml", "--pencil", 0.5)
+    assert result.exit_code == 0
+    assert "worst" not in result.stdout
+
+
+def test_where_all_that_is_asked_is_given_it_says_so(run: Run, four_bar: Any) -> None:
+    scene = four_bar(ask="omega = [1]")
+    assert by_pencil(run, scene, "--pencil", 0.5)["answers"] == {}
+    assert text(run, scene, "--pencil", 0.5) == (
+        "\npencil   nothing that is asked is read off a drawing\n"
+    )
+
+
+@pytest.mark.parametrize("wrong", ["-0.1", "sharp", "nan"])
+def test_a_pencil_that_cannot_be_is_refused(run: Run, wrong: str) -> None:
+    result = run("solve", "pump", "--pencil", wrong)
+    assert result.exit_code == 2
+    assert "Traceback" not in result.stderr
