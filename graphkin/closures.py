@@ -85,7 +85,7 @@ def picks(program: Program, number: int, *, closing: bool) -> bool:
         return False
     if closing:
         return isinstance(step.action.value, Closer)
-    return len(step.extra) == 1 and step.extra[0] in (1, -1)
+    return len(step.extra) in (1, 2) and step.extra[0] in (1, -1)
 
 
 def shown_point(scene: Scene, group: Group, program: Program) -> str:
@@ -111,7 +111,7 @@ def dyad_closure(
 ) -> Closure:
     """One closure of a dyad: the picked crossing (way +1) or the other one (-1)."""
     step = program.steps[number]
-    other = replaced(program, number, replace(step, extra=(way * step.extra[0],)))
+    other = replaced(program, number, replace(step, extra=(way * step.extra[0], *step.extra[1:])))
     words = words_of(scene, point, dyad, way)
     return Closure(words, place_of(scene, other, point), way > 0, failing(scene, other))
 

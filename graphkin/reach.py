@@ -1,21 +1,31 @@
-"""Why a step cannot be drawn, by how much it misses, and what lies in line at a dead point."""
+"""Why a step cannot be drawn, by how much it misses, and for which positions it could be."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from graphkin.alignment import closed_by, in_line
+from graphkin.arithmetic import FLOAT
 from graphkin.errors import ClosureError, Problem
-from graphkin.ranges import MOST, driver_words, where_it_closes
-from graphkin.scene.model import Driver, Scene
+from graphkin.meeting import Meeting, loci_of, meeting
+from graphkin.ranges import MOST, closing_ranges, where_it_closes
+from graphkin.scene.model import Scene
 from graphkin.scene.quantity import shortest
 from graphkin.steps.program import Part, Program, Step
-from graphkin.steps.run import StepFailed, miss
-from graphkin.steps.trying import Closer, ClosingError, needed_of, sign_table
+from graphkin.steps.run import StepFailed, Trace, Values, evaluate
+from graphkin.steps.trying import Closer, ClosingError, sign_table
 
 TOUCH = 1e-9
-"""Share of its loci by which a crossing may be missed that only touches, but for rounding."""
+"""Share of its loci by which a crossing is missed beside a dead point."""
+FLAT = 1e-6
+"""Sine of a crossing as flat as rounding makes one of loci that touch."""
+BLIND = 2.0**-26
+"""Sine of a crossing, the root of eps, below which no digit of a velocity is right."""
+MOVING = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION)
 DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
+
+ALONE = "it closes at this dead point alone: change the lengths"
 
 
 # --- why a step fails ----------------------------------------------------------------------------
@@ -30,23 +40,50 @@ def does_not_close(
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
     if falls(step):
         return ClosureError(no_direction(step))
+    loci = loci_of(failed.args_found)
+    if loci is not None and loci[0] == loci[1]:
+        return ClosureError(no_single_crossing(step))
     early = step.part in (Part.SHAPE, Part.POSITION)
-    what = " of ".join(part for part in (step.part.value, sought(program, failed)) if part)
-    return ClosureError(
-        Problem(
-            what,
-            f"{step.name or 'a value'} cannot be found: {why(scene, program, failed)}",
-            "loci that cross",
-            where_it_closes(scene) if early else DEAD,
-        )
-    )
+    if not early:
+        values = run_before(program, needed, failed.number, scene.values)
+        for number, found in doubtful(scene, program, values):
+            if found.apart:
+                return ClosureError(missed(scene, program, number, found))
+    if early and loci is not None:
+        found = meeting(program, failed.number, scene.values, loci)
+        return ClosureError(missed(scene, program, failed.number, found))
+    reason = why(scene, program, failed)
+    hint = where_it_closes(scene) if early else DEAD
+    return ClosureError(not_found(program, failed.number, reason, hint))
 
 
-def sought(program: Program, failed: StepFailed) -> str:
+def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
+    """The problem of two loci that miss each other, or touch and do not cross."""
+    hint = DEAD
+    if found.apart:
+        alone = found.missed < TOUCH * found.size and not closes_elsewhere(scene)
+        hint = ALONE if alone else where_it_closes(scene)
+    return not_found(program, number, why_not(scene, program, number, found), hint)
+
+
+def closes_elsewhere(scene: Scene) -> bool:
+    """Whether any driver alone can be moved to where everything closes."""
+    return any(closing_ranges(scene, n) for n in range(1, len(scene.drivers[:MOST]) + 1))
+
+
+def not_found(program: Program, number: int, reason: str, hint: str) -> Problem:
+    """The problem of a step that finds nothing, for some reason."""
+    step = program.steps[number]
+    what = " of ".join(part for part in (step.part.value, sought(program, number)) if part)
+    found = f"{step.name or 'a value'} cannot be found: {reason}"
+    return Problem(what, found, "loci that cross", hint)
+
+
+def sought(program: Program, number: int) -> str:
     """What a step was to find: its letter, else the points or the links that it is about."""
-    step = failed.step
+    step = program.steps[number]
     if step.action is not None and step.action.key == "share":
-        return f"links {', '.join(closed_by(program, failed.number))}"
+        return f"links {', '.join(closed_by(program, number))}"
     return step.name or "-".join(step.says[key] for key in ("p", "q") if key in step.says)
 
 
@@ -115,124 +152,94 @@ def why(scene: Scene, program: Program, failed: StepFailed) -> str:
     key = step.action.key if step.action else ""
     if key == "swing":
         return f"{step.says['q']} stands nearer to {step.says['p']} than the guide passes it"
-    missed = miss(step, failed.args_found)
-    if missed is None:
-        return in_line(scene, program, failed.number)
-    if missed < TOUCH * size(failed.args_found):
-        return f"{in_line(scene, program, failed.number)}, a dead point"
+    return in_line(scene, program, failed.number)
+
+
+def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
+    """Words for two loci that miss each other, or touch and do not cross."""
+    step = program.steps[number]
+    if found.missed >= TOUCH * found.size:
+        return miss_words(step, found.missed)
+    words = f"{in_line(scene, program, number)}, a dead point"
+    return f"{words}, but {miss_words(step, found.missed)}" if found.apart else words
+
+
+def miss_words(step: Step, missed: float) -> str:
+    """By how much the loci of a step miss each other."""
     loci = "the arcs miss each other" if "q" in step.says else "the arc misses the guide"
     return f"{loci} by {millimetres(missed)}"
 
 
-def size(loci: tuple[Any, ...]) -> float:
-    """The largest radius of some loci (m)."""
-    return max((float(each.radius) for each in loci if hasattr(each, "radius")), default=0.0)
+def no_single_crossing(step: Step) -> Problem:
+    """The problem of two bars of one length whose outer pins have come to fall together."""
+    p, q, pin = step.says["p"], step.says["q"], step.name
+    return Problem(
+        f"position of {pin}",
+        f"{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {pin} may stand anywhere about it",
+        f"{p} and {q} apart",
+        "this is a change point: move the driver",
+    )
+
+
+# --- whether loci meet, decided apart from where they do -----------------------------------------
+
+
+def run_before(
+    program: Program, needed: Sequence[int], number: int, values: Values
+) -> dict[int, Any]:
+    """The values of the steps before one that failed."""
+    found: dict[int, Any] = {}
+    for earlier in (n for n in needed if n < number and not program.steps[n].hand):
+        found[earlier] = evaluate(program.steps[earlier], earlier, found, values, FLOAT, {})
+    return found
+
+
+def doubtful(
+    scene: Scene, program: Program, values: Mapping[int, Any]
+) -> Iterator[tuple[int, Meeting]]:
+    """The steps that cross two loci as flatly as rounding does, with what is true of these."""
+    for number in values:
+        step = program.steps[number]
+        if step.part is not Part.POSITION or step.hand or step.action is None:
+            continue
+        if step.action.margin is None or (loci := loci_of([values[a] for a in step.args])) is None:
+            continue
+        if step.action.margin(*loci, 1) < FLAT:
+            yield number, meeting(program, number, scene.values, loci)
+
+
+def refuse_touching(scene: Scene, trace: Trace) -> None:
+    """Raise ClosureError where rounded numbers cross two loci that in truth touch or miss.
+
+    What the scene states in rational numbers is decided by these. Where loci touch, or cross more
+    flatly than rounding tells, positions may be drawn, and velocities may not.
+    """
+    program = trace.program
+    moving = any(program.steps[number].part is Part.VELOCITY for number in trace.values)
+    if moving:
+        refuse_blind(scene, trace)
+    for number, found in doubtful(scene, program, trace.values):
+        if found.exactly and (found.apart or (moving and found.barely)):
+            raise ClosureError(missed(scene, program, number, found))
+
+
+def refuse_blind(scene: Scene, trace: Trace) -> None:
+    """Raise ClosureError where two loci cross so flatly that rounding makes their crossing up.
+
+    The error of a velocity is eps over the square of the sine: below the root of eps nothing of it
+    is known.
+    """
+    program = trace.program
+    for number, margin in trace.margins.items():
+        step = program.steps[number]
+        if step.hand or step.part not in MOVING or margin >= BLIND:
+            continue
+        if falls(step):
+            raise ClosureError(no_direction(step))
+        words = f"{in_line(scene, program, number)}, a dead point"
+        raise ClosureError(not_found(program, number, words, DEAD))
 
 
 def millimetres(length: float) -> str:
     """A length (m) in mm, with four digits."""
     return f"{shortest(float(f'{1e3 * length:.4g}'))} mm"
-
-
-# --- which lines are parallel or in line ---------------------------------------------------------
-
-
-def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> str:
-    """Which bars and guides are in line, parallel or square where a crossing fails or is flat.
-
-    ``nearly`` is put before these words where the crossing is flat only.
-    """
-    step = program.steps[number]
-    key = step.action.key if step.action else ""
-    says, pin = step.says, step.name
-    if key == "arcs-meet" and pin and "q" in says:
-        return f"{says['p']}{pin} and {says['q']}{pin} are {nearly}in line"
-    if key == "arc-cuts-line" and pin and "p" in says:
-        return f"{says['p']}{pin} is {nearly}square to {guide_under(program, step)}"
-    if key == "swing":
-        return f"{says['p']}{says['q']} is {nearly}square to the guide of {says['g']}"
-    if key.startswith(("close", "part", "share")) and (links := closed_by(program, number)):
-        bars = arms(scene, links)
-        if bars:
-            return f"the lines {', '.join(bars[:-1])} and {bars[-1]} {nearly}meet in one point"
-        return f"two closures of links {', '.join(links)} {nearly}meet"
-    return parallel(program, step, nearly)
-
-
-def closed_by(program: Program, number: int) -> list[str]:
-    """The links of the group of higher class that a step helps to close."""
-    for earlier in reversed(needed_of(program, (number,))):
-        says = program.steps[earlier].says
-        if "list" in says:
-            return says["list"].split(", ")
-    return []
-
-
-def arms(scene: Scene, links: Sequence[str]) -> list[str]:
-    """The three bars that hold the middle link of a group of class III; empty for other groups.
-
-    That link can move although the driver stands where the three lines meet in one point.
-    """
-    for middle in links:
-        points = set(scene.links[middle].points)
-        bars = [scene.links[name].points for name in links if name != middle]
-        if len(bars) == 3 and all(len(bar) == 2 and len(points & {*bar}) == 1 for bar in bars):
-            return ["".join(bar) for bar in bars]
-    return []
-
-
-def parallel(program: Program, step: Step, nearly: str = "") -> str:
-    """Which lines of the mechanism are parallel, or square to one another, when a crossing fails.
-
-    Perpendiculars to two bars are parallel when the bars are.
-    """
-    lines = [program.steps[arg] for arg in step.args]
-    unnamed = f"its two lines are {nearly}parallel"
-    if len(lines) != 2 or any(line.action is None for line in lines):
-        return unnamed
-    (first, square), (second, other) = (line_words(program, line) for line in lines)
-    if not first or not second:
-        return unnamed
-    how = "parallel" if square == other else "perpendicular to each other"
-    return f"{first} and {second} are {nearly}{how}"
-
-
-def line_words(program: Program, line: Step) -> tuple[str, bool]:
-    """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
-    key = line.action.key if line.action else ""
-    says = line.says
-    if key == "square-to" and "q" in says:
-        return f"{says['p']}{says['q']}", True
-    if key == "along-bar" and "q" in says:
-        return f"{says['p']}{says['q']}", False
-    if "g" in says:
-        return f"the guide of {says['g']}", False
-    if key == "shifted":
-        return line_words(program, program.steps[line.args[0]])
-    return "", False
-
-
-def guide_under(program: Program, step: Step) -> str:
-    """The guide on which a step seeks its point, from the words of the lines before it."""
-    for arg in step.args:
-        words, _ = line_words(program, program.steps[arg])
-        if words:
-            return words
-    return "its guide"
-
-
-def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
-    """What is nearly in line where a crossing is flat, and which driver positions to leave."""
-    drivers = zip(scene.drivers, program.drives, strict=False)
-    needed = set(needed_of(program, (number,)))
-    causes = [driver for driver, drive in drivers if drive.position in needed]
-    places = [f"{driver_words(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
-    words = in_line(scene, program, number, "nearly ")
-    return f"{words}: move {' or '.join(places)} to another position" if places else words
-
-
-def stands(scene: Scene, driver: Driver) -> str:
-    """A driver's position as the scene has it, with its unit."""
-    number = float(driver.position.number(scene.values))
-    unit = driver.position.unit
-    return f"{number:.10g}°" if unit == "deg" else f"{number:.10g} {unit}"

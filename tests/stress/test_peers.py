@@ -1,0 +1,85 @@
+"""What other programs are known to get wrong, one test for each failure.
+
+Tolerances that are lengths fail at 1e-7 m; a slider-crank in line divides by nought; angles by the
+arc cosine lose half their digits at 180°; positions found each from the last drift away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from graphkin.motion import cycle
+from tests.stress.cases import FourBar, SliderCrank, assert_near, assert_within, held, held_batch
+from tests.stress.closed import EPS
+
+
+def test_lengths_of_a_ten_millionth_of_a_metre_give_what_lengths_of_a_metre_give():
+    """A peer's absolute tolerance of 1e-6 takes all its points for one and gives nothing."""
+    small = FourBar(bars=tuple(f"{bar}/10000000" for bar in (1, 3, 2, 3)))  # type: ignore[arg-type]
+    one, other = held(FourBar()), held(small)
+    for name in ("A", "B"):
+        for what in ("position", "velocity", "acceleration"):
+            large, tiny = getattr(one.points[name], what), getattr(other.points[name], what)
+            assert abs(tiny * 1e7 - large) <= 32 * EPS * abs(large)
+    assert cycle(small.mechanism()).witnessed.agrees.all()
+
+
+@pytest.mark.parametrize("at", ["0", "180", "360", "-180"])
+@pytest.mark.parametrize("rod", ["3", "10001/10000", "1000"])
+def test_the_slider_crank_in_line_is_solved(at, rod):
+    """Crank and rod on the line of the guide, where a peer divides by nought or finds no circle."""
+    block = held(SliderCrank(at=at, bars=("1", rod, "0"))).points["B"]
+    assert block.velocity == 0
+    assert block.position.imag == 0
+
+
+def test_the_slider_crank_in_line_goes_round():
+    """A whole turn through both places in line: every row there, and none of them NaN."""
+    found = cycle(SliderCrank().mechanism())
+    assert found.path.whole and found.path.returns and not found.singulars
+    assert len(found.at) == 360 and not len(found.left_out)
+    assert found.witnessed.agrees.all()
+    held_batch(SliderCrank(), np.arange(0.0, 360.0, 15.0))
+
+
+@pytest.mark.parametrize("case", [FourBar(), SliderCrank(), SliderCrank(bars=("1", "3", "1/2"))])
+@pytest.mark.parametrize("beside", [0, 4, 8, 12, 16])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_no_digit_is_lost_at_180_degrees(case, beside, sign):
+    """The arc cosine of -1 + 1e-16 is wrong by 1e-8: here no angle is ever taken."""
+    off = Fraction(sign, 10**beside) if beside else Fraction(0)
+    here = replace(case, at=str(180 + off))
+    solution, truth = held(here), here.truth()
+    for name, true in truth.points.items():
+        point = solution.points[name]
+        for found, exact, scale in (
+            (point.position, true.place, 4),
+            (point.velocity, true.velocity, 1),
+            (point.acceleration, true.acceleration, 2),
+        ):
+            assert_near(f"{name} at 180°", found, exact, 32 * EPS * scale)
+
+
+def test_the_error_of_a_position_does_not_grow_with_their_number():
+    """Every row is found from its own angle: the last of 36 000 is as good as the first."""
+    many = cycle(FourBar().mechanism(), steps=36_000)
+    few = cycle(FourBar().mechanism(), steps=36)
+    for name in ("A", "B"):
+        for what in ("position", "velocity", "acceleration"):
+            long, short = (getattr(each.solution.points[name], what) for each in (many, few))
+            assert (long[::1000] == short).all()
+    for row in (0, 1, 17_999, 35_998, 35_999):
+        assert_within(many.solution, FourBar().standing(float(many.at[row])).truth(), row)
+
+
+def test_the_length_of_a_bar_does_not_drift_in_a_hundred_turns():
+    """Integrated velocities stretch the coupler; positions that are constructed do not."""
+    found = cycle(FourBar().mechanism(), low=0.0, high=36_000.0, steps=3_600)
+    a, b = (found.solution.points[name].position for name in "AB")
+    assert abs(abs(b - a) - 3).max() <= 8 * EPS * 3
+    first, last = (found.solution.points["B"].position[rows] for rows in (0, -1))
+    assert first == last
