@@ -17,8 +17,8 @@ from graphkin.plans.trial_rates import trial_rates
 from graphkin.scene.model import Scene
 from graphkin.scene.read import read_scene
 from graphkin.steps.batch import run_blocks
-from graphkin.steps.gather import gathered
-from graphkin.steps.press import Press
+from graphkin.steps.gather import decided, gathered
+from graphkin.steps.press import LEAST, Press
 from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, Trace, run
 from graphkin.steps.solution import Solution, Verdict
@@ -139,25 +139,25 @@ class Mechanism:
         self,
         *,
         asked: bool = False,
-        margins: bool = False,
         kind: str = "float64",
         **parameters: Any,
     ) -> Solution:
         """The motion of many variants at once, each parameter an array of equal length.
 
-        What cannot be drawn is NaN. ``margins`` adds the smallest sine of crossing of each: below
-        the root of eps, 1.5e-8, no digit of a velocity is right. Values between a parameter's
-        steps are allowed, to sweep it. ``kind`` names the numbers: float32, float64 or longdouble.
+        What cannot be drawn is NaN, and so is a variant in which two loci touch, with a smallest
+        sine of crossing below 8·sqrt(eps), for there no digit of a velocity is right. Values
+        between a parameter's steps are allowed, to sweep it. ``kind`` names the numbers: float32,
+        float64 or longdouble.
+
         Raises SceneError for a name that is no parameter of the scene, and for values outside a
         parameter's range.
         """
-        return self.run_many(self.entered(parameters), asked, margins, kind)
+        return self.run_many(self.entered(parameters), asked, kind)
 
     def stream(
         self,
         *,
         asked: bool = False,
-        margins: bool = False,
         kind: str = "float64",
         block: int = STREAMED,
         **parameters: Any,
@@ -172,7 +172,6 @@ class Mechanism:
             self.run_many(
                 {name: array[start : start + block] for name, array in given.items()},
                 asked,
-                margins,
                 kind,
             )
             for start in range(0, size, block)
@@ -192,7 +191,7 @@ class Mechanism:
         refuse_out_of_range(self.scene, given)
         return given
 
-    def run_many(self, given: Mapping[str, Any], asked: bool, margins: bool, kind: str) -> Solution:
+    def run_many(self, given: Mapping[str, Any], asked: bool, kind: str) -> Solution:
         """The motion of variants whose parameters are arrays of floats."""
         import numpy as np
 
@@ -202,11 +201,11 @@ class Mechanism:
         keep = [self.program.targets[target] for target in targets]
         with np.errstate(all="ignore"):
             if kind == "float64":
-                trace = self.press.run(needed, values, keep, margins=margins)
+                trace = self.press.run(needed, values, keep, margins=LEAST)
             else:
                 numbers = array_kind(kind)
-                trace = run_blocks(self.program, needed, values, numbers, keep, margins=margins)
-        return gathered(trace, self.scene.links)
+                trace = run_blocks(self.program, needed, values, numbers, keep, margins=True)
+        return gathered(decided(trace), self.scene.links)
 
     def plot(self, ax: Axes, which: Which = "velocity", **options: Any) -> Axes:
         """Draw the mechanism or one of its plans into axes of matplotlib (see notebook.plot)."""

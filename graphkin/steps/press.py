@@ -15,6 +15,7 @@ from typing import Any, Literal
 from graphkin.arithmetic import batch_kind
 from graphkin.steps.batch import is_array, run_batch, run_blocks
 from graphkin.steps.emitted import Emitted
+from graphkin.steps.gather import merged
 from graphkin.steps.program import Program
 from graphkin.steps.run import Trace, Values
 from graphkin.steps.traced import UntraceableError
@@ -25,6 +26,8 @@ EMITTED_FROM = 2_000
 COMPILED_FROM = 100_000
 """Variants from which it is compiled, where numba is installed: seconds, once for each process."""
 
+LEAST: Literal["least"] = "least"
+Margins = bool | Literal["least"]
 Overrides = Mapping[int, Any]
 """Values, or arrays of them, in place of those of steps."""
 Way = Literal["steps", "numpy", "numba"]
@@ -38,7 +41,7 @@ class Order:
     needed: Sequence[int]
     values: Values
     keep: Sequence[int]
-    margins: bool
+    margins: Margins
     overrides: Overrides
 
     def key(self) -> tuple[Any, ...]:
@@ -76,14 +79,15 @@ class Press:
         values: Values,
         keep: Sequence[int],
         *,
-        margins: bool = False,
+        margins: Margins = False,
         overrides: Overrides | None = None,
         way: Way | None = None,
     ) -> Trace:
         """As run_blocks: what cannot be drawn is NaN; the caller wraps it in numpy's errstate.
 
         ``overrides`` gives arrays in place of the values of steps; ``way`` states how, None leaves
-        it to the number of variants. What source cannot follow goes step by step.
+        it to the number of variants. What source cannot follow goes step by step. ``margins``
+        asks for all of them, or for the least of each variant.
         """
         order = Order(needed, values, keep, margins, overrides or {})
         chosen = way or best_way(order.size())
@@ -95,9 +99,12 @@ class Press:
     def by_steps(self, order: Order) -> Trace:
         """The steps one after the other on arrays."""
         args = self.program, order.needed, order.values, batch_kind(), order.keep
+        asked = bool(order.margins)
         if order.overrides:
-            return run_batch(*args, margins=order.margins, overrides=order.overrides)
-        return run_blocks(*args, margins=order.margins)
+            trace = run_batch(*args, margins=asked, overrides=order.overrides)
+        else:
+            trace = run_blocks(*args, margins=asked)
+        return merged(trace) if order.margins == LEAST else trace
 
     def emitted(self, order: Order) -> Emitted | None:
         """The program emitted for an order, once; None where source cannot follow it."""
@@ -123,7 +130,9 @@ def emitted_for(program: Program, order: Order) -> Emitted | None:
     """The program traced for an order, ready to be printed; None where it cannot be traced."""
     asked = order.needed, order.values, order.keep, order.overrides
     try:
-        graph, trace = traced(program, *asked, margins=order.margins)
+        graph, trace = traced(program, *asked, margins=bool(order.margins))
+        if order.margins == LEAST:
+            trace = merged(trace)
     except UntraceableError:
         return None
     return Emitted(program, graph, trace.values, trace.margins)

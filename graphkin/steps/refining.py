@@ -117,7 +117,7 @@ def by_secant(misfit: Any, start: Any, turns: bool) -> Any:
     if abs(before) < abs(after):
         old, new, before, after = new, old, after, before
     for _ in range(ROUNDS):
-        if after == 0 or after == before:
+        if after in (0, before):
             return new
         trial = middle(new - after * (new - old) / (after - before))
         value = misfit(trial)

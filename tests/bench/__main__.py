@@ -1,7 +1,7 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
-``python -m tests.bench.motion`` and ``python -m tests.bench.chain`` print their parts alone.
+``python -m tests.bench.effects``, ``.motion`` and ``.chain`` print their parts alone.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.text import words
-from tests.bench import chain, motion
+from tests.bench import chain, effects, motion
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files
 
@@ -104,7 +104,7 @@ def batch() -> list[tuple[str, float, float]]:
         ),
         (
             "a variant: all quantities and margins",
-            best(lambda: mechanism.batch(n=n, margins=True)) / VARIANTS,
+            best(lambda: mechanism.batch(n=n)) / VARIANTS,
             plain,
         ),
         (
@@ -173,7 +173,7 @@ def table() -> str:
             f"{name:46} {in_words(seconds):>10} {seconds / plain:8.2f} ×"
             for name, seconds, plain in rows
         ]
-    return "\n".join([*lines, "", motion.table(), "", chain.table()])
+    return "\n".join([*lines, "", effects.table(), "", motion.table(), "", chain.table()])
 
 
 if __name__ == "__main__":

@@ -227,7 +227,7 @@ def flattened(solution):
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_batch_of_all_students_equals_each_one(name):
     numbers = np.arange(1, 31)
-    batch = dict(flattened(shipped(name, 1).batch(n=numbers, margins=True)))
+    batch = dict(flattened(shipped(name, 1).batch(n=numbers)))
     largest = {place: np.abs(values).max() for place, values in batch.items()}
     for n in numbers:
         one = dict(flattened(shipped(name, int(n)).solve()))
@@ -288,7 +288,7 @@ def test_a_variant_that_does_not_close_is_nan_and_its_neighbours_are_right():
     """Rods of 1 do not reach the guide from a crank of 2: only they are masked."""
     rods = np.array([3.0, 1.0, 2.5, 1.999, 4.0])
     mechanism = mechanism_of(RODS.replace("[links.4]", LATER).replace("[branches]", LATER_BRANCH))
-    batch = mechanism.batch(rod=rods, margins=True)
+    batch = mechanism.batch(rod=rods)
     closes = rods > 2
     assert (np.isfinite(batch.margin) == closes).all()
     for quantity in ("position", "velocity", "acceleration"):
@@ -362,7 +362,7 @@ def test_what_hangs_on_no_array_is_worked_out_once():
 
 def test_a_position_that_no_variant_closes_is_nan_for_all():
     text = RODS.replace("rod = 3", "rod = 1\nomega = 1").replace("speed = 1", 'speed = "omega"')
-    batch = mechanism_of(text).batch(omega=np.array([1.0, 2.0]), margins=True)
+    batch = mechanism_of(text).batch(omega=np.array([1.0, 2.0]))
     assert np.isnan(batch.points["B"].position)
     assert np.isnan(batch.points["B"].velocity).all()
     assert np.isfinite(batch.points["A"].velocity).all()

@@ -262,7 +262,7 @@ def held_batch(case: Case, positions: Iterable[float]) -> None:
     digit is: it lies below the root of eps.
     """
     at = np.array(list(positions), dtype=float)
-    found = case.mechanism().batch(at=at, margins=True)
+    found = case.mechanism().batch(at=at)
     for row, here in enumerate(at):
         try:
             truth = case.standing(float(here)).truth()
