@@ -1,4 +1,4 @@
-"""The command line: list, check, explain, solve, sheet, cycle."""
+"""The command line: list, check, explain, solve, sheet, cycle, accuracy."""
 
 from __future__ import annotations
 
@@ -51,6 +51,7 @@ def app(context: click.Context) -> None:
       graphkin solve pump --set n=7              all numbers of student 7's pump
       graphkin sheet pump --set n=7 -o sheets    the drawings and calculations
       graphkin cycle pump --set n=7 -o cycles    its motion from end to end, as curves
+      graphkin accuracy pump -o accuracy         what accuracy costs in time, as pictures
       graphkin check mine.toml                   what is wrong with my own scene
 
     \b

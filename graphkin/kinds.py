@@ -22,7 +22,8 @@ GUARD = 10
 def array_kind(name: str) -> Kind:
     """Arrays of numpy's float32, float64 or longdouble: what cannot be drawn becomes NaN.
 
-    What all variants share is worked out in doubles, or in longdoubles where those are asked.
+    What all variants share is worked out in doubles, or in longdoubles where those are asked, and
+    joins the arrays as a number of their own type: a choice between two of Python's own would not.
     """
     import numpy as np
 
@@ -96,6 +97,7 @@ def ball_kind(bits: int) -> Kind:
 
     with ctx.workprec(bits):
         pi = arb.pi()
+
     def own(value: Any) -> Any:
         return (acb if isinstance(value, complex) else arb)(value)
 
