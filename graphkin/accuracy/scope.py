@@ -1,0 +1,76 @@
+"""What is asked decides what it costs: positions alone, with velocities, accelerations, centres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from graphkin.accuracy.answers import Reference
+from graphkin.accuracy.methods import batch_work, can_be_emitted, variants_of
+from graphkin.accuracy.stopwatch import Effort, Stopwatch, Work
+from graphkin.arithmetic import FLOAT
+from graphkin.mechanism import Mechanism
+from graphkin.steps.press import Way
+from graphkin.steps.program import Target
+from graphkin.steps.run import run
+from graphkin.steps.timed import Timing
+
+SCOPES = (
+    ("position", ("position", "slide")),
+    ("+ velocity", ("velocity", "omega", "slide speed")),
+    ("+ acceleration", ("acceleration", "epsilon", "slide acceleration", "coriolis")),
+    ("+ centres, poles", ("centre", "pole", "inflection", "inflection centre")),
+)
+"""Each scope adds these quantities to those before it."""
+ASKED = "asked only"
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What is wanted, how many steps that needs, and the time of a position in both ways."""
+
+    name: str
+    steps: int
+    single: Timing
+    batch: Timing
+
+
+def scopes(mechanism: Mechanism, reference: Reference, watch: Stopwatch) -> tuple[Scope, ...]:
+    """The cost of each scope, one position after the other and in a batch; of what is asked last.
+
+    A scope that adds nothing, in a mechanism without centres, is left out.
+    """
+    program = reference.places.course.program
+    wanted: list[Target] = []
+    known: dict[str, tuple[Target, ...]] = {}
+    for name, quantities in SCOPES:
+        new = [target for target in program.answers if target[0] in quantities]
+        wanted += new
+        if new:
+            known[name] = tuple(wanted)
+    known[ASKED] = tuple(target for target in mechanism.asked() if target in program.targets)
+    works = [work for some in known.values() for work in ways(some, reference, watch.effort)]
+    times = watch.times(works)
+    pairs = zip(times[::2], times[1::2], strict=True)
+    return tuple(
+        Scope(name, len(program.needed(some)), *pair)
+        for (name, some), pair in zip(known.items(), pairs, strict=True)
+    )
+
+
+def ways(
+    targets: Sequence[Target], reference: Reference, effort: Effort
+) -> Iterator[tuple[Work, int]]:
+    """What runs some targets one position after the other, and what runs them in a batch."""
+    places = reference.places
+    program = places.course.program
+    needed = program.needed(targets)
+
+    def one_by_one() -> None:
+        for values in reference.exact_values:
+            run(program, needed, values, FLOAT)
+
+    yield one_by_one, len(places.at)
+    count = variants_of(reference, effort)
+    way: Way = "numpy" if can_be_emitted(reference) else "steps"
+    yield batch_work(program, targets, places.repeated(count), "float64", way), count

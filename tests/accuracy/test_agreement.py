@@ -1,0 +1,58 @@
+"""Doubles one by one, doubles in a batch and certified balls agree on every scene that we ship."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from graphkin.accuracy.agreement import agreement, contained
+from graphkin.accuracy.answers import answers_of, reference_of
+from graphkin.accuracy.methods import found_singly
+from graphkin.accuracy.places import ground_of, places_around
+from graphkin.kinds import ball_kind, decimal_kind
+from graphkin.mechanism import load
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+EVERY = ["pump", "pump-collinear", *sorted(str(path) for path in SCENES.glob("*.toml"))]
+POSITIONS = 4
+TIGHT = 1e4
+"""A ball of 53 bits may be so many times the bound of a double."""
+
+
+def reference(name: str, count: int = POSITIONS):
+    ground = ground_of(load(name).scene)
+    return reference_of(places_around(ground, count), answers_of(ground.piece.course.program))
+
+
+@pytest.mark.parametrize("name", EVERY, ids=lambda name: Path(name).stem)
+def test_doubles_keep_to_their_bound_and_every_ball_holds_the_truth(name):
+    found = agreement(reference(name))
+    assert found.bound < 1e-10
+    assert found.single < 1
+    assert found.batch < 1
+    assert found.contained == found.answers
+    assert found.tightness < TIGHT
+
+
+@pytest.mark.parametrize("name", ["pump", str(SCENES / "gears-planet.toml")])
+@pytest.mark.parametrize("bits", [53, 106, 400])
+def test_balls_of_any_size_hold_the_reference(name, bits):
+    sure = reference(name)
+    balls = found_singly(sure, ball_kind(bits))
+    assert contained(balls, sure) == len(sure.answers.every) * POSITIONS
+
+
+def test_the_reference_holds_decimals_of_two_hundred_digits():
+    # another library, another kind of arithmetic, the same program
+    sure = reference("pump")
+    missed = sure.missed(found_singly(sure, decimal_kind(200)))
+    assert (missed <= 4 * sure.radii + 1e-195).all()
+
+
+def test_a_double_beside_the_truth_would_be_seen():
+    sure = reference("pump")
+    found = [dict(each) for each in found_singly(sure, decimal_kind(30))]
+    place = next(iter(sure.answers.targets[0]))
+    found[0][place] = complex(found[0][place]) + 1e-6
+    assert sure.missed(found)[0, 0] == pytest.approx(1e-6, rel=1e-6)

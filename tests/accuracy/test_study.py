@@ -1,0 +1,303 @@
+"""What accuracy costs: errors obey their laws; what is timed is never asserted."""
+
+from __future__ import annotations
+
+import csv
+import io
+from functools import cache
+from itertools import count
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from graphkin.accuracy import machine
+from graphkin.accuracy.answers import error
+from graphkin.accuracy.files import picture_files
+from graphkin.accuracy.flat import LAW
+from graphkin.accuracy.methods import BITS, DIGITS, batch, found_singly, radii_in
+from graphkin.accuracy.places import approach, ground_of, places_around
+from graphkin.accuracy.routes import STEPS, TOLERANCES, plain
+from graphkin.accuracy.stopwatch import QUICK, Effort, Stopwatch
+from graphkin.accuracy.study import Study, study
+from graphkin.handout import scales
+from graphkin.kinds import ball_kind
+from graphkin.mechanism import load
+from graphkin.report.accuracy import HEADS, accuracy_lines, accuracy_table
+from tests.cli.conftest import Run, run  # noqa: F401
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+FOUR_BAR = str(SCENES / "four-bar-double-rocker.toml")
+WHOLE_TURN = str(SCENES / "slider-crank.toml")
+SEVERAL_DRIVERS = str(SCENES / "gears-planet.toml")
+PENCILS = ("pencil, 0.5 mm", "pencil, 0.25 mm", "pencil, 0.1 mm")
+OWN = (
+    "float64, one by one",
+    "float64 batch, by steps",
+    "float64 batch, emitted numpy",
+    "float32 batch, by steps",
+    "longdouble batch, by steps",
+)
+CASES = ("pump", FOUR_BAR, WHOLE_TURN, SEVERAL_DRIVERS)
+every_case = pytest.mark.parametrize("name", CASES, ids=lambda name: Path(name).stem)
+
+
+@cache
+def found(name: str) -> Study:
+    """The quick study of a scene with a clock that only counts how often it is read."""
+    ticks = count()
+    mechanism = load(name)
+    return study(mechanism, scales(mechanism), QUICK, clock=lambda: next(ticks) * 1e-3)
+
+
+@every_case
+def test_the_table_has_every_method(name):
+    methods = {row.method for row in found(name).rows}
+    assert methods >= {*OWN, *PENCILS}
+    assert methods >= {f"mpmath, {digits} digits" for digits in DIGITS}
+    assert methods >= {f"Arb, {bits} bits" for bits in BITS}
+    assert methods >= {f"Newton, to {plain(t)}" for t in TOLERANCES}
+    assert methods >= {f"central differences, h = {plain(h)}" for h in STEPS}
+
+
+@every_case
+def test_decimals_err_by_no_more_than_their_digits_and_the_condition(name):
+    of = found(name)
+    condition = 1 / of.reference.sines.min() ** 3
+    for digits in DIGITS:
+        assert max(of.row(f"mpmath, {digits} digits").errors) < 10.0 ** (2 - digits) * condition
+
+
+@every_case
+def test_balls_shrink_with_their_bits(name):
+    of = found(name)
+    rows = [of.row(f"Arb, {bits} bits") for bits in BITS]
+    assert all(row.certified for row in rows)
+    for bits, row in zip(BITS, rows, strict=True):
+        assert 2.0 ** -(bits + 8) < max(row.errors) < 2.0 ** (16 - bits)
+
+
+@every_case
+def test_the_errors_of_balls_are_their_radii(name):
+    of = found(name)
+    for bits in BITS:
+        balls = found_singly(of.reference, ball_kind(bits))
+        middles = of.reference.relative(of.reference.missed(balls))
+        assert of.row(f"Arb, {bits} bits").errors == of.reference.relative(
+            radii_in(balls, of.reference)
+        )
+        assert max(middles) < max(of.row(f"Arb, {bits} bits").errors)
+
+
+def test_an_error_counts_the_radius_of_the_reference():
+    from flint import arb
+
+    assert error(1.0, arb(1, 1e-3)) >= 1e-3
+    assert error(1.0, arb(1.5)) == pytest.approx(0.5)
+    assert np.isnan(error(float("nan"), arb(1)))
+
+
+@every_case
+def test_no_claimed_error_is_below_what_the_reference_itself_leaves_open(name):
+    of = found(name)
+    errors = [e for row in of.rows for e in row.errors if e is not None]
+    assert min(errors) > of.reference.radius > 0
+
+
+@every_case
+def test_single_precision_double_and_extended_err_as_their_last_digits(name):
+    of = found(name)
+    stretch = of.agreement.bound / 2.0**-52
+    for kind, digits in (("float32", 24), ("float64", 53)):
+        worst = max(of.row(f"{kind} batch, by steps").errors)
+        assert 2.0 ** -(digits + 2) < worst < 2.0**-digits * stretch
+    longer = np.finfo(np.longdouble).eps
+    assert max(of.row("longdouble batch, by steps").errors) < float(longer) * stretch
+
+
+@every_case
+def test_differences_have_a_best_step(name):
+    # error of a central second difference: h²/12 from the curve, 4·eps/h² from rounding
+    coarse, best, fine = (
+        found(name).row(f"central differences, h = {plain(h)}").errors for h in STEPS
+    )
+    assert best[2] < coarse[2] / 10
+    assert best[2] < fine[2] / 10
+    assert coarse[1] > best[1] > fine[1]
+    assert coarse[0] is None
+
+
+@every_case
+def test_a_looser_tolerance_is_never_better(name):
+    loose, middle, tight = (found(name).row(f"Newton, to {plain(t)}").errors for t in TOLERANCES)
+    for each in zip(loose, middle, tight, strict=True):
+        assert each[0] >= 0.5 * each[1] or each[0] < 1e-14
+        assert each[1] >= 0.5 * each[2] or each[1] < 1e-14
+    assert max(tight) < 1e-12
+
+
+@pytest.mark.parametrize("name", ["pump", FOUR_BAR])
+def test_a_loose_tolerance_leaves_an_error_that_the_next_step_would_square(name):
+    loose, middle = (max(found(name).row(f"Newton, to {plain(t)}").errors) for t in TOLERANCES[:2])
+    assert loose > 1e-10
+    assert middle < loose / 1e3
+
+
+@every_case
+def test_a_finer_pencil_errs_less_in_proportion(name):
+    coarse, middle, fine = (np.array(found(name).row(p).errors) for p in PENCILS)
+    assert coarse / middle == pytest.approx(2, rel=0.25)
+    assert middle / fine == pytest.approx(2.5, rel=0.25)
+    assert (fine > 1e-5).all()
+
+
+@pytest.mark.parametrize("name", [FOUR_BAR, "pump"])
+def test_towards_a_dead_point_errors_grow_as_one_two_three(name):
+    # the 1-2-3 law of the conditioning of a dyad
+    flat = found(name).flattening
+    assert flat.approach.end == "dead"
+    assert flat.falls
+    assert flat.sines.min() < 1e-6
+    assert flat.slopes("float64") == pytest.approx(LAW, abs=0.4)
+
+
+def test_a_group_of_class_three_dies_by_the_same_law_without_a_flat_crossing():
+    from graphkin.accuracy.answers import answers_of
+    from graphkin.accuracy.flat import flattened
+
+    ground = ground_of(load(str(SCENES / "rod-and-wheel.toml")).scene)
+    flat = flattened(approach(ground, 10, 2), answers_of(ground.piece.course.program))
+    assert not flat.falls
+    assert flat.slopes("float64") == pytest.approx(LAW, abs=0.4)
+
+
+def test_without_a_dead_point_the_whole_range_is_looked_at():
+    of = found(WHOLE_TURN)
+    assert of.flattening.approach.end == "range"
+    at = of.flattening.reference.places.at
+    assert at.max() - at.min() > 350
+    assert "meets none" in "\n".join(accuracy_lines(of))
+
+
+def test_more_scope_needs_more_steps_and_what_is_asked_no_more_than_all():
+    scopes = {scope.name: scope.steps for scope in found("pump").scopes}
+    steps = list(scopes.values())
+    assert steps[:-1] == sorted(set(steps[:-1]))
+    assert scopes["asked only"] < steps[-2]
+    program = found("pump").reference.places.course.program
+    assert steps[-2] == len(program.needed(program.answers))
+
+
+@pytest.mark.parametrize("name", ["pump", SEVERAL_DRIVERS])
+def test_positions_are_numbers_that_single_precision_holds(name):
+    places = places_around(ground_of(load(name).scene), 5)
+    for key, value in places.values.items():
+        if key.startswith("drive "):
+            assert np.array_equal(np.float32(value), value)
+    assert places.exactly(2)["drive 1 position"] == places.values["drive 1 position"][2]
+
+
+def test_positions_keep_away_from_flat_crossings():
+    for name in ("pump", FOUR_BAR):
+        ground = ground_of(load(name).scene)
+        places = places_around(ground, 9)
+        course = places.course
+        assert course.margins(places.at).min() > 0.09
+        assert places.at.min() < ground.centre < places.at.max()
+
+
+def test_a_compiled_batch_errs_as_the_others():
+    pytest.importorskip("numba")
+    of = found(WHOLE_TURN)
+    method = batch(of.reference, QUICK, "float64", "numba", "compiled", "compiled")
+    assert max(method.row.errors) < 1e-14
+
+
+def test_the_csv_holds_what_was_found():
+    of = found("pump")
+    rows = list(csv.DictReader(io.StringIO(accuracy_table(of))))
+    assert tuple(rows[0]) == HEADS
+    assert [row["method"] for row in rows] == [row.method for row in of.rows]
+    arb = next(row for row in rows if row["method"] == "Arb, 106 bits")
+    assert arb["error_is_certified_radius"] == "yes"
+    error = float(arb["acceleration_error_over_largest_acceleration"])
+    assert error == pytest.approx(of.row("Arb, 106 bits").errors[2], rel=1e-2)
+    assert all(row["positions_compared"] == "6" and row["machine"] for row in rows)
+    assert rows[-1]["median_seconds_per_position"] == ""
+
+
+def test_what_is_told_names_reference_machine_and_slopes():
+    text = "\n".join(accuracy_lines(found("pump")))
+    for words in (
+        "6, driver 1 from ",
+        "Arb balls of 640 bits, whose own radius is at most",
+        machine.machine_words(),
+        "measured slopes -",
+        "hold the true value in 126 of 126 answers",
+        "asked only",
+    ):
+        assert words in text
+    assert all(len(line) < 170 for line in text.splitlines())
+
+
+def test_pictures_are_the_same_bytes_with_the_same_clock():
+    of = found("pump")
+    first, second = (picture_files(of, "pump", ["svg", "png"]) for _ in "12")
+    assert first == second
+    pictures = ("time", "dead-point", "scope")
+    assert set(first) == {f"pump-accuracy-{p}.{kind}" for p in pictures for kind in ("svg", "png")}
+    for name, data in first.items():
+        assert data.startswith(b"<?xml" if name.endswith("svg") else b"\x89PNG")
+    found.cache_clear()
+    assert picture_files(found("pump"), "pump", ["svg", "png"]) == first
+
+
+@pytest.mark.parametrize("name", [WHOLE_TURN, SEVERAL_DRIVERS])
+def test_pictures_of_scenes_without_dead_points_are_drawn_too(name):
+    assert len(picture_files(found(name), "x", ["svg"])) == 3
+
+
+def test_a_scene_at_rest_has_errors_of_position_alone(tmp_path):
+    text = Path(WHOLE_TURN).read_text(encoding="utf-8")
+    (tmp_path / "still.toml").write_text(
+        "\n".join("speed = 0" if line.startswith("speed") else line for line in text.splitlines()),
+        encoding="utf-8",
+    )
+    mechanism = load(tmp_path / "still.toml")
+    of = study(mechanism, None, QUICK, clock=iter(np.arange(1e5)).__next__)
+    assert of.row("float64, one by one").errors[1:] == pytest.approx((0, 0), abs=1e-300)
+    assert "every driver stands still" in "\n".join(accuracy_lines(of))
+    assert picture_files(of, "still", ["svg"])
+
+
+def test_a_round_takes_all_works_in_turn():
+    done: list[str] = []
+    ticks = count()
+    effort = Effort(rounds=3, least=0, patience=100)
+    watch = Stopwatch(effort, lambda: float(next(ticks)))
+    times = watch.times([(lambda: done.append("a"), 1), (lambda: done.append("b"), 4)])
+    assert "".join(done) == "aabb" + "ab" * 3
+    assert [time.median for time in times] == [1, 0.25]
+    assert [time.rounds for time in times] == [3, 3]
+
+
+def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):  # noqa: F811
+    args = ("accuracy", "pump", "--set", "n=7", "--quick", "--format", "svg", "-o", tmp_path)
+    result = run(*args)
+    assert result.exit_code == 0, result.stderr
+    names = {path.name for path in tmp_path.iterdir()}
+    pictures = {f"pump-n7-accuracy-{p}.svg" for p in ("time", "dead-point", "scope")}
+    assert names == {"pump-n7-accuracy.csv", *pictures}
+    assert "What accuracy costs: Pump mechanism" in result.stdout
+    assert result.stderr == ""
+    again = run(*args)
+    assert again.exit_code == 2
+    assert "--force" in again.stderr
+
+
+def test_the_machine_is_named_even_where_the_system_tells_little(tmp_path):
+    listing = tmp_path / "cpuinfo"
+    listing.write_text("processor : 0\nmodel name\t: Some CPU @ 3 GHz\n", encoding="utf-8")
+    assert machine.processor(listing) == "Some CPU @ 3 GHz"
+    assert machine.processor(tmp_path / "none")
+    assert machine.version_of("no-such-library") == ""
