@@ -20,7 +20,7 @@ def main() -> None:
     """Run all variants, print one row for each, and say which position is the hardest to draw."""
     pump = graphkin.load("pump-collinear")
     students = np.arange(1, 31)
-    motion = pump.batch(n=students, margins=True)
+    motion = pump.batch(n=students)
 
     speed = motion.points["D"].velocity.real
     acceleration = motion.points["D"].acceleration.real

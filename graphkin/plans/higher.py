@@ -23,9 +23,11 @@ from graphkin.steps.closing import (
     cosine_between,
     excess,
     from_to,
+    inverse,
     less,
     on_line,
     part,
+    product,
     reach,
     sine_between,
 )
@@ -34,7 +36,7 @@ from graphkin.steps.program import Part, Plane
 from graphkin.steps.trying import Trying
 from graphkin.steps.vocabulary import coordinate
 from graphkin.structure.graph import Contact, Pin, Sliding
-from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie
+from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, Trial
 from graphkin.structure.joints import partner
 
 Each = Callable[[Pen, Shapes, Group, tuple[Base, ...]], None]
@@ -109,7 +111,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     turns = isinstance(pair, Pin)
     build(fork, shapes, group, each, tried)
     with fork.on(Part.POSITION, Plane.NUMBERS):
-        fit = misfit(fork, shapes, group.last)
+        fit = misfit(fork, shapes, group)
         written = [name for name in pen.scene.links if name in group.links]
         axes = tuple(axis(fork, shapes, name) for name in written)
         reach = None if turns else reach_of(fork, shapes, group)
@@ -162,9 +164,13 @@ class Misfit:
     facing: int | None = None
 
 
-def misfit(pen: Pen, shapes: Shapes, last: Tie | Driver) -> Misfit:
-    """By how much the last link, or the driver that comes last, does not fit a trial."""
-    match last:
+def misfit(pen: Pen, shapes: Shapes, group: Higher) -> Misfit:
+    """By how much the last link, or the driver that comes last, does not fit a trial.
+
+    What a driver gives is read from how far the tried link moves: at a dead point that link moves
+    and the driver's own does not.
+    """
+    match group.last:
         case Tie(link, Pin(point=p), Pin(point=q)):
             ends = pen.the("position", p), pen.the("position", q)
             length = shapes.length(link, p, q)
@@ -174,19 +180,26 @@ def misfit(pen: Pen, shapes: Shapes, last: Tie | Driver) -> Misfit:
             place = pen.the("position", p)
             return Misfit(pen.draw(beside_line, line, place), pen.draw(on_line, line, place))
         case Driver(kind="turn") as driver:
-            return turn_misfit(pen, shapes, driver)
+            return turn_misfit(pen, shapes, driver, group)
         case Driver(kind="slide") as driver:
             guide = standing_guide(pen, shapes, slide_of(pen, driver))
             first = pen.the("position", pen.scene.link(driver.link).points[0])
             found = pen.draw(less, pen.draw(coordinate, guide, first), pen.drive(driver).position)
-            return Misfit(found, found)
+            return Misfit(found, tried_point(pen, group.trial))
         case Driver() as driver:
             found = pen.draw(less, pen.the("rolled", driver.link), pen.drive(driver).position)
-            return Misfit(found, found)
-    raise AssertionError(last)
+            return Misfit(found, tried_point(pen, group.trial))
+    raise AssertionError(group.last)
 
 
-def turn_misfit(pen: Pen, shapes: Shapes, driver: Driver) -> Misfit:
+def tried_point(pen: Pen, trial: Trial) -> int:
+    """The point of the tried link that its trial moves farthest."""
+    base = pen.bases[trial.link]
+    far = base.end if isinstance(trial.pair, Pin) else None
+    return pen.the("position", far or base.start)
+
+
+def turn_misfit(pen: Pen, shapes: Shapes, driver: Driver, group: Higher) -> Misfit:
     """By how much a link is turned otherwise than its driver says."""
     lead = axis(pen, shapes, driver.link)
     if driver.of:
@@ -195,7 +208,11 @@ def turn_misfit(pen: Pen, shapes: Shapes, driver: Driver) -> Misfit:
         lead = pen.draw(turned_back, lead, axis(pen, shapes, driver.against))
     wanted = pen.drive(driver).position
     sine = pen.draw(sine_between, lead, wanted)
-    return Misfit(sine, sine, pen.draw(cosine_between, lead, wanted))
+    moved = axis(pen, shapes, group.trial.link)
+    if not isinstance(group.trial.pair, Pin):
+        size = pen.draw(inverse, reach_of(pen, shapes, group))
+        moved = pen.draw(product, tried_point(pen, group.trial), size)
+    return Misfit(sine, moved, pen.draw(cosine_between, lead, wanted))
 
 
 def slide_of(pen: Pen, driver: Driver) -> Sliding:
