@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from math import degrees
 
 from graphkin.paper.areas import A3_TITLE_BLOCK, BELOW
 from graphkin.paper.detail import parted
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.flattest import crossings_on
 from graphkin.paper.frame import sheet_frame
 from graphkin.paper.inset import insets
 from graphkin.paper.layout import Layout, lay_out
@@ -18,6 +20,8 @@ from graphkin.paper.sentences import sentences
 from graphkin.paper.sheet import heading, left_board, panels, right_board, title_block, title_of
 from graphkin.paper.stages import stage_of, stages
 from graphkin.paper.style import NOW
+from graphkin.paper.symbolic import symbol
+from graphkin.steps.crossings import Crossing, flattest
 
 LEADING, SMALL_LEADING = 6.2, 4.6
 """Distance of lines of the sentence to do, and of those that are done, in mm."""
@@ -40,6 +44,7 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
         *heading(drawing),
         *panels(layout),
     ]
+    lines = crossings_on(drawing)
     title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
     return tuple(
         Page(
@@ -50,6 +55,7 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
                 *grown(timed, stage),
                 *(last if stage == len(said) - 1 else ()),
                 *told(drawing, said, stage),
+                *crossed(drawing, [c for c in lines if staged.get(c.number) == stage]),
             ),
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
@@ -63,6 +69,21 @@ def grown(timed: Sequence[tuple[int, Mark]], stage: int) -> Iterator[Mark]:
     for appears, mark in timed:
         if appears <= stage:
             yield mark if appears < stage else replace(mark, cls=f"{mark.cls} {NOW}")
+
+
+def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
+    """The flattest of the crossings of a sentence, and what a millimetre of pencil becomes there."""
+    worst = flattest(tuple(found))
+    if worst is None:
+        return
+    words = drawing.words
+    text = words(
+        "page.crossing",
+        name=symbol(worst.name),
+        angle=words.fixed(degrees(worst.angle), 0),
+        factor=words.significant(worst.factor, 2),
+    )
+    yield Text(BELOW[2] - 4, BELOW[1] + 4.5, text, "caption", 2.5, "end", name="crossing")
 
 
 def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mark]:

@@ -93,3 +93,11 @@ def test_the_crosses_of_an_overlay_lie_on_the_corners_of_the_frame():
     crosses = [mark for mark in over.marks if isinstance(mark, Line) and mark.name == "corner"]
     middles = {((m.x1 + m.x2) / 2, (m.y1 + m.y2) / 2) for m in crosses}
     assert middles == {(20.0, 10.0), (410.0, 10.0), (20.0, 287.0), (410.0, 287.0)}
+
+
+def test_a_page_tells_how_flat_the_lines_of_its_sentence_cross():
+    """b of the pump's velocity plan: the bars AB and O2B, seen in the solve command too."""
+    grown = pages("pump", "steps")["velocity"]
+    told = {m.markup for page in grown for m in page.marks if m.name == "crossing"}
+    assert "*b*: the lines cross at 77°, 1 mm of pencil becomes up to 1.6 mm" in told
+    assert not [m for m in grown[0].marks if m.name == "crossing"]
