@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphkin import __version__
+from graphkin.cli_grade import grade
+from graphkin.cli_print import print_sheets
 from graphkin.console import FAILED, READING, Desk, complain
 
 if TYPE_CHECKING:
@@ -94,11 +96,16 @@ def check(name: str, settings: tuple[str, ...]) -> None:
     Tells every mistake at once. Then shows links, pairs and mobility, the groups in the order of
     construction, both closures of each, the driver's range, and the flattest crossings.
 
+    A lab, which has a lab.toml beside its scene, is then tried on a thousand variants: how many
+    are fair, which limits the others break, and how much the difficulty differs.
+
     \b
     Examples:
       graphkin check pump
       graphkin check mine.toml --set r=120
     """
+    from graphkin import labs
+    from graphkin.cli_class import check_lab
     from graphkin.errors import StructureError
     from graphkin.report.checking import Checking
 
@@ -108,6 +115,8 @@ def check(name: str, settings: tuple[str, ...]) -> None:
         raise StructureError(checking.problems)
     for doubt in checking.doubts:
         complain(doubt)
+    if not settings and labs.folder(name):
+        check_lab(name)
     if checking.doubts:
         leave(FAILED)
 
@@ -232,7 +241,9 @@ def solve(
     " by sentence; overlay: the key alone, to be laid over a drawing.",
 )
 @click.option(
-    "--lang", type=click.Choice(["ro", "en", "it"]), help="Language of the pages; the scene's by default."
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language of the pages; the scene's by default.",
 )
 @click.option(
     "--ink",
@@ -422,6 +433,10 @@ def accuracy(
     tell(["", *(str(path) for path in write_all(folder, files, force))])
 
 
+app.add_command(print_sheets)
+app.add_command(grade)
+
+
 def formats_of(text: str, known: tuple[str, ...] = FORMATS) -> tuple[str, ...]:
     """The kinds of file named with commas between them."""
     kinds = tuple(dict.fromkeys(kind.strip().lower() for kind in text.split(",") if kind.strip()))
@@ -459,7 +474,7 @@ def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
 
 def scales_of(mechanism: Mechanism) -> Scales:
     """The scale factors of the sheets."""
-    from graphkin.handout import scales
+    from graphkin.scaling import scales
 
     return scales(mechanism)
 
@@ -571,3 +586,6 @@ def main() -> None:
     """Run the command line and leave with its status."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
     app(prog_name="graphkin")
+
+
+import graphkin.cli_class  # noqa: E402, F401  (its commands join the app, which stands by now)

@@ -10,6 +10,8 @@ from graphkin.errors import Problem, SceneError
 HERE = Path(__file__).resolve().parent
 SHELVES = (HERE / "sheets", HERE.parent / "sheets")
 """The package's own shelf (a wheel), then the checkout's (an editable install)."""
+LAB = "lab.toml"
+"""The file that makes a scene a lab."""
 
 
 def shelf() -> Path:
@@ -29,9 +31,24 @@ def names() -> list[str]:
     return sorted(path.parent.name for path in shelf().glob("*/scene.toml"))
 
 
+def folder(name: str | Path) -> Path | None:
+    """The folder of a lab: a shipped lab's name, a folder with lab.toml, or that file itself.
+
+    None where there is no lab.toml: a scene by itself is no lab.
+    """
+    path = Path(name)
+    if path.is_file():
+        return path.parent if path.name == LAB else None
+    if not path.is_dir() and str(name) in names():
+        path = shelf() / path
+    return path if (path / LAB).is_file() else None
+
+
 def find(name: str) -> Path:
     """The scene file of a path, of a folder with a scene.toml, or of a shipped lab's name."""
     path = Path(name)
+    if path.is_file() and path.name == LAB:
+        path = path.absolute().parent
     if path.is_dir() and (path / "scene.toml").is_file():
         return path / "scene.toml"
     if path.is_file():

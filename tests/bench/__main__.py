@@ -1,7 +1,7 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
-``python -m tests.bench.effects``, ``.motion`` and ``.chain`` print their parts alone.
+``python -m tests.bench.effects``, ``.motion``, ``.chain`` and ``.variants`` print theirs alone.
 """
 
 from __future__ import annotations
@@ -20,19 +20,24 @@ from graphkin.arithmetic import batch_kind
 from graphkin.handout import drawings_of, proved
 from graphkin.mechanism import Mechanism, load
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.marks import Page
 from graphkin.paper.pdf import write_pdf
 from graphkin.paper.sheet import sheet
 from graphkin.paper.svg import write_svg
+from graphkin.scaling import shown
 from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.text import words
-from tests.bench import chain, effects, motion
+from tests.bench import chain, effects, motion, variants
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files
 
 ROOT = Path(__file__).resolve().parents[2]
+SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
 VARIANTS = 100_000
+LIMIT = 0.025
+"""Seconds that a page of up to 60 labels may take, for layout and SVG and again for PDF."""
 
 
 def best(work: Callable[[], object], repeat: int = 7) -> float:
@@ -126,35 +131,56 @@ def start() -> list[tuple[str, float, float]]:
 
 
 def page() -> list[tuple[str, float, float]]:
-    """A whole page, layout, SVG and PDF, against plain matplotlib artists of the same marks.
+    """Whole pages, layout with SVG and PDF apart, against plain matplotlib artists of their marks.
 
-    The layout is the median over the students' numbers 1 to 30: pages are not equally crowded.
+    Pages are not equally crowded: the median is over the students' numbers 1 to 30, and over the
+    pages of the examples by the number of labels that had to find a place.
     """
-    every = [drawings_for(n) for n in range(1, 31)]
-    rows = []
-    for which, drawing in enumerate(every[14]):
-        made = sheet(drawing, "key", "1/2")
-        plain = best(partial(both_files, made), repeat=3)
-        layouts = [once_warm(partial(sheet, drawings[which], "key", "1")) for drawings in every]
-        rows += [
-            (f"{drawing.kind} page: matplotlib artists", plain, plain),
-            (f"{drawing.kind} page: layout, median of 30", median(layouts), plain),
-            (f"{drawing.kind} page: layout, the slowest", max(layouts), plain),
-            (f"{drawing.kind} page: SVG", best(partial(write_svg, made)), plain),
-            (f"{drawing.kind} page: PDF", best(partial(write_pdf, (made,))), plain),
-        ]
-    return rows
+    students = [drawings_for(load("pump", n=n)) for n in range(1, 31)]
+    sets = {f"{d.kind} page": [every[k] for every in students] for k, d in enumerate(students[0])}
+    examples = [d for path in SCENES for d in drawings_for(load(str(path)))]
+    for least, most in ((1, 30), (31, 60)):
+        some = [d for d in examples if least <= labels(sheet(d, "key", "1/2")) <= most]
+        sets[f"examples, {least} to {most} labels"] = some
+    return [row for name, drawings in sets.items() for row in pages_of(name, drawings)]
 
 
-def drawings_for(n: int) -> list[Drawing]:
-    """What the two sheets of a student are drawn from."""
-    mechanism = load("pump", n=n)
-    return drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("ro"))
+def pages_of(name: str, drawings: list[Drawing]) -> list[tuple[str, float, float]]:
+    """Median and slowest of some pages, beside matplotlib's time for the one in the middle."""
+    made = sorted((sheet(drawing, "key", "1/2") for drawing in drawings), key=labels)
+    middle = made[len(made) // 2]
+    plain = best(partial(both_files, middle), repeat=3)
+    svg = in_turn([partial(laid_out, drawing) for drawing in drawings])
+    pdf = in_turn([partial(write_pdf, (one,)) for one in made])
+    return [
+        (f"{name}: matplotlib, {labels(middle)} labels", plain, plain),
+        (f"{name}: layout + SVG, median", median(svg), plain),
+        (f"{name}: layout + SVG, the slowest", max(svg), plain),
+        (f"{name}: PDF, median", median(pdf), plain),
+        (f"{name}: PDF, the slowest", max(pdf), plain),
+        (f"{name}: limit of each for 60 labels", LIMIT, plain),
+    ]
 
 
-def once_warm(work: Callable[[], object]) -> float:
-    """Shortest of three calls in seconds."""
-    return min(timeit.repeat(work, number=1, repeat=3))
+def labels(made: Page) -> int:
+    """How many labels of a page had to find a place."""
+    return sum(mark.cls.split()[0] == "label" for mark in made.marks)
+
+
+def laid_out(drawing: Drawing) -> str:
+    """The layout of a page and its SVG file."""
+    return write_svg(sheet(drawing, "key", "1/2"))
+
+
+def drawings_for(mechanism: Mechanism) -> list[Drawing]:
+    """What the sheets of a mechanism are drawn from."""
+    return drawings_of(mechanism, proved(mechanism, shown(mechanism)), words("ro"))
+
+
+def in_turn(works: list[Callable[[], object]], rounds: int = 4) -> list[float]:
+    """Shortest seconds of each of some works, done one after another so that none comes twice."""
+    every = [[timeit.timeit(work, number=1) for work in works] for _ in range(rounds)]
+    return [min(times) for times in zip(*every[1:], strict=True)]
 
 
 def in_words(seconds: float) -> str:
@@ -173,7 +199,9 @@ def table() -> str:
             f"{name:46} {in_words(seconds):>10} {seconds / plain:8.2f} ×"
             for name, seconds, plain in rows
         ]
-    return "\n".join([*lines, "", effects.table(), "", motion.table(), "", chain.table()])
+    return "\n".join(
+        [*lines, "", effects.table(), "", motion.table(), "", chain.table(), "", variants.table()]
+    )
 
 
 if __name__ == "__main__":

@@ -53,7 +53,9 @@ def main() -> None:
     seconds, megabytes = measured()
     print(f"a variant of ten million, streamed: {seconds * 1e6:.3f} µs, ", end="")
     print(f"{seconds / plain:.2f} × one of a batch of 100 000")
-    print(f"memory at most: {megabytes:.0f} MB, {megabytes / LIMIT:.2f} × the limit of {LIMIT:g} MB")
+    print(
+        f"memory at most: {megabytes:.0f} MB, {megabytes / LIMIT:.2f} × the limit of {LIMIT:g} MB"
+    )
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from tests.cli.conftest import ROOT, Run
 
 
 def test_the_pump_is_told_in_full(run: Run) -> None:
-    result = run("check", "pump")
+    result = run("check", "pump", "--set", "n=7")
     assert result.exit_code == 0
     for expected in (
         "5 moving (1, 2, 3, 4 and 5), and the frame",

@@ -54,7 +54,7 @@ def loaded(*words: str) -> tuple[set[str], set[str]]:
         (("solve", "pump", "--asked"), {"numpy"}, {"graphkin.loops"}),
         (("solve", "pump", "--asked", "--json"), {"numpy"}, {"graphkin.loops", "graphkin.paper"}),
         (("solve", "pump"), {"numpy"}, {"graphkin.loops", "graphkin.paper"}),
-        (("check", "pump"), {"numpy"}, {"graphkin.loops", "graphkin.motion"}),
+        (("check", "pump", "--set", "n=7"), {"numpy"}, {"graphkin.loops", "graphkin.motion"}),
     ],
     ids=" ".join,
 )

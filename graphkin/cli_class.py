@@ -1,0 +1,125 @@
+"""The commands for a whole class: new, variants; and what check says of a lab."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphkin.cli import Folder, app, leave, tell
+from graphkin.console import FAILED, complain
+
+if TYPE_CHECKING:
+    from graphkin.variants.assign import Assigned
+
+
+@app.group(invoke_without_command=True)
+@click.pass_context
+def new(context: click.Context) -> None:
+    """Make something to start from: a lab.
+
+    \b
+    Example:
+      graphkin new lab crank-lab
+    """
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
+
+
+@new.command("lab")
+@click.argument("name", metavar="NAME")
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    metavar="DIR",
+    type=Folder(path_type=Path),
+    default=Path(),
+    help="Folder in which the lab's folder is made; the current one by default.",
+)
+@click.option("--force", is_flag=True, help="Replace files that exist.")
+def new_lab(name: str, folder: Path, force: bool) -> None:
+    """Make a lab: a folder NAME with a scene and the rule of its variants, to be changed.
+
+    Both files have a word beside each key, and graphkin check passes them as they are.
+
+    \b
+    Example:
+      graphkin new lab crank-lab
+      graphkin check crank-lab
+    """
+    from graphkin.lab.new import new_lab as made
+
+    tell(str(path) for path in made(name, folder, force=force))
+
+
+@app.command()
+@click.argument("name", metavar="LAB")
+@click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    metavar="DIR",
+    type=Folder(path_type=Path),
+    required=True,
+    help="Folder of the class, made if it is missing.",
+)
+@click.option(
+    "--force", is_flag=True, help="Replace a class that stands there; it keeps its codes."
+)
+def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
+    """Give each student of a class data of their own, and tell how fair they are.
+
+    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. ROSTER is a class
+    list, CSV or XLSX, whose first row names its columns in English, Romanian or Italian: an id for
+    each student, the number where the lab's formula needs one, name and group if there are any.
+
+    Writes variants.csv, manifest.json, from which every sheet can be derived again, and a copy of
+    the lab. Data by a formula that are unfair are told and written all the same, and the status is
+    1; data from ranges are drawn again until they are fair.
+
+    \b
+    Example:
+      graphkin variants pump class.csv -o pump-2026
+    """
+    from graphkin.lab.model import Formula
+    from graphkin.lab.read import read_lab
+    from graphkin.roster.read import read_roster
+    from graphkin.variants.assign import assigned
+    from graphkin.variants.files import write_class
+    from graphkin.variants.telling import class_lines
+
+    lab = read_lab(name)
+    students = read_roster(roster, numbered=isinstance(lab.rule, Formula))
+    found = assigned(lab, students, roster.name)
+    written = write_class(folder, lab, found, roster, force=force)
+    tell(class_lines(lab, found))
+    tell(["", *(str(path) for path in written)])
+    warn_of(found)
+
+
+def warn_of(found: list[Assigned]) -> None:
+    """Say, on the other channel, how many data are unfair, and leave with the status for it."""
+    unfair = sum(not each.fair for each in found)
+    if unfair:
+        students = "student has" if unfair == 1 else "students have"
+        complain(f"{unfair} {students} unfair data")
+        leave(FAILED)
+
+
+def check_lab(name: str) -> None:
+    """What check says of a lab after its scene: a thousand variants tried."""
+    from graphkin.lab.read import read_lab
+    from graphkin.lab.telling import trial_lines
+    from graphkin.lab.trying import tried
+
+    trial = tried(read_lab(name))
+    tell(["", *trial_lines(trial)])
+    if trial.unasked:
+        complain(f"drawn on no sheet: {', '.join(trial.unasked)}")
+    if trial.spoilt:
+        if trial.unfair:
+            complain(f"{trial.unfair} of {len(trial.many)} variants are unfair")
+        leave(FAILED)

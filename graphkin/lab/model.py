@@ -1,0 +1,120 @@
+"""What a lab states: its rule, its limits of fairness and its rubric, as plain records."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+from typing import Literal
+
+from graphkin.scene.quantity import Quantity
+
+NUMBER = "number"
+"""The name under which a formula knows the student's number."""
+What = Literal["segment", "value", "sense", "place"]
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """A rule of the student's number: the same number always gets the same data.
+
+    ``settings`` gives each parameter of the scene as an expression in ``number``.
+    """
+
+    settings: Mapping[str, Quantity]
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """From a least to a most, in steps counted from the least."""
+
+    least: Fraction
+    most: Fraction
+    step: Fraction
+
+    def __len__(self) -> int:
+        """How many values there are."""
+        return int((self.most - self.least) / self.step) + 1
+
+    def value(self, index: int) -> Fraction:
+        """The value of an index from nought."""
+        return self.least + index * self.step
+
+
+@dataclass(frozen=True, slots=True)
+class Ranges:
+    """A rule that draws each parameter from a range, by a hash of course, lab and student.
+
+    What is unfair is drawn again, at most ``tries`` times.
+    """
+
+    course: str
+    draws: Mapping[str, Range]
+    tries: int = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Fair:
+    """What a variant must keep to be fair to its student.
+
+    ``crossing``: the flattest angle of a crossing in degrees; ``segment``: the shortest length to
+    be measured, in mm; ``triangle``: between which v/l a right triangle can be drawn.
+    """
+
+    crossing: float = 15.0
+    segment: float = 3.0
+    triangle: tuple[float, float] = (0.05, 4.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Rubric:
+    """What earns marks: points of each field of the form, and how they are given.
+
+    ``follow`` is the share for what follows rightly from the student's own earlier values;
+    ``slips`` the share for each slip by name; ``point`` and ``line`` the drawing error that is
+    forgiven (mm, degrees); ``ruler`` the error of reading (mm); ``floor`` and ``cap`` the least
+    and the most tolerance, in parts of the value.
+    """
+
+    points: Mapping[str, Fraction] = field(default_factory=dict)
+    follow: float = 0.8
+    slips: Mapping[str, float] = field(default_factory=dict)
+    point: float = 0.5
+    line: float = 0.5
+    ruler: float = 0.25
+    floor: float = 0.01
+    cap: float = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class Lab:
+    """A lab's folder, its scene as a file, and what ``lab.toml`` states.
+
+    ``text`` is the very text of lab.toml, for the manifest's hash.
+    """
+
+    name: str
+    folder: Path
+    scene: Path
+    rule: Formula | Ranges
+    fair: Fair = Fair()
+    rubric: Rubric = Rubric()
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """One field of the form: what a student reads off or reckons.
+
+    ``field`` is its name in files (v_D_mm, v_D, omega_3, omega_3_sense, J_3_x_mm); ``symbol`` its
+    markup; ``unit`` in which it is asked (empty for a sense). ``of`` is the point or link, and
+    ``quantity`` the program's name of the quantity (velocity, acceleration, omega, epsilon, …).
+    """
+
+    field: str
+    what: What
+    symbol: str
+    unit: str
+    quantity: str
+    of: str

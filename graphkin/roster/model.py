@@ -1,0 +1,22 @@
+"""A student of a class list."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class Student:
+    """One row of a class list; ``row`` is its line in the file, ``extra`` its other columns.
+
+    ``number`` is the student's number in the group, None where the list has none; ``id`` keeps
+    its leading zeros.
+    """
+
+    row: int
+    id: str
+    number: int | None = None
+    name: str = ""
+    group: str = ""
+    extra: Mapping[str, str] = field(default_factory=dict)

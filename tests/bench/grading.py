@@ -1,0 +1,91 @@
+"""Ten thousand answer rows: thirty variants, and each its own; beside a loop that keeps nothing.
+
+``python -m tests.bench.grading`` prints seconds for 10 000 rows; where rows are measured on fewer
+it says so. A third of the students have five fields wrong.
+"""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+
+from graphkin.grading.book import Book, graded_class
+from graphkin.grading.model import Answer, Taker
+from graphkin.lab.read import read_lab
+from graphkin.lab.rules import exact_text
+from graphkin.roster.model import Student
+
+ROWS, OWN, ALONE = 10_000, 1_000, 100
+"""Rows of a class by a formula, of one where each has data of its own, and one by one."""
+LIMIT = 60.0
+WRONG = 5
+
+
+def pump(step: bool = True) -> Book:
+    """What marks the pump; without its step, any number between gives a variant of its own."""
+    lab = read_lab("pump")
+    text = lab.scene.read_text(encoding="utf-8")
+    return Book(lab, text if step else text.replace(", step = 1 ", " "))
+
+
+def a_class(book: Book, numbers: list[Fraction]) -> tuple[list[Taker], dict[str, dict[str, Answer]]]:
+    """Students with these numbers, and their answers."""
+    takers = [
+        Taker(Student(i, f"s{i:05d}"), {"n": exact_text(number)})
+        for i, number in enumerate(numbers)
+    ]
+    plain = replace(book, markers={}, expected={})
+    keys = {t.settings["n"]: plain.marker(t.settings).standard.key for t in takers}
+    answers = {}
+    for i, taker in enumerate(takers):
+        key = keys[taker.settings["n"]]
+        chance = random.Random(i)
+        wrong = chance.sample(sorted(key), WRONG) if i % 3 == 0 else []
+        answers[taker.student.id] = {
+            f: Answer("x", v * (chance.uniform(0.3, 2) if f in wrong else 1)) for f, v in key.items()
+        }
+    return takers, answers
+
+
+def timed(work: Callable[[], object]) -> float:
+    """Seconds of one call."""
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def rows() -> list[tuple[str, float]]:
+    """Each row: what is marked, and the seconds for ten thousand."""
+    shared = a_class(pump(), [Fraction(1 + i % 30) for i in range(ROWS)])
+    own = a_class(pump(False), [1 + Fraction(29 * i, OWN) for i in range(OWN)])
+    single = [(each, shared[1]) for each in shared[0][:ALONE]]
+    return [
+        ("thirty variants", timed(lambda: graded_class(pump(), *shared))),
+        *(
+            (
+                f"each its own variant, {jobs} process{'es' * (jobs > 1)} ({OWN} measured)",
+                ROWS / OWN * timed(lambda jobs=jobs: graded_class(pump(False), *own, jobs=jobs)),
+            )
+            for jobs in (1, 2)
+        ),
+        (
+            f"a loop over single students ({ALONE} measured)",
+            ROWS / ALONE * timed(lambda: [graded_class(pump(), [t], a) for t, a in single]),
+        ),
+    ]
+
+
+def main() -> None:
+    """Print all rows, with the ratio to the loop."""
+    found = rows()
+    loop = found[-1][1]
+    print(f"{ROWS} answer rows of the pump, limit {LIMIT:g} s")
+    for name, seconds in found:
+        print(f"{name:55} {seconds:8.1f} s {seconds / loop:8.3f} × the loop")
+
+
+if __name__ == "__main__":
+    main()

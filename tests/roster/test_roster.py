@@ -1,0 +1,305 @@
+"""A class list may be hostile, or just saved by a spreadsheet: nothing is lost, all is told."""
+
+from __future__ import annotations
+
+import csv
+import io
+import zipfile
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as some
+
+from graphkin.roster.errors import RosterError
+from graphkin.roster.model import Student
+from graphkin.roster.read import NAMES, read_roster
+from graphkin.roster.tables import SEPARATORS, folded, read_sheet
+from graphkin.roster.written import csv_text, safe
+
+PLAIN = "number,id,name,group\n1,0042,Ann Lee,A\n2,0043,Bob Roe,B\n"
+READ = [
+    Student(2, "0042", 1, "Ann Lee", "A"),
+    Student(3, "0043", 2, "Bob Roe", "B"),
+]
+
+
+@pytest.fixture
+def saved(tmp_path):
+    def written(content, name="roster.csv"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
+        return path
+
+    return written
+
+
+def problems(path, numbered=True):
+    with pytest.raises(RosterError) as caught:
+        read_roster(path, numbered=numbered)
+    return [str(problem) for problem in caught.value.problems]
+
+
+# ------------------------------------------------------------------------------ what is read
+
+
+@pytest.mark.parametrize("separator", SEPARATORS)
+@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_separator_line_ends_and_byte_order_mark_do_not_matter(saved, separator, newline, encoding):
+    text = PLAIN.replace(",", separator).replace("\n", newline)
+    assert read_roster(saved(text.encode(encoding)), numbered=True) == READ
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "NUMBER,ID,NAME,GROUP",
+        " Number , Student ID,Full name,Section",
+        "Nr.,Nr. matricol,Nume și prenume,Grupă",
+        "nr crt,MATRICOL,Numele și prenumele,Grupa",
+        "N.,Matricola,Nome e cognome,Gruppo",
+        "Numero,Numero di matricola,Nominativo,CLASSE",
+        '"number","id","name","group"',
+    ],
+)
+def test_heads_are_known_in_three_languages_whatever_their_case(saved, head):
+    assert read_roster(saved(PLAIN.replace("number,id,name,group", head)), numbered=True) == READ
+
+
+def test_no_name_of_a_column_means_two_things():
+    meanings: dict[str, set[str]] = {}
+    for what, names in NAMES.items():
+        for name in (what, *names):
+            meanings.setdefault(folded(name), set()).add(what)
+    assert all(meanings)
+    assert not {name: what for name, what in meanings.items() if len(what) > 1}
+
+
+def test_names_in_two_columns_are_joined_in_their_order(saved):
+    assert read_roster(saved("id,First name,Surname\n1,Ann,Lee\n"))[0].name == "Ann Lee"
+    assert read_roster(saved("id;Nume;Prenume\n1;Popa;Ion\n"))[0].name == "Popa Ion"
+    assert read_roster(saved("id;Cognome;Nome\n1;Rossi;Mario\n"))[0].name == "Rossi Mario"
+    both = "id,name,first name,last name\n1,Ann Lee,Ann,Lee\n"
+    assert read_roster(saved(both))[0].name == "Ann Lee"
+
+
+def test_other_columns_are_kept_as_they_are(saved):
+    text = "id,e-mail,x,,x2\n07, a@b.c ,=1+1,first,-5\n"
+    assert read_roster(saved(text))[0].extra == {
+        "e-mail": "a@b.c",
+        "x": "=1+1",
+        "column 4": "first",
+        "x2": "-5",
+    }
+
+
+def test_leading_zeros_diacritics_commas_and_apostrophes_stay(saved):
+    text = 'number;id;name\n007;000123;"O\'Neil, Jr. ""Nan"" Ștefănescu-Țuțea"\n'
+    (one,) = read_roster(saved(text), numbered=True)
+    assert (one.id, one.number) == ("000123", 7)
+    assert one.name == 'O\'Neil, Jr. "Nan" Ștefănescu-Țuțea'
+
+
+def test_letters_are_composed(saved):
+    apart, whole = "Ann Le\u0301o", "Ann Léo"
+    assert read_roster(saved(f"id,name\n1,{apart}\n"))[0].name == whole
+
+
+def test_empty_lines_and_cells_at_the_end_do_not_matter(saved):
+    text = "\n,,\nid,number,,\n\n1,7,,,,\n,,,\n"
+    (one,) = read_roster(saved(text), numbered=True)
+    assert (one.id, one.number, one.row) == ("1", 7, 5)
+
+
+def test_a_number_that_a_spreadsheet_wrote_as_decimal_is_whole(saved):
+    assert [s.number for s in read_roster(saved("id;number\na;7,0\nb;8.00\n"), numbered=True)] == [
+        7,
+        8,
+    ]
+
+
+def test_without_a_formula_no_number_is_needed(saved):
+    found = read_roster(saved("id,number\n1,\n2,seven\n"))
+    assert [student.number for student in found] == [None, None]
+
+
+def test_a_moodle_and_a_canvas_export_are_class_lists(saved):
+    moodle = "First name,Surname,ID number,Email address\nAnn,Lee,0042,a@b.c\n"
+    canvas = 'Student,ID,SIS User ID,Section\n"Lee, Ann",9,0042,A\n'
+    assert read_roster(saved(moodle))[0] == Student(
+        2, "0042", None, "Ann Lee", "", {"Email address": "a@b.c"}
+    )
+    assert read_roster(saved(canvas))[0].name == "Lee, Ann"
+
+
+# --------------------------------------------------------------------------- what is refused
+
+HOSTILE = {
+    "": "the table is empty",
+    "\ufeff\n\n": "the table is empty",
+    "number,id,name,group\n": "no student below the head",
+    "number,name\n1,Ann\n": 'no column id; the head is "number", "name"',
+    "id,name\n1,Ann\n": "no column number; the lab's formula needs the student's number",
+    "nunber,id\n1,1\n": "did you mean number?",
+    "number,id\n1,7\n2,7\n": 'row 3, column "id": "7" stands in row 2 already',
+    "number,id\n1,ab\n2,AB\n": 'row 3, column "id": "AB", written "ab", stands in row 2 already',
+    "number,id\n,7\n": 'row 2, column "number": is missing',
+    "Nr.,id\nx,7\n": 'row 2, column "Nr.": "x" is not a number',
+    "number,id\n-1,7\n": '"-1" is not a number',
+    "number,id\n1e3,7\n": '"1e3" is not a number',
+    "number,id\n１,7\n": '"１" is not a number',
+    "number,id\n1_000,7\n": '"1_000" is not a number',
+    "number,id\n12345678901,7\n": "is not a number",
+    "number,id\n1,\n": 'row 2, column "id": is missing',
+    "number,id\n1,7\n2,8,9\n": "row 3: 3 cells, and the head has 2",
+    "number,id,number\n1,7,2\n": 'two columns are called "number"',
+    'number,id,name\n1,7,"Ann\n2,8,Bob\n': "row 2: a quote that is opened and never closed",
+    'number,id,name\n1,7,"Ann\n2,8,Bob"\n3,9,Cy\n': "row 2: a cell goes on to row 3",
+    'number,id,name\n1,7,"Ann" Lee\n': "row 2: a quote in the middle of a quoted cell",
+    "number,id\n1,7\0\n": "row 2: a NUL character",
+    "number,id\n1,7\u202e\n": "the control character",
+    "number,id\n1,a\x07b\n": "the control character",
+    "number,id\n1," + "7" * 101 + "\n": "101 characters",
+    "number,id,name\n1,7," + "x" * 5000 + "\n": "at most 4000",
+}
+
+
+@pytest.mark.parametrize(("text", "expected"), HOSTILE.items(), ids=lambda v: v[:40])
+def test_what_is_wrong_is_told_by_row_and_column(saved, text, expected):
+    found = problems(saved(text))
+    assert any(expected in problem for problem in found), found
+    assert all("roster.csv" in problem for problem in found)
+
+
+def test_all_rows_are_told_at_once_in_their_order(saved):
+    found = problems(saved("number,id\n1,7\nx,7\n,8\n4,\n"))
+    rows = [int(problem.partition("row ")[2].split(",")[0]) for problem in found]
+    assert rows == [3, 3, 4, 5]
+
+
+def test_what_is_not_utf_8_is_told_with_its_row_and_the_way_out(saved):
+    (found,) = problems(saved("number,id,name\n1,7,Ștefan\n".encode("utf-16-le")))
+    assert "NUL" in found
+    (found,) = problems(saved("number,id,name\n1,7,Ann\n2,8,é\n".encode("latin-1")))
+    assert "row 3" in found and "CSV UTF-8" in found
+
+
+def test_an_old_excel_file_a_folder_and_nothing_are_told(saved, tmp_path):
+    assert "old Excel file" in problems(saved(b"\xd0\xcf\x11\xe0" + bytes(600)))[0]
+    assert "cannot be read" in problems(tmp_path)[0]
+    assert "cannot be read" in problems(tmp_path / "none.csv")[0]
+
+
+def test_too_many_problems_stop_the_reading(saved):
+    rows = "".join(f"x,{i}\n" for i in range(1000))
+    found = problems(saved("number,id\n" + rows))
+    assert len(found) == 101
+    assert found[-1].endswith("and perhaps more problems")
+
+
+def test_a_formula_cell_is_read_as_text_and_never_run(saved):
+    (one,) = read_roster(saved('id,name\n1,"=HYPERLINK(""http://x"")"\n'))
+    assert one.name == '=HYPERLINK("http://x")'
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150)
+@given(
+    some.binary(max_size=300) | some.text(max_size=200).map(lambda t: ("id,number\n" + t).encode())
+)
+def test_no_bytes_are_more_than_told(saved, data):
+    try:
+        read_roster(saved(data), numbered=True)
+    except RosterError as error:
+        assert error.problems
+
+
+# --------------------------------------------------------------------------------- what is written
+
+
+@pytest.mark.parametrize(
+    ("cell", "written"),
+    [
+        ("=HYPERLINK(1)", "'=HYPERLINK(1)"),
+        ("+cmd", "'+cmd"),
+        ("@SUM(1)", "'@SUM(1)"),
+        ("-x", "'-x"),
+        ("\t=1", "'\t=1"),
+        ("-5", "-5"),
+        ("+5.5", "+5.5"),
+        ("-1,5", "-1,5"),
+        ("-5e3", "-5e3"),
+        (-5, "-5"),
+        ("Ann", "Ann"),
+        ("", ""),
+    ],
+)
+def test_formula_cells_are_escaped_and_numbers_stay(cell, written):
+    assert safe(cell) == written
+
+
+@given(
+    some.lists(
+        some.lists(some.text("ab,;\"' \n=é-5", min_size=1), min_size=2, max_size=3), min_size=1
+    )
+)
+def test_what_is_written_reads_back(rows):
+    found = list(csv.reader(io.StringIO(csv_text(rows), newline=""), strict=True))
+    assert found == [[safe(cell) for cell in row] for row in rows]
+
+
+# --------------------------------------------------------------------------------------- XLSX
+
+
+@pytest.fixture
+def book(tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+
+    def written(rows, formats=()):
+        workbook = openpyxl.Workbook()
+        for row in rows:
+            workbook.active.append(row)
+        for cell, form in formats:
+            workbook.active[cell].number_format = form
+        path = tmp_path / "roster.xlsx"
+        workbook.save(path)
+        return path
+
+    return written
+
+
+def test_a_workbook_is_a_class_list(book):
+    rows = [["Nr.", "Matricol", "Nume", "Grupa", "medie"], [1, "0042", "Ștefan", "A", 9.5]]
+    (one,) = read_roster(book(rows), numbered=True)
+    assert one == Student(2, "0042", 1, "Ștefan", "A", {"medie": "9.5"})
+
+
+def test_zeros_that_only_a_format_shows_are_kept(book):
+    path = book([["number", "id"], [7.0, 42]], [("B2", "0000")])
+    assert [(s.number, s.id) for s in read_roster(path, numbered=True)] == [(7, "0042")]
+
+
+def test_problems_of_a_workbook_name_its_rows(book):
+    found = problems(book([["number", "id"], [1, 7], [None, None], ["x", 7]]))
+    assert 'roster.xlsx, row 4, column "number": "x" is not a number' in found[0]
+    assert 'row 4, column "id": "7" stands in row 2 already' in found[1]
+
+
+def test_a_broken_workbook_and_a_bomb_are_told(saved):
+    pytest.importorskip("openpyxl")
+    assert "cannot be read as XLSX" in problems(saved(b"PK\x03\x04" + bytes(100), "r.xlsx"))[0]
+    room = io.BytesIO()
+    with zipfile.ZipFile(room, "w", zipfile.ZIP_DEFLATED) as packed:
+        packed.writestr("xl/workbook.xml", bytes(300 * 1024 * 1024))
+    assert "far larger unpacked" in problems(saved(room.getvalue(), "r.xlsx"))[0]
+
+
+def test_without_openpyxl_the_message_helps(saved, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "openpyxl", None)
+    (found,) = problems(saved(b"PK\x03\x04" + bytes(100), "r.xlsx"))
+    assert "graphkin[class]" in found and "CSV UTF-8" in found
+
+
+def test_a_table_keeps_its_head_rows_and_separator(saved):
+    sheet = read_sheet(saved("a;b\n1;2\n"), ["a"])
+    assert (sheet.head, sheet.rows[0].cells, sheet.separator) == (("a", "b"), ("1", "2"), ";")
+    assert sheet.place(sheet.rows[0], "b") == 'roster.csv, row 2, column "b"'
