@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from graphkin.errors import Problem, SceneError
-from graphkin.handout import drawings_of, hand_out, language_of, proved, shown
+from graphkin.handout import drawings_of, hand_out, language_of, proved
 from graphkin.paper.style import Ink
+from graphkin.scaling import shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

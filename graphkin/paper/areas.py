@@ -29,5 +29,7 @@ WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
 """The room for both drawings together, without their margins."""
 BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
 """The part for steps, tables and check bar."""
+MARKED = (207.0, 276.0)
+"""Left of this, or above it, words stay clear of the centring mark at the sheet's lower edge."""
 TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)
 """The table above the title block."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch, PathPatch
@@ -36,7 +36,7 @@ def put_marks(
         style = style_of(mark.cls, ink)
         for patch in patches(mark, style, page):
             patch.set_zorder(2 + order / len(drawn))
-            ax.add_patch(patch)
+            ax.add_artist(patch)  # add_patch measures each one, and the limits are set below
     boxes = [reach(mark) for mark in drawn] or [(*origin, *origin)]
     ax.set_xlim(
         min(b[0] for b in boxes) - origin[0] - ROOM, max(b[2] for b in boxes) - origin[0] + ROOM
@@ -54,7 +54,8 @@ def patches(mark: Mark, style: Style, page: Affine2D) -> Iterator[Patch]:
             turned = Affine2D().scale(1, -1).translate(mark.left() + run.x, run.y)
             turned = turned.rotate_deg(-mark.rotate).translate(mark.x, mark.y)
             letters = TextPath((0, 0), run.text, size=run.size, prop=face(run.italic))
-            yield PathPatch((turned + page).transform_path(letters), fc=style.colour, lw=0)
+            shape = (turned + page).transform_path(letters)
+            yield PathPatch(shape, fc=style.colour, lw=0, snap=False)  # whole pixels would bend ⊥
         return
     path, closed = path_of(mark)
     filled = bool(closed and style.fill)
@@ -80,7 +81,7 @@ def path_of(mark: Mark) -> tuple[Path, bool]:
         return Path.circle((mark.cx, mark.cy), mark.r), True
     if isinstance(mark, Arc):
         low, high = sorted((mark.start, mark.end))
-        unit = Path.arc(low, high)  # type: ignore[arg-type]  # the stub wants whole degrees
+        unit = cast("Any", Path).arc(low, high)  # the stub may want whole degrees
         place = Affine2D().scale(mark.r, -mark.r).translate(mark.cx, mark.cy)
         return place.transform_path(unit), False
     assert not isinstance(mark, Text)

@@ -105,6 +105,12 @@ def separation(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array
     return np.maximum(across, np.abs(dy) - (other.ey + hy), out=across)
 
 
+def met(boxes: ArrayLike, lines: Shapes) -> int:
+    """Return how many times segments run into boxes given as rows xmin, ymin, xmax, ymax in mm."""
+    x, y, hx, hy = rectangles(boxes).upright()[:4]
+    return int((separation(x, y, hx, hy, lines) < 0).sum())
+
+
 def distance(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array:
     """Return the same as `separation`, but the distance itself at the corners too."""
     dx = np.maximum(np.abs(other.x - x) - (other.ex + hx), 0.0)

@@ -31,7 +31,7 @@ from graphkin.paper.candidates import (
     separation,
 )
 
-AHEAD = 3  # how many places of a label are compared with all others at one go
+AHEAD = 4  # how many places of a label are compared with all others at one go
 PAD = 0.6  # mm between a label and a taken box, a point, a leader or a label above or below it
 BESIDE = 1.2  # mm between labels side by side, so that they do not read as one
 APART = np.array([[BESIDE], [PAD]])
@@ -64,44 +64,61 @@ class Places(NamedTuple):
 
     def take(self, which: Index) -> Places:
         """Return some of the places."""
-        x, y, hx, hy, cost, leader = (column[which] for column in self[1:])
-        return Places(self.label[which], x, y, hx, hy, cost, leader)
+        return Places(self.label[which], *(column[which] for column in self[1:]))
+
+    def joined(self, more: Places) -> Places:
+        """Return these places and then more."""
+        both = (np.concatenate(pair) for pair in zip(self[1:], more[1:], strict=True))
+        return Places(np.concatenate([self.label, more.label]), *both)
+
+
+NONE = np.empty(0)
+NO_PLACES = Places(np.empty(0, dtype=np.intp), NONE, NONE, NONE, NONE, NONE, np.empty((0, 4)))
 
 
 class Clashes:
     """Which places rule each other out, found when first asked for."""
 
-    def __init__(self, places: Places) -> None:
-        leader = places.leader
-        self.places, self.led = places, leader[:, 0] < NOWHERE
-        self.path = np.stack(segments(leader))
-        self.box = np.stack(places[1:5])
+    def __init__(self) -> None:
+        self.places = NO_PLACES
+        self.known: dict[int, Mask] = {}
+
+    def add(self, more: Places) -> None:
+        """Add places; those there were keep their numbers."""
+        old, self.places = len(self.places.label), self.places.joined(more)
+        leader = self.places.leader
+        self.led, self.path = leader[:, 0] < NOWHERE, np.stack(segments(leader))
+        self.box = np.stack(self.places[1:5])
         middle, half = self.box[:2], self.box[2:]
         end = np.where(self.led, leader.T[2:], middle)
-        low, high = np.minimum(middle - half, end), np.maximum(middle + half, end)
-        self.extent = np.concatenate([(low + high) / 2, (high - low) / 2])
-        self.end = np.searchsorted(places.label, places.label, side="right").tolist()
-        self.known: dict[int, Mask] = {}
+        self.low, self.high = np.minimum(middle - half, end), np.maximum(middle + half, end) + APART
+        grown = self._found(np.fromiter(self.known, dtype=np.intp), old)
+        for k, row in zip(self.known, grown, strict=True):
+            self.known[k] = np.concatenate([self.known[k], row])
 
     def of(self, k: int) -> Mask:
         """Return which places the place k rules out if a label sits there."""
         if k not in self.known:
-            self.find(j for j in range(k, min(k + AHEAD, self.end[k])) if j not in self.known)
+            same = np.flatnonzero(self.places.label[k : k + AHEAD] == self.places.label[k])
+            self.find(j for j in (same + k).tolist() if j not in self.known)
         return self.known[k]
 
     def find(self, which: Iterable[int]) -> None:
         """Compare some places with all others, at one go."""
         ks = np.fromiter(which, dtype=np.intp)
-        self.known.update(zip(ks.tolist(), self._found(ks), strict=True))
+        self.known.update(zip(ks.tolist(), self._found(ks, 0), strict=True))
 
-    def _found(self, ks: Index) -> Mask:
-        """Compare some places with all others: first their extents, then what meets there."""
-        label, (mx, my, ex, ey) = self.places.label, self.extent
-        near = np.abs(mx - mx[ks, None]) < ex + (ex[ks, None] + BESIDE)
-        near &= np.abs(my - my[ks, None]) < ey + (ey[ks, None] + PAD)
-        near &= label != label[ks, None]
-        row, there = near.nonzero()
-        near[row, there] = self._meet(ks[row], there)
+    def _found(self, ks: Index, start: int) -> Mask:
+        """Compare some places with those from a number on: first their extents, then the rest."""
+        label, (left, top), (right, bottom) = self.places.label, self.low, self.high
+        near = left[start:] < right[ks, None]
+        near &= left[ks, None] < right[start:]
+        near &= top[start:] < bottom[ks, None]
+        near &= top[ks, None] < bottom[start:]
+        near &= label[start:] != label[ks, None]
+        at = np.flatnonzero(near)
+        row, there = np.divmod(at, near.shape[1]) if len(at) else (at, at)
+        near.reshape(-1)[at] = self._meet(ks[row], there + start)
         return np.asarray(near)
 
     def _meet(self, one: Index, other: Index) -> Mask:
@@ -109,14 +126,11 @@ class Clashes:
         here, there = self.box.take(one, axis=1), self.box.take(other, axis=1)
         inside = np.abs(here[:2] - there[:2]) < here[2:] + there[2:] + APART
         clash = np.asarray(inside[0] & inside[1])
-        led, back = self.led[other].nonzero()[0], self.led[one].nonzero()[0]
+        led, back = np.flatnonzero(self.led[other]), np.flatnonzero(self.led[one])
         if len(led) or len(back):
-            box = np.concatenate([one[led], other[back]])
-            path = np.concatenate([other[led], one[back]])
-            shapes = Shapes(*self.path.take(path, axis=1))
-            x, y, hx, hy = self.box.take(box, axis=1)
-            hit = separation(x, y, hx, hy, shapes) < PAD
-            clash[np.concatenate([led, back])[hit]] = True
+            x, y, hx, hy = self.box.take(np.concatenate([one[led], other[back]]), axis=1)
+            ways = Shapes(*self.path.take(np.concatenate([other[led], one[back]]), axis=1))
+            clash[np.concatenate([led, back])[separation(x, y, hx, hy, ways) < PAD]] = True
             both = led[self.led[one[led]]]
             leader = self.places.leader
             clash[both] |= crossings(leader[one[both]], leader[other[both]])
@@ -223,7 +237,7 @@ class Page:
     def _own(self, subjects: Subjects, row: Index, shape: Index) -> Mask:
         """Return which shapes run through a whole subject or are a part of it."""
         zero = np.zeros(len(row))
-        near, mine = self.shapes.take(shape), segments(subjects.ends[row])
+        near, mine = self.shapes.take(shape), segments(subjects.ends).take(row)
         tips, ends = subjects.ends[row].T, self.ends[shape].T
         through = [separation(tips[k], tips[k + 1], zero, zero, near) for k in (0, 2)]
         part = [separation(ends[k], ends[k + 1], zero, zero, mine) for k in (0, 2)]
@@ -290,9 +304,4 @@ def _close(
     close &= np.where(free, np.minimum(ax, bx), NOWHERE)[row] <= right
     close &= np.maximum(ay, by)[row] >= top
     close &= np.minimum(ay, by)[row] <= bottom
-    at = np.nonzero(close)
-    return at[0], at[1]
-
-
-NONE = np.empty(0)
-NO_PLACES = Places(np.empty(0, dtype=np.intp), NONE, NONE, NONE, NONE, NONE, np.empty((0, 4)))
+    return np.divmod(np.flatnonzero(close), close.shape[1])

@@ -23,11 +23,15 @@ def is_coriolis(step: Step) -> bool:
     return "k" in step.says and "i" in step.says
 
 
-def without_triangles(trace: Trace) -> Trace:
-    """A trace without the steps that only the triangles of Coriolis components need."""
+def without_triangles(trace: Trace, *keys: str) -> Trace:
+    """A trace without the steps that only the triangles of some components need.
+
+    These are Coriolis components unless others are named.
+    """
     steps = trace.program.steps
     left = dict(trace.values)
-    waiting = [s.by_hand for s in steps if s.action and s.action.key == "coriolis" and s.by_hand]
+    keys = keys or ("coriolis",)
+    waiting = [s.by_hand for s in steps if s.action and s.action.key in keys and s.by_hand]
     while waiting:
         number = waiting.pop()
         used = any(number in steps[other].args for other in left)

@@ -39,8 +39,18 @@ def given(drawing: Drawing) -> list[str]:
         *wheels(scene, words),
         *tracks(scene, words),
         *closures(scene, words),
+        *of_scales(drawing),
         *(escape(note) for note in [scene.notes.get(words.language)] if note),
     ]
+
+
+def of_scales(drawing: Drawing) -> Iterator[str]:
+    """What the scene says of the scale factors of the plans, so that a student can follow it."""
+    scales, words = drawing.scales, drawing.words
+    if scales.times != 1:
+        yield words("page.enlarged", m=words.decimal(f"{scales.times:g}"))
+    if scales.apart:
+        yield words("page.apart", ka=words.significant(scales.ka / 1000, 5))
 
 
 def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:

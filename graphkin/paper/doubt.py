@@ -32,7 +32,7 @@ def with_leaders(
         ends = segment_of(label)
         doubtful = ends and not spot.leader and is_doubtful(label, boxes[i], bars, vectors)
         leader = leader_to(label, spot, ends) if ends and doubtful else None
-        others = [box for j, box in enumerate(boxes) if j != i]
+        others = [*boxes[:i], *boxes[i + 1 :]]
         if leader and not shapely.intersects(shapely.LineString(leader), others).any():
             found.append(replace(spot, leader=leader))
         else:

@@ -63,15 +63,19 @@ class Drawing:
 
     def mechanism_steps(self) -> Iterator[tuple[int, Step, Any]]:
         """The steps that this sheet draws on the mechanism."""
+        return iter(self.on_mechanism)
+
+    @cached_property
+    def on_mechanism(self) -> tuple[tuple[int, Step, Any], ...]:
+        """The same, gathered once."""
         own = (
             (Part.POSITION, Part.NORMAL, Part.POLE)
             if self.kind == "acceleration"
             else (Part.POSITION, Part.CENTRE)
         )
         arrows = Part.ACCELERATION if self.kind == "acceleration" else Part.VELOCITY
-        for number, step, value in self.steps(Plane.MECHANISM):
-            if step.part in (*own, arrows):
-                yield number, step, value
+        parts = (*own, arrows)
+        return tuple(drawn for drawn in self.steps(Plane.MECHANISM) if drawn[1].part in parts)
 
     def place(self, centre: Ratio) -> complex | None:
         """The point of a centre or pole; None at infinity, or as far away as makes no odds."""
@@ -220,9 +224,9 @@ class Drawing:
 
     def at_scale(self, plane: Plane, value: complex) -> complex:
         """A value of a plan in metres of the mechanism, drawn side by side with it."""
-        seconds = self.scales.seconds
-        power = {Plane.VELOCITIES: 1, Plane.ACCELERATIONS: 2}.get(plane, 0)
-        return value * seconds**power
+        if plane is Plane.VELOCITIES:
+            return value * self.scales.metres("velocity")
+        return value * self.scales.metres("acceleration") if plane is Plane.ACCELERATIONS else value
 
     def plan_extent(self) -> Extent:
         """The box of the plan at the mechanism's scale."""

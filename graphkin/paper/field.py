@@ -40,6 +40,9 @@ def clipped(start: XY, end: XY, rect: Rect) -> tuple[XY, XY] | None:
     left, top, right, bottom = rect
     if all(left <= x <= right and top <= y <= bottom for x, y in (start, end)):
         return start, end
+    (x0, y0), (x1, y1) = start, end
+    if max(x0, x1) < left or min(x0, x1) > right or max(y0, y1) < top or min(y0, y1) > bottom:
+        return None
     from shapely import LineString, box
 
     part = LineString([start, end]).intersection(box(*rect))

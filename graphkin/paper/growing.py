@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import degrees
 
-from graphkin.paper.areas import A3_TITLE_BLOCK, BELOW
+from graphkin.paper.areas import A3_TITLE_BLOCK, BELOW, MARKED
 from graphkin.paper.detail import parted
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import crossings_on
@@ -72,7 +72,7 @@ def grown(timed: Sequence[tuple[int, Mark]], stage: int) -> Iterator[Mark]:
 
 
 def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
-    """The flattest of the crossings of a sentence, and what a millimetre of pencil becomes there."""
+    """The flattest crossing of a sentence, and what a millimetre of pencil becomes there."""
     worst = flattest(tuple(found))
     if worst is None:
         return
@@ -97,7 +97,7 @@ def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mar
         yield Text(left, y, line, "caption", 3.5, name="sentence")
         y += LEADING
     yield Line(left, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
-    width = A3_TITLE_BLOCK[0] - 5 - left - 7
+    width = MARKED[0] - left - 7
     done = [
         (f"{number}." if i == 0 else "", line)
         for number, sentence in enumerate(said[:stage], 1)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from math import ceil, cos, radians, sin
 
+from graphkin.paper import candidates
 from graphkin.paper.areas import Rect
 from graphkin.paper.crowd import HELPERS, by_need
 from graphkin.paper.doubt import with_leaders
@@ -22,6 +24,8 @@ ROUNDS = 4
 """How often labels are placed anew with more key numbers before a field counts as full."""
 ASIDE = 15
 """How far a note is moved aside at a time, in mm, where it would stand on lines."""
+LEADING = 4.6
+"""Distance of lines of notes in mm, so that indices above and below do not meet."""
 SMALL = 1.8
 """Height of the smallest lettering in mm."""
 KEY = 4
@@ -192,22 +196,17 @@ class Board:
         lines = flowed(notes, "; ", self.rect[2] - self.rect[0] - 6, 2.5)
         if not lines:
             return []
-        y = self.rect[3] - 2.5 - 4.2 * (len(lines) - 1)
+        y = self.rect[3] - 2.5 - LEADING * (len(lines) - 1)
         room = self.rect[2] - self.rect[0] - 6 - max(extent(line, 2.5)[0] for line in lines)
         tried: list[list[Text]] = [
             [
-                Text(self.rect[0] + 3 + away, y + 4.2 * i, line, "caption", 2.5, name="note")
+                Text(self.rect[0] + 3 + away, y + LEADING * i, line, "caption", 2.5, name="note")
                 for i, line in enumerate(lines)
             ]
             for away in range(0, max(1, int(room)), ASIDE)
         ]
-        return [*min(tried, key=self.crossed)]
-
-    def crossed(self, texts: Sequence[Text]) -> int:
-        """How many drawn lines some texts would stand on."""
-        ends = [segment for mark in self.marks for segment in segments(mark)]
-        boxes = [reach(text) for text in texts]
-        return sum(bool(clipped(s[:2], s[2:], box)) for s in ends for box in boxes)
+        drawn = candidates.segments([s for mark in self.marks for s in segments(mark)])
+        return [*min(tried, key=lambda texts: candidates.met([*map(reach, texts)], drawn))]
 
     def placed(self) -> list[Mark]:
         """Only the labels that find a free place, without the other marks."""
@@ -242,7 +241,7 @@ def near(box: Rect, x: float, y: float) -> bool:
     return box[0] - far < x < box[2] + far and box[1] - far < y < box[3] + far
 
 
-def segments(mark: Mark) -> list[tuple[float, float, float, float]]:
+def segments(mark: Mark) -> Sequence[tuple[float, float, float, float]]:
     """The straight pieces of a mark, for labels to keep clear of; arcs as short chords."""
     if isinstance(mark, Line):
         return [(mark.x1, mark.y1, mark.x2, mark.y2)]
@@ -250,9 +249,9 @@ def segments(mark: Mark) -> list[tuple[float, float, float, float]]:
         points = [*mark.points, mark.points[0]] if mark.closed else list(mark.points)
         return chained(points)
     if isinstance(mark, Circle):
-        return chained(arc_chords(mark.cx, mark.cy, mark.r, 0, 360))
+        return arc_chords(mark.cx, mark.cy, mark.r, 0, 360)
     if isinstance(mark, Arc):
-        return chained(arc_chords(mark.cx, mark.cy, mark.r, mark.start, mark.end))
+        return arc_chords(mark.cx, mark.cy, mark.r, mark.start, mark.end)
     return []
 
 
@@ -261,9 +260,12 @@ def chained(points: Sequence[XY]) -> list[tuple[float, float, float, float]]:
     return [(*points[i], *points[i + 1]) for i in range(len(points) - 1)]
 
 
-def arc_chords(x: float, y: float, r: float, start: float, end: float) -> list[XY]:
-    """Points along an arc, so close that a chord leaves it by less than a tenth of a millimetre."""
+@lru_cache(maxsize=256)
+def arc_chords(
+    x: float, y: float, r: float, start: float, end: float
+) -> tuple[tuple[float, float, float, float], ...]:
+    """Chords of an arc, so short that they leave it by less than a tenth of a millimetre."""
     turn = abs(end - start)
     count = max(2, ceil(turn / 8 * max(1.0, (r / 20) ** 0.5)))
     angles = (radians(start + (end - start) * i / count) for i in range(count + 1))
-    return [(x + r * cos(a), y - r * sin(a)) for a in angles]
+    return tuple(chained([(x + r * cos(a), y - r * sin(a)) for a in angles]))

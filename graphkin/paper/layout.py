@@ -49,10 +49,10 @@ def lay_out(drawing: Drawing) -> Layout:
     left = (AREA[0], AREA[1], split, AREA[3])
     right = (split, AREA[1], AREA[2], AREA[3])
     wider = with_poles(drawing, mechanism, mm, left)
-    seconds = drawing.scales.seconds ** (1 if drawing.plane is Plane.VELOCITIES else 2)
+    metres = drawing.scales.metres(drawing.kind)
     fields = Layout(
         Field(left, mm, wider.middle, raised(left, wider.height * mm - HEIGHT)),
-        Field(right, mm * seconds, plan.middle / seconds, centre(right)),
+        Field(right, mm * metres, plan.middle / metres, centre(right)),
         {},
     )
     return Layout(fields.mechanism, fields.plan, spans(drawing, fields))

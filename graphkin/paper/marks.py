@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from math import cos, isfinite, radians, sin
 from typing import Literal
 
@@ -164,6 +165,7 @@ def numbers(mark: Mark) -> Iterator[float]:
     return iter((mark.x, mark.y, mark.height, mark.rotate))
 
 
+@lru_cache(maxsize=4096)
 def fault(mark: Mark, width: float, height: float) -> tuple[str, str] | None:
     """Tell (found, expected) when a mark cannot be drawn on a page of this size in mm."""
     if not all(map(isfinite, numbers(mark))):

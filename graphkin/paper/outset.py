@@ -11,6 +11,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.rates import of_sum
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.richtext import escape
+from graphkin.paper.scale import digits
 from graphkin.paper.settings import lone
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import sense
@@ -20,6 +21,8 @@ from graphkin.steps.program import Plane
 
 OMEGA = 6
 """Significant digits of the driver's angular velocity, from which all else follows."""
+KV, KA = "(m/s)/mm", "(m/s^2)/mm"
+"""Units of the scale factors of plans."""
 
 
 def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
@@ -156,7 +159,7 @@ def spelled(drawing: Drawing, text: str) -> str:
 def of_scales(drawing: Drawing) -> Iterator[Relation]:
     """kL, kv and ka, and the drawn length of the driven bar."""
     words, scales = drawing.words, drawing.scales
-    number = words.decimal(f"{scales.kL:g}")
+    number = words.decimal(digits(scales.kL))
     yield Relation("*k*_L", "", "", number, "", words("calculation.scale", scale=scales.words))
     for name, length in drawn_bars(drawing):
         yield Relation(
@@ -171,17 +174,24 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
 
 
 def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
-    """kv and ka: from the driving crank, or kv chosen and ka = kv²/kL."""
-    scales = drawing.scales
+    """kv from the driving crank, or chosen; ka = kv²/kL, or chosen."""
+    scales, chosen = drawing.scales, drawing.words("calculation.chosen")
     kv, ka = figure(drawing, scales.kv / 1000), figure(drawing, scales.ka / 1000)
-    if not scales.from_driver:
-        yield Relation("*k*_v", "", "", kv, "(m/s)/mm", drawing.words("calculation.chosen"))
-        yield Relation("*k*_a", "*k*_v^2/*k*_L", f"1000·{kv}^2/{number}", ka, "(m/s^2)/mm")
-        return
-    w = figure(drawing, 1 / scales.seconds, OMEGA)
-    index = f"_{{{escape(drawing.scene.drivers[0].link)}}}"
-    yield Relation("*k*_v", f"*ω*{index}·*k*_L", f"{w}·{number}/1000", kv, "(m/s)/mm")
-    yield Relation("*k*_a", f"*ω*{index}^2·*k*_L", f"{w}^2·{number}/1000", ka, "(m/s^2)/mm")
+    by_ka = ("*k*_v^2/*k*_L", f"1000·{kv}^2/{number}")
+    if scales.from_driver:
+        w = figure(drawing, scales.times / scales.seconds, OMEGA)
+        index = f"_{{{escape(drawing.scene.drivers[0].link)}}}"
+        m = figure(drawing, scales.times)
+        sign, less = ("/*m*", f"/{m}") if scales.times != 1 else ("", "")
+        yield Relation("*k*_v", f"*ω*{index}·*k*_L{sign}", f"{w}·{number}/1000{less}", kv, KV)
+        if not less:
+            by_ka = (f"*ω*{index}^2·*k*_L", f"{w}^2·{number}/1000")
+    else:
+        yield Relation("*k*_v", "", "", kv, KV, chosen)
+    if scales.apart:
+        yield Relation("*k*_a", "", "", ka, KA, chosen)
+    else:
+        yield Relation("*k*_a", *by_ka, ka, KA)
 
 
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from graphkin.paper.areas import A3_AREA, Rect
 from graphkin.paper.detail import with_detail
@@ -11,6 +12,7 @@ from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.richtext import escape
 from graphkin.paper.sheet import left_board, right_board, title_of
+from graphkin.paper.style import BARE, TINTS, style_of
 
 HALF, GAP, STROKE = 3.0, 2.0, 3.0
 """Half a cross, what is left free beyond it, and the stroke outside, in mm."""
@@ -27,11 +29,18 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     name = f"{title_of(drawing)} – {words('sheet.' + drawing.kind)}"
     foot = f"{name}, {words('sheet.overlay')} {number}, {drawing.scales.words}"
     marks = (
-        *(mark for board in boards for mark in with_detail(board)),
+        *(untinted(mark) for board in boards for mark in with_detail(board)),
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - 4, escape(foot), "caption", 2.5, name="title"),
     )
     return Page(420, 297, marks, name, words.language)
+
+
+def untinted(mark: Mark) -> Mark:
+    """A mark without the light tint that would lie over the drawing below."""
+    if style_of(mark.cls).fill not in TINTS:
+        return mark
+    return replace(mark, cls=f"{mark.cls} {BARE}")
 
 
 def crop_marks(rect: Rect) -> Iterator[Mark]:

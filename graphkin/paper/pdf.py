@@ -14,7 +14,7 @@ from reportlab.pdfgen.canvas import Canvas
 
 from graphkin.paper.glyphs import FILES, font_file
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Page, Point, Polyline, Text
-from graphkin.paper.richtext import spaced_runs
+from graphkin.paper.richtext import Run, spaced_runs
 from graphkin.paper.style import Ink, Style, style_of
 
 MM = 72 / 25.4  # points to the millimetre
@@ -49,59 +49,80 @@ def face(italic: bool) -> TTFont:
     return font
 
 
+def at(x: float, y: float, top: float) -> str:
+    """Write a place on a page ``top`` mm high in points, y up."""
+    return f"{number(x * MM)} {number((top - y) * MM)}"
+
+
+@lru_cache(maxsize=4096)
+def outline(mark: Line | Polyline | Circle | Arc, top: float) -> str:
+    """Write the path of a mark; much of a sheet is the same on the next one."""
+    if isinstance(mark, Line):
+        return path([(mark.x1, mark.y1), (mark.x2, mark.y2)], top)
+    if isinstance(mark, Polyline):
+        return path(mark.points, top)
+    if isinstance(mark, Circle):
+        mark = Arc(mark.cx, mark.cy, mark.r, 0.0, 360.0, mark.cls)
+    return curve(mark, top)
+
+
+def path(points: Iterable[Point], top: float) -> str:
+    """Write a broken line."""
+    first, *rest = (at(x, y, top) for x, y in points)
+    return "\n".join([first, "m", *(f"{place}\nl" for place in rest)])
+
+
+def curve(arc: Arc, top: float) -> str:
+    """Write an arc in Bézier pieces so short that they leave the circle by no 0.001 mm."""
+    most = 45.0 if arc.r <= 100 else 22.5
+    count = max(1, ceil(abs(arc.end - arc.start) / most))
+    turn = radians(arc.end - arc.start) / count
+    reach = 4 / 3 * tan(turn / 4) * arc.r  # length of the handles
+    words = [at(*arc.at(arc.start), top), "m"]
+    for i in range(count):
+        a, b = radians(arc.start) + i * turn, radians(arc.start) + (i + 1) * turn
+        ca, sa, cb, sb = cos(a), sin(a), cos(b), sin(b)
+        x1, y1 = arc.cx + arc.r * ca - reach * sa, arc.cy - arc.r * sa - reach * ca
+        x3, y3 = arc.cx + arc.r * cb, arc.cy - arc.r * sb
+        words += (at(x1, y1, top), at(x3 + reach * sb, y3 + reach * cb, top))
+        words += (at(x3, y3, top), "c")
+    return "\n".join(words)
+
+
+@lru_cache(maxsize=4096)
+def lettering(text: Text, top: float) -> tuple[tuple[str, Run], ...]:
+    """Write where each run of a text stands, turned with the text."""
+    c, s = cos(radians(text.rotate)), sin(radians(text.rotate))
+    turned = f"{number(c)} {number(s)} {number(-s)} {number(c)}" if text.rotate else "1 0 0 1"
+    left, found = text.left(), []
+    for run in spaced_runs(text.markup, text.height):
+        u, v = left + run.x, run.y
+        place = at(text.x + u * c + v * s, text.y - u * s + v * c, top)
+        found.append((f"{turned} {place} Tm", run))
+    return tuple(found)
+
+
 class Pen:
     """Writes the marks of one page as PDF operators; sets line and fill only where they change."""
 
     def __init__(self, canvas: Canvas, page: Page, ink: Ink) -> None:
-        self.canvas = canvas
+        self.document = canvas._doc  # type: ignore[attr-defined]
         self.ink = ink
         self.top = page.height
         self.line = self.filling = ""
         self.code: list[str] = []
-
-    def at(self, x: float, y: float) -> str:
-        """Write a place on the page in points, y up."""
-        return f"{number(x * MM)} {number((self.top - y) * MM)}"
+        self.shown: dict[tuple[str, float, bool], list[str]] = {}
 
     def draw(self, mark: Mark) -> None:
         """Write one mark."""
         style = style_of(mark.cls, self.ink)
         if isinstance(mark, Text):
             self.text(mark, style)
-        elif isinstance(mark, Line):
-            self.paint([self.at(mark.x1, mark.y1), "m", self.at(mark.x2, mark.y2), "l"], style)
-        elif isinstance(mark, Polyline):
-            self.paint(self.path(mark.points), style, mark.closed)
-        elif isinstance(mark, Circle):
-            whole = Arc(mark.cx, mark.cy, mark.r, 0.0, 360.0, mark.cls)
-            self.paint(self.curve(whole), style, closed=True)
         else:
-            self.paint(self.curve(mark), style)
+            closed = isinstance(mark, Circle) or (isinstance(mark, Polyline) and mark.closed)
+            self.paint(outline(mark, self.top), style, closed)
 
-    def path(self, points: Iterable[Point]) -> list[str]:
-        """Write a broken line."""
-        words: list[str] = []
-        for x, y in points:
-            words += (self.at(x, y), "l" if words else "m")
-        return words
-
-    def curve(self, arc: Arc) -> list[str]:
-        """Write an arc in Bézier pieces so short that they leave the circle by no 0.001 mm."""
-        most = 45.0 if arc.r <= 100 else 22.5
-        count = max(1, ceil(abs(arc.end - arc.start) / most))
-        turn = radians(arc.end - arc.start) / count
-        reach = 4 / 3 * tan(turn / 4) * arc.r  # length of the handles
-        words = [self.at(*arc.at(arc.start)), "m"]
-        for i in range(count):
-            a, b = radians(arc.start) + i * turn, radians(arc.start) + (i + 1) * turn
-            ca, sa, cb, sb = cos(a), sin(a), cos(b), sin(b)
-            x1, y1 = arc.cx + arc.r * ca - reach * sa, arc.cy - arc.r * sa - reach * ca
-            x3, y3 = arc.cx + arc.r * cb, arc.cy - arc.r * sb
-            words += (self.at(x1, y1), self.at(x3 + reach * sb, y3 + reach * cb))
-            words += (self.at(x3, y3), "c")
-        return words
-
-    def paint(self, path: list[str], style: Style, closed: bool = False) -> None:
+    def paint(self, path: str, style: Style, closed: bool) -> None:
         """Stroke and fill a path as its style says; open paths are never filled."""
         filled, stroked = bool(closed and style.fill), bool(style.width)
         if stroked:
@@ -110,8 +131,7 @@ class Pen:
             self.set_fill(style.fill)
         if stroked or filled:
             ends = {(True, True): "b", (True, False): "s", (False, True): "f"}
-            self.code += path
-            self.code.append(ends[stroked, filled] if closed else "S")
+            self.code += (path, ends[stroked, filled] if closed else "S")
 
     def set_line(self, setting: str) -> None:
         """Change how lines are drawn, if that differs from the last line."""
@@ -126,25 +146,25 @@ class Pen:
             self.code.append(f"{colour(code)} rg")
 
     def text(self, text: Text, style: Style) -> None:
-        """Write the runs of a text, each at its own place, turned with the text."""
+        """Write the runs of a text, each at its own place."""
         self.set_fill(style.colour)
-        c, s = cos(radians(text.rotate)), sin(radians(text.rotate))
-        turned = f"{number(c)} {number(s)} {number(-s)} {number(c)}" if text.rotate else "1 0 0 1"
-        left = text.left()
         self.code.append("BT")
-        for run in spaced_runs(text.markup, text.height):
-            u, v = left + run.x, run.y
-            place = self.at(text.x + u * c + v * s, text.y - u * s + v * c)
-            self.code.append(f"{turned} {place} Tm")
-            self.show(run.text, run.size * MM, run.italic)
+        for place, run in lettering(text, self.top):
+            self.code.append(place)
+            self.code += self.show(run.text, run.size * MM, run.italic)
         self.code.append("ET")
 
-    def show(self, words: str, size: float, italic: bool) -> None:
+    def show(self, words: str, size: float, italic: bool) -> list[str]:
         """Write one run in the codes of the embedded part of its face."""
-        font, document = face(italic), self.canvas._doc  # type: ignore[attr-defined]
-        for part, codes in font.splitString(words, document):
-            name = font.getSubsetInternalName(part, document)
-            self.code.append(f"{name} {number(size)} Tf <{codes.hex()}> Tj")
+        key = words, size, italic
+        if key not in self.shown:
+            font = face(italic)
+            self.shown[key] = [
+                f"{font.getSubsetInternalName(part, self.document)} {number(size)} Tf"
+                f" <{codes.hex()}> Tj"
+                for part, codes in font.splitString(words, self.document)
+            ]
+        return self.shown[key]
 
 
 def write_pdf(

@@ -192,7 +192,7 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     if key == "driven-slide" and not step.says["s"]:
         return "driven-slide-end"
     if key in ("turned-velocity", "centripetal"):
-        as_long = drawing.scales.from_driver and is_driven(drawing, step.args[3])
+        as_long = drawing.scales.as_crank(drawing.kind) and is_driven(drawing, step.args[3])
         return key if as_long else f"{key}-scaled"
     return key
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import inf
 
 import numpy as np
@@ -88,8 +88,8 @@ def place(
 
 def _subjects(wishes: Sequence[Wish]) -> Subjects:
     """Return the wishes as arrays."""
-    flat = [np.asarray(wish.subject, dtype=np.float64).reshape(-1) for wish in wishes]
-    ends = np.array([np.resize(subject, 4) for subject in flat])
+    both = [w.subject if isinstance(w.subject[0], tuple) else (w.subject,) * 2 for w in wishes]
+    ends = np.array(both, dtype=np.float64).reshape(-1, 4)
     line = np.any(ends[:, :2] != ends[:, 2:], axis=1)
     sizes = np.array([(w.width / 2, w.height / 2, w.gap, w.radius) for w in wishes])
     lean = [
@@ -111,31 +111,27 @@ class _Board:
         self.hope = near.centre[:, 0]
         self.middle = (page.subjects.ends[:, :2] + page.subjects.ends[:, 2:]) / 2
         self.wide: dict[int, set[int]] = {FIRST.start: set(), REST.start: set()}
-        self._open(page.places(np.arange(len(wishes)), near, NEAREST, led=False))
+        self.clashes = Clashes()
+        self._offer(page.places(np.arange(len(wishes)), near, NEAREST, led=False))
         self.widen(i for i, best in enumerate(self.best) if best > DEAR)
+        self.clashes.find(int(menu[0]) for menu in self.menus if len(menu))
 
-    def _open(self, places: Places) -> None:
-        """Offer these places; those of a label that cost the same keep their order."""
-        order = np.lexsort((places.cost, places.label))
-        self.places = places.take(order)
-        self.clashes = Clashes(self.places)
-        bounds = np.searchsorted(self.places.label, np.arange(len(self.pick) + 1)).tolist()
-        self.menus = [slice(*ends) for ends in itertools.pairwise(bounds)]
+    def _offer(self, more: Places) -> None:
+        """Offer more places; those of a label that cost the same keep their order."""
+        self.clashes.add(more.take(np.lexsort((more.cost, more.label))))
+        self.places = self.clashes.places
+        order = np.lexsort((self.places.cost, self.places.label))
+        bounds = np.searchsorted(self.places.label[order], np.arange(1, len(self.pick)))
+        self.menus = [order[a:b] for a, b in pairwise([0, *bounds.tolist(), len(order)])]
         self.cost = self.places.cost.tolist()
-        offered = [i for i, menu in enumerate(self.menus) if menu.start < menu.stop]
-        self.best = [inf] * len(self.menus)
-        for i in offered:
-            self.best[i] = self.cost[bounds[i]]
+        self.best = [self.cost[menu[0]] if len(menu) else inf for menu in self.menus]
         self.load = np.zeros(len(order), dtype=np.int64)
-        put = self.pick >= 0
-        self.pick[put] = np.argsort(order)[self.pick[put]]
-        self.clashes.find(self.pick[put].tolist() if put.any() else [bounds[i] for i in offered])
-        for k in self.pick[put].tolist():
+        for k in self.pick[self.pick >= 0].tolist():
             self.load += self.clashes.of(k)
 
     def order(self) -> list[int]:
         """Return the labels, those with few places first, then by priority."""
-        count = [menu.stop - menu.start for menu in self.menus]
+        count = [len(menu) for menu in self.menus]
         return sorted(range(len(count)), key=lambda i: (count[i] > 7, -self.fine[i], count[i], i))
 
     def sorry(self, limit: float) -> list[int]:
@@ -148,9 +144,9 @@ class _Board:
         """Give each of the labels the cheapest place that is left, if there is one."""
         for i in which:
             self._lift(i)
-            left = self.load[self.menus[i]] == 0
-            if left.any():
-                self._put(i, self.menus[i].start + int(left.argmax()))
+            left = self.menus[i][self.load[self.menus[i]] == 0]
+            if len(left):
+                self._put(i, int(left[0]))
 
     def dear(self) -> list[int]:
         """Return the labels that pay more than a leader would cost."""
@@ -174,8 +170,7 @@ class _Board:
         self.wide[span.start].update(which.tolist())
         far = FAR if span == FIRST else FARTHEST
         some = tries(self.page.subjects.take(which), NEAR, far)
-        both = zip(self.places, self.page.places(which, some, span, led=True), strict=True)
-        self._open(Places(*(np.concatenate(pair) for pair in both)))
+        self._offer(self.page.places(which, some, span, led=True))
         if (self.pick >= 0).any():
             self.settle(i for i in self.order() if i in which)
         return True
@@ -201,10 +196,10 @@ class _Board:
         """Put a label on the place with the best price, and return those it pushed aside."""
         self._lift(i)
         menu = self.menus[i]
-        if menu.start == menu.stop:
+        if not len(menu):
             return []
         price = self.places.cost[menu] + PUSH * self.load[menu] + worn[menu]
-        k = menu.start + int(price.argmin())
+        k = int(menu[price.argmin()])
         others: list[int] = []
         if self.load[k]:
             clash = self.clashes.of(k)[self.pick] & (self.pick >= 0)

@@ -47,7 +47,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
             ("centres", list(of_centres(drawing))),
         ]
     return [
-        ("normals", list(of_normals(drawing))),
+        ("normals_apart" if drawing.scales.apart else "normals", list(of_normals(drawing))),
         ("coriolis_components", list(of_coriolis(drawing))),
         ("accelerations", plan),
         ("spinning", turning),

@@ -22,14 +22,18 @@ FINE = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 class Scales:
     """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper).
 
-    ``from_driver``: kv follows from the one crank that drives, so that a student can find it.
-    ``triangles``: Coriolis components are drawn by similar triangles, else computed.
+    ``seconds`` is kL/kv. ``from_driver``: kv follows from the one crank that drives, so that a
+    student can find it; ``times`` so much larger than the crank says. ``triangles``: Coriolis
+    components are drawn by similar triangles, else computed. ``apart``: a scene states ka by
+    itself, this is the root of kL/ka, and no triangle holds; 0 where ka = kv²/kL.
     """
 
     kL: float  # noqa: N815
     seconds: float
     from_driver: bool = True
     triangles: bool = True
+    times: float = 1.0
+    apart: float = 0.0
 
     @property
     def kv(self) -> float:
@@ -38,13 +42,30 @@ class Scales:
 
     @property
     def ka(self) -> float:
-        """Acceleration that one metre of paper stands for: kv²/kL."""
-        return self.kv / self.seconds
+        """Acceleration that one metre of paper stands for: kv²/kL, unless stated apart."""
+        return self.kL / (self.apart or self.seconds) ** 2
+
+    def as_crank(self, kind: str) -> bool:
+        """Whether a sheet's plan draws the vector of the crank's pin as long as the crank."""
+        return self.from_driver and self.times == 1 and self.pace(kind) == self.seconds
+
+    def pace(self, kind: str) -> float:
+        """The seconds in which a sheet draws velocities as ways, and accelerations in twos."""
+        return self.apart or self.seconds if kind == "acceleration" else self.seconds
+
+    def metres(self, kind: str) -> float:
+        """Metres of the mechanism that are drawn as long as one unit of a sheet's plan."""
+        return self.pace(kind) ** (2 if kind == "acceleration" else 1)
 
     @property
     def words(self) -> str:
         """The scale as a drawing writes it, 1:5 or 2:1."""
-        return f"1:{self.kL:g}" if self.kL >= 1 else f"{1 / self.kL:g}:1"
+        return f"1:{digits(self.kL)}" if self.kL >= 1 else f"{digits(1 / self.kL)}:1"
+
+
+def digits(number: float) -> str:
+    """A round number in digits, never as a power of ten."""
+    return f"{number:.12f}".rstrip("0").rstrip(".") if number < 1 else f"{number:.12g}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,9 +134,9 @@ def kept_scale(stated: float, least: float) -> float:
         raise PageError(
             Problem(
                 "sheet.scale",
-                f"does not fit: at 1:{stated:g} the drawing leaves its fields",
-                f"1:{least:g} or smaller",
-                f"write scale = {least:g}, or leave it out",
+                f"does not fit: at 1:{digits(stated)} the drawing leaves its fields",
+                f"1:{digits(least)} or smaller",
+                f"write scale = {digits(least)}, or leave it out",
             )
         )
     return stated

@@ -141,6 +141,8 @@ def component_sentence(drawing: Drawing, number: int, step: Step, *, first: bool
     """The triangle of a normal or Coriolis component; for the others only from what it comes."""
     assert step.action is not None
     if step.action.key == "normal":
+        if drawing.scales.apart:
+            return Sentence(number, "ν by number", computed_normal(drawing, number, step))
         markup = normal_sentence(drawing, step, first=first)
         return Sentence(number, "ν1" if first else "ν", markup)
     return Sentence(number, "c", coriolis_sentence(drawing, number, step, first=first))
@@ -158,6 +160,20 @@ def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
         "letter": symbol(says["q"].lower()),
     }
     return drawing.words("step.normal" if first else "step.normal-again", **fields)
+
+
+def computed_normal(drawing: Drawing, number: int, step: Step) -> str:
+    """A normal component by number, where ka is stated apart and the right triangle fails."""
+    says, size = step.says, abs(drawing.trace.values[number])
+    return drawing.words(
+        "step.normal-computed",
+        p=symbol(says["p"]),
+        q=symbol(says["q"]),
+        bar=bar(says["p"], says["q"]),
+        v=symbol("v_" + says["i"]),
+        a=symbol(f"a_{says['i']}^ν"),
+        drawn=plan_amount(drawing, size, Plane.ACCELERATIONS),
+    )
 
 
 def coriolis_sentence(drawing: Drawing, number: int, step: Step, *, first: bool) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, inputs, mechanism
-from graphkin.paper.areas import A3_AREA, AREA, BELOW, TABLES, Rect
+from graphkin.paper.areas import A3_AREA, AREA, BELOW, MARKED, TABLES, Rect
 from graphkin.paper.data import given
 from graphkin.paper.desk import Desk, above_foot
 from graphkin.paper.detail import with_detail
@@ -18,6 +20,7 @@ from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
 from graphkin.paper.richtext import escape, extent, flowed, words_of
+from graphkin.paper.scale import digits
 from graphkin.paper.sentences import sentences
 from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import symbol
@@ -139,7 +142,7 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     field = layout.mechanism
     words = drawing.words
     board = Board(field.rect, unnamed=words("page.unnamed"))
-    kL = words.decimal(f"{drawing.scales.kL:g}")
+    kL = words.decimal(digits(drawing.scales.kL))
     caption = words("page.mechanism_heading", scale=drawing.scales.words, kL=kL)
     board.marks.append(headline(field.rect, caption, layout))
     if view == "task":
@@ -239,13 +242,15 @@ def asked(drawing: Drawing) -> list[str]:
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The numbered sentences of the construction, in lettering that fits."""
     said = sentences(drawing)
-    for height, leading in ((2.5, 5.6), (2.5, LEADING), (2.5, 4.0), (1.8, 3.4)):
+    looks = ((2.5, 5.6), (2.5, LEADING), (2.5, 4.0), (1.8, 3.4))
+    spaces = ((width, MARKED[1]), (MARKED[0] - x, bottom))
+    for (height, leading), (across, lowest) in product(looks, spaces):
         lines = [
             (number if i == 0 else "", line)
             for number, sentence in enumerate(said, 1)
-            for i, line in enumerate(flowed(words_of(sentence.markup), " ", width - 7, height))
+            for i, line in enumerate(flowed(words_of(sentence.markup), " ", across - 7, height))
         ]
-        if y + (len(lines) - 1) * leading <= bottom:
+        if y + (len(lines) - 1) * leading <= lowest:
             break
     else:
         raise PageError(

@@ -18,13 +18,16 @@ GREY = "#6a6a6a"
 BLUE = "#0b4f9e"
 TEAL = "#006d77"
 RED = "#b3260e"
-PURPLE = "#6d2a8c"
+PURPLE = "#6600cc"
 LIGHT = "#e9edf2"
 PALE = "#f5f6f8"
 WHITE = "#ffffff"
+TINTS = (LIGHT, PALE)
 NEXT = ""  # the colour of the mark's next class
 NOW = "now"
 """The class of what the sentence of a step page draws."""
+BARE = "bare"
+"""The class of a figure that is drawn without the light tint that fills it."""
 STRONGER = 0.2
 """How much wider its lines are, in mm."""
 
@@ -57,6 +60,7 @@ STYLES: dict[str, Style] = {
     "caption": Style(0.25, fill="ink"),
     "panel": Style(0.25, GREY),
     "white": Style(0, WHITE, fill="ink"),
+    "qr": Style(0, fill="ink"),
     "shade": Style(0, PALE, fill="ink"),
     # mechanism
     "link": Style(0.7, round=True),
@@ -94,9 +98,9 @@ STYLES: dict[str, Style] = {
     "parallel-mark": Style(0.25, GREY),
     # plans
     "velocity": Style(0.5, BLUE),
-    "relative-velocity": Style(0.4, TEAL),
+    "relative-velocity": Style(0.35, TEAL),
     "acceleration": Style(0.5, RED),
-    "relative-acceleration": Style(0.4, RED),
+    "relative-acceleration": Style(0.35, RED),
     "sliding": Style(0.4, TEAL, DOUBLE_CHAIN),
     "trial": Style(0.13, GREY),
     "trial-line": Style(0.18, GREY, CHAIN),
@@ -108,7 +112,7 @@ STYLES: dict[str, Style] = {
     "point": Style(0.25, NEXT, fill=WHITE),
     "centre": Style(0.35, NEXT),
     "inflection": Style(0.35, NEXT, SHORT_CHAIN),
-    "fixed-centrode": Style(0.35, TEAL),
+    "fixed-centrode": Style(0.25, TEAL),
     "moving-centrode": Style(0.35, PURPLE, DASHED),
     # lettering
     "label": Style(0, NEXT, fill="ink"),
@@ -126,6 +130,8 @@ def style_of(cls: str, ink: Ink = "colour") -> Style:
     colours = (STYLES[name].colour for name in names if name in STYLES)
     colour = next((found for found in colours if found), BLACK)
     fill = colour if first.fill == "ink" else first.fill
+    if BARE in names and fill in TINTS:
+        fill = ""
     if NOW in names:
         colour = BLACK if colour == GREY else colour
         first = replace(first, width=first.width + STRONGER if first.width else 0)

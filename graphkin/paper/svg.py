@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from html import escape
 
 from svgwrite import Drawing
@@ -64,6 +65,7 @@ def text_element(text: Text) -> str:
     return f"<text {head}>{spans}</text>"
 
 
+@lru_cache(maxsize=4096)
 def element(mark: Mark) -> str:
     """Write one mark as an SVG element."""
     if isinstance(mark, Text):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from graphkin.paper.richtext import escape
 
@@ -15,6 +16,7 @@ TAGS = {"¹": "^1", "²": "^2"}
 """The tags of two trial plans as markup."""
 
 
+@lru_cache(maxsize=1024)
 def symbol(name: str) -> str:
     """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ its tag."""
     found = NAME.match(name)

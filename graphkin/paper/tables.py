@@ -15,9 +15,10 @@ from graphkin.paper.symbolic import symbol
 from graphkin.plane import Vector
 from graphkin.text import Words
 
-ROW = 4.7
+ROW, BASE = 4.7, 3.4
+"""Height of a row, and how far below its upper line the letters stand, in mm."""
 HEIGHT, SMALL = 2.5, 1.8
-VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12, 12, 32)
+VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
 BETWEEN, APART = 3, 0.6
 """Room between tables beside one another, in mm, and below one another, in rows."""
@@ -117,21 +118,21 @@ def table(
     for width in (*widths, 0.0):
         marks.append(Line(left, y, left, y + height, "panel"))
         left += width
-    marks += cells(x, y + 3.55, widths, head, size_for(widths, [head]))
+    marks += cells(x, y + BASE, widths, head, size_for(widths, [head]))
     height = size_for(widths, rows)
     for i, row in enumerate(rows, 1):
-        marks += cells(x, y + i * ROW + 3.55, widths, row, height)
+        marks += cells(x, y + i * ROW + BASE, widths, row, height)
     return marks
 
 
 def size_for(widths: Sequence[float], rows: Sequence[Row]) -> float:
-    """The lettering in which every cell of some rows fits its column."""
-    fits = all(
-        extent(markup, HEIGHT)[0] <= width - 1
-        for row in rows
-        for width, markup in zip(widths, row.cells, strict=True)
-    )
-    return HEIGHT if fits else SMALL
+    """The lettering in which every cell of some rows fits its column and its row."""
+    for row in rows:
+        for width, markup in zip(widths, row.cells, strict=True):
+            across, _, below = extent(markup, HEIGHT)
+            if across > width - 1 or below > ROW - BASE - 0.1:
+                return SMALL
+    return HEIGHT
 
 
 def cells(

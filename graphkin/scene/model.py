@@ -238,6 +238,8 @@ class Sheet(NamedTuple):
     language: str = "en"
     scale: Quantity | None = None
     sheets: int = 2
+    enlarge: Quantity | None = None
+    ka: Quantity | None = None
 
 
 @dataclass(frozen=True, slots=True)

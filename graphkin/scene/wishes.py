@@ -110,7 +110,7 @@ def link_pair(place: str, raw: str, findings: Findings, links: Sequence[str]) ->
 
 
 def read_sheet(table: Table, measures: Measures) -> Sheet:
-    """The title block: owner, author, approved, date, number; the language, scale and sheets."""
+    """The title block: owner, author, approved, date, number; the language, scales and sheets."""
     findings = measures.findings
     language = table.text("language", "en")
     if language not in LANGUAGES:
@@ -129,6 +129,8 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         language=language,
         scale=read_scale(table, measures),
         sheets=2 if not isinstance(sheets, int) else sheets,
+        enlarge=read_positive(table, measures, "enlarge"),
+        ka=read_positive(table, measures, "ka"),
     )
     table.finish()
     return sheet
@@ -155,6 +157,12 @@ def read_scale(table: Table, measures: Measures) -> Quantity | None:
         if drawn and true:
             return Quantity(str(raw), exact(Fraction(true, drawn)).tree, "", place)
     return measures.number(place, raw, positive=True)
+
+
+def read_positive(table: Table, measures: Measures, key: str) -> Quantity | None:
+    """A number above nought, None where it is not written."""
+    raw = table.take(key)
+    return None if raw is None else measures.number(table.at(key), raw, positive=True)
 
 
 def read_languages(table: Table, findings: Findings) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
-``python -m tests.bench.effects``, ``.motion``, ``.chain`` and ``.variants`` print theirs alone.
+``python -m tests.bench.effects`` and ``.motion``, ``.chain``, ``.variants``, ``.printing``: one alone.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.text import words
-from tests.bench import chain, effects, motion, variants
+from tests.bench import chain, effects, motion, printing, variants
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files
 
@@ -200,7 +200,11 @@ def table() -> str:
             for name, seconds, plain in rows
         ]
     return "\n".join(
-        [*lines, "", effects.table(), "", motion.table(), "", chain.table(), "", variants.table()]
+        [
+            *lines,
+            *("", effects.table(), "", motion.table(), "", chain.table()),
+            *("", variants.table(), "", printing.table()),
+        ]
     )
 
 

@@ -22,6 +22,7 @@ ROWS, OWN, ALONE = 10_000, 1_000, 100
 """Rows of a class by a formula, of one where each has data of its own, and one by one."""
 LIMIT = 60.0
 WRONG = 5
+Given = dict[str, dict[str, Answer]]
 
 
 def pump(step: bool = True) -> Book:
@@ -31,7 +32,9 @@ def pump(step: bool = True) -> Book:
     return Book(lab, text if step else text.replace(", step = 1 ", " "))
 
 
-def a_class(book: Book, numbers: list[Fraction]) -> tuple[list[Taker], dict[str, dict[str, Answer]]]:
+def a_class(
+    book: Book, numbers: list[Fraction]
+) -> tuple[list[Taker], dict[str, dict[str, Answer]]]:
     """Students with these numbers, and their answers."""
     takers = [
         Taker(Student(i, f"s{i:05d}"), {"n": exact_text(number)})
@@ -45,7 +48,8 @@ def a_class(book: Book, numbers: list[Fraction]) -> tuple[list[Taker], dict[str,
         chance = random.Random(i)
         wrong = chance.sample(sorted(key), WRONG) if i % 3 == 0 else []
         answers[taker.student.id] = {
-            f: Answer("x", v * (chance.uniform(0.3, 2) if f in wrong else 1)) for f, v in key.items()
+            f: Answer("x", v * (chance.uniform(0.3, 2) if f in wrong else 1))
+            for f, v in key.items()
         }
     return takers, answers
 

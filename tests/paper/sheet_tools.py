@@ -9,12 +9,14 @@ from functools import cache
 from math import cos, hypot, radians, sin
 from pathlib import Path
 
+import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
 from graphkin.errors import PageError
 from graphkin.handout import drawings_of, proved
 from graphkin.mechanism import Mechanism, load
+from graphkin.paper.areas import A3_AREA
 from graphkin.paper.calculation import calculation
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import Layout, lay_out
@@ -321,6 +323,11 @@ def attempt(
         return layout, error
 
 
+def kinds_of(name: str, n: int | None = None) -> tuple[str, ...]:
+    """Which sheets a scene has: some ask for nothing of accelerations."""
+    return tuple(drawing.kind for drawing in drawings(name, n))
+
+
 def drawing_of(name: str, n: int | None, kind: str, language: str = "en") -> Drawing:
     """The material of one sheet."""
     return next(drawing for drawing in drawings(name, n, language) if drawing.kind == kind)
@@ -454,6 +461,55 @@ def told(mark: Mark) -> str:
     text = f" “{mark.markup}”" if isinstance(mark, Text) else ""
     place = ", ".join(f"{value:.2f}" for value in reach(mark))
     return f"{type(mark).__name__} {mark.cls} {mark.name}{text} ({place})"
+
+
+# --- what may not be -----------------------------------------------------------------------------
+
+
+def collisions(marks: Sequence[Mark]) -> list[str]:
+    """Labels that stand on a line or an arrowhead, on another label, or on any other text.
+
+    A label takes up the box around its letters, a line its width as it is drawn.
+    """
+    inked = [mark for mark in marks if not isinstance(mark, Text) and half_width(mark)]
+    inked += [mark for mark in marks if kind_of(mark) == "arrowhead"]
+    edges = np.array([outline(mark) for mark in inked])
+    widths = np.array([half_width(mark) for mark in inked])
+    labels = labels_of(marks)
+    boxes = np.array([label.ink() for label in labels])
+    tree = shapely.STRtree(edges)
+    which, what = tree.query(boxes, predicate="dwithin", distance=widths.max())
+    close = shapely.distance(boxes[which], edges[what]) <= widths[what]
+    faults = [
+        f"{told(labels[i].text)} on {told(inked[j])}"
+        for i, j in zip(which[close], what[close], strict=True)
+        if inked[j] not in (labels[i].leader, labels[i].ring)
+    ]
+    others = [mark for mark in marks if isinstance(mark, Text)]
+    areas = np.array([shapely.box(*reach(mark)) for mark in others])
+    which, what = shapely.STRtree(areas).query(boxes, predicate="intersects")
+    faults += [
+        f"{told(labels[i].text)} on {told(others[j])}"
+        for i, j in zip(which, what, strict=True)
+        if labels[i].text is not others[j]
+    ]
+    return faults
+
+
+def outside(marks: Sequence[Mark]) -> list[str]:
+    """Marks outside of the frame, but for the frame itself and what belongs to it."""
+    free = ("frame", "border", "field")
+    return [told(m) for m in marks if kind_of(m) not in free and not within(m, A3_AREA)]
+
+
+def off_fields(page: Drawn) -> list[str]:
+    """Marks of a drawing outside of its field."""
+    return [
+        f"{field}: {told(mark)}"
+        for field, marks in page.marks.items()
+        for mark in marks
+        if not within(mark, page.rect(field))
+    ]
 
 
 # --- text ----------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from graphkin.paper.richtext import plain
 from graphkin.paper.sentences import sentences
 from graphkin.plane import Vector
 from graphkin.text import words
-from tests.examples.scenes import mechanism
+from tests.examples.scenes import mechanism, varied
 
 PLAN = 290.0
 """Right of this, in mm, lies only the plan."""
@@ -63,8 +63,8 @@ def test_a_crowded_position_is_drawn_with_every_point_named(name, setting):
 
 
 def test_names_of_vectors_without_room_are_noted():
-    sheets = hand_out(mechanism("roller", r=120), language="en")
-    page = sheets[1].pages[0]
+    small = varied("stephenson-1", ("[ask]", "[sheet]\nscale = 20\n[ask]"))
+    page = hand_out(small, language="en")[1].pages[0]
     assert "no room for the names of:" in notes(page)
     _, _, names = notes(page).partition("no room for the names of: ")
     labels = [

@@ -9,9 +9,10 @@ from matplotlib.patches import PathPatch
 
 from graphkin import load
 from graphkin.errors import SceneError
-from graphkin.handout import drawings_of, hand_out, language_of, proved, shown
+from graphkin.handout import drawings_of, hand_out, language_of, proved
 from graphkin.paper.style import BLUE, STYLES
 from graphkin.paper.svg import write_svg
+from graphkin.scaling import shown
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 

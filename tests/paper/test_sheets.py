@@ -6,7 +6,6 @@ import re
 from collections import Counter
 from math import hypot
 
-import numpy as np
 import pytest
 import shapely
 
@@ -23,46 +22,49 @@ from graphkin.scene.read import read_text
 from graphkin.steps.program import Plane
 from tests.mechanisms import SHIPPED
 from tests.paper.sheet_tools import (
-    DRAWN,
     EVERY,
     KINDS,
     OTHERS,
+    SCENES,
     Drawn,
     attempt,
     both,
     calculations,
+    collisions,
     drawing_of,
     drawn,
-    half_width,
     is_label,
     is_vector,
     kind_of,
+    kinds_of,
     labels_of,
     length_of,
     named,
+    off_fields,
     outline,
+    outside,
     texts,
     told,
     within,
 )
 
 FIELDS = ("mechanism", "plan")
-FRAME = (20.0, 10.0, 410.0, 287.0)
 HEAD = 0.45
 """Longest arrowhead, in parts of its vector."""
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
 NEAR = 6.0
 """Farthest a label without a leader stands from what it names, in mm."""
-INSIDE = 1.0
-"""Farthest a leader ends from the line it leads to: within a pin, or at a centre's cross, in mm."""
+INSIDE = 1.1
+"""Farthest a leader ends from the line it leads to, in mm: at the rim of a pin that stands on it,
+or at a centre's cross."""
 RAY = 20.0
 """How much of the ray to a centre off its field the centre's name belongs to, in mm."""
 OFF = (0.8, 1.6)
 """Farthest a leader begins from its text, or from the corner of the box around a ring, in mm."""
 
 SHEETS = [(lab, n, kind) for lab, n in EVERY for kind in KINDS]
-SHEETS += [(name, None, kind) for name in (*OTHERS, *DRAWN) for kind in KINDS]
+SHEETS += [(name, None, kind) for name in (*OTHERS, *SCENES) for kind in kinds_of(name)]
 
 
 @pytest.fixture(params=SHEETS, ids=named)
@@ -82,43 +84,12 @@ def test_every_sheet_can_be_made_or_another_scene_is_clearly_refused(which):
 
 
 def test_no_label_touches_a_line_or_another_text(page):
-    inked = [mark for mark in page.page.marks if not isinstance(mark, Text) and half_width(mark)]
-    inked += [mark for mark in page.page.marks if kind_of(mark) == "arrowhead"]
-    edges = np.array([outline(mark) for mark in inked])
-    widths = np.array([half_width(mark) for mark in inked])
-    labels = labels_of(page.page.marks)
-    boxes = np.array([label.ink() for label in labels])
-    tree = shapely.STRtree(edges)
-    which, what = tree.query(boxes, predicate="dwithin", distance=widths.max())
-    close = shapely.distance(boxes[which], edges[what]) <= widths[what]
-    faults = [
-        f"{told(labels[i].text)} on {told(inked[j])}"
-        for i, j in zip(which[close], what[close], strict=True)
-        if inked[j] not in (labels[i].leader, labels[i].ring)
-    ]
-    others = [mark for mark in page.page.marks if isinstance(mark, Text)]
-    areas = np.array([shapely.box(*reach(mark)) for mark in others])
-    which, what = shapely.STRtree(areas).query(boxes, predicate="intersects")
-    faults += [
-        f"{told(labels[i].text)} on {told(others[j])}"
-        for i, j in zip(which, what, strict=True)
-        if labels[i].text is not others[j]
-    ]
+    faults = collisions(page.page.marks)
     assert not faults, "\n".join(faults)
 
 
 def test_nothing_leaves_the_frame_or_its_field(page):
-    faults = [
-        told(mark)
-        for mark in page.page.marks
-        if kind_of(mark) not in ("frame", "border", "field") and not within(mark, FRAME)
-    ]
-    faults += [
-        f"{field}: {told(mark)}"
-        for field in FIELDS
-        for mark in page.marks[field]
-        if not within(mark, page.rect(field))
-    ]
+    faults = [*outside(page.page.marks), *off_fields(page)]
     assert not faults, "\n".join(faults)
 
 
@@ -193,7 +164,8 @@ def test_every_label_stands_by_what_it_names_or_leads_to_it(page):
                 end = shapely.Point(label.leader.x2, label.leader.y2)
                 start = shapely.Point(label.leader.x1, label.leader.y1)
                 off = OFF[label.ring is not None]
-                if end.distance(near) > INSIDE or start.distance(label.ink()) > off:
+                inside = INSIDE + RAY * is_far(page, field, label.text.name)
+                if end.distance(near) > inside or start.distance(label.ink()) > off:
                     faults.append(f"the leader of {told(label.text)} leads elsewhere")
             elif label.ink().distance(near) > NEAR + RAY * is_far(page, field, label.text.name):
                 faults.append(f"{told(label.text)} stands apart")
@@ -395,8 +367,8 @@ def test_what_is_asked_of_a_block_stands_in_a_table(name, kind):
 
 
 def test_tables_stay_above_the_title_block():
-    for name in DRAWN:
-        for kind in KINDS:
+    for name in SCENES:
+        for kind in kinds_of(name):
             marks = tables(drawing_of(name, None, kind), TABLES, empty=False)
             assert max(reach(mark)[3] for mark in marks) <= TABLES[3] + 1e-6, (name, kind)
 

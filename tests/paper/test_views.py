@@ -10,7 +10,7 @@ import pytest
 from graphkin.handout import hand_out
 from graphkin.mechanism import load
 from graphkin.paper.marks import Circle, Line
-from graphkin.paper.style import NOW, style_of
+from graphkin.paper.style import NOW, TINTS, style_of
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 SOME = ["pump", *(str(SCENES / f"{name}.toml") for name in ("rapid-return", "gears-planet"))]
@@ -86,6 +86,7 @@ def test_the_overlay_is_the_key_at_the_places_of_the_task(name):
         assert pivots <= set(over.marks)
         filled = {mark.cls for mark in over.marks if mark.cls.split()[0] in ("white", "shade")}
         assert not filled
+        assert not {mark.cls for mark in over.marks if style_of(mark.cls).fill in TINTS}
 
 
 def test_the_crosses_of_an_overlay_lie_on_the_corners_of_the_frame():

@@ -68,7 +68,7 @@ TABLE: dict[str, set[str]] = {
     "cli_print": {"printing", "paper", "console"},
     "grading": NUMERIC
     | {"pencil", "scaling", "handout", "paper", "text", "curves.style", "lab", "roster", "printing"},
-    "cli_grade": {"grading", "handout", "paper", "text", "console"},
+    "cli_grade": {"grading", "printing", "handout", "paper", "text", "console"},
     "console": set(),
     "__init__": {"mechanism"},
     "__main__": {"cli"},

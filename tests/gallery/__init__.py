@@ -1,0 +1,1 @@
+"""Contact sheets of every lab and example scene, and the pictures of the README."""
