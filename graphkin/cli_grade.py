@@ -1,0 +1,216 @@
+"""The command ``grade``: the answers of a class, marked against each student's own drawing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphkin.console import FAILED, complain
+
+if TYPE_CHECKING:
+    from graphkin.grading.answers import Answers
+    from graphkin.grading.book import Class
+    from graphkin.grading.folder import ClassFolder
+    from graphkin.text import Words
+
+KINDS = ("html", "pdf")
+MANY = 100
+"""Different variants from which several processes pay for themselves."""
+SHOWN = 10
+"""Notes of one kind that are told one by one."""
+
+
+@click.command("grade")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.argument("answers", metavar="ANSWERS", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--output",
+    "report",
+    metavar="REPORT",
+    type=click.Path(path_type=Path),
+    help="Folder to write into, made if it is missing; DIR/report by default.",
+)
+@click.option(
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language of the feedback and the report; the scene's by default.",
+)
+@click.option(
+    "--format",
+    "formats",
+    metavar="html,pdf",
+    default="html,pdf",
+    show_default=True,
+    help="Kinds of feedback page to write for each student.",
+)
+@click.option(
+    "--gradebook",
+    "gradebooks",
+    metavar="FILE",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="An export of your own from Moodle or Canvas (CSV), to be filled in. May be repeated.",
+)
+@click.option(
+    "--column", metavar="NAME", help="The column of the gradebook for the points; the empty one."
+)
+@click.option(
+    "--jobs",
+    metavar="N",
+    type=click.IntRange(1, 1024),
+    help="Processes that mark at once; by default one, all cores for more than a hundred variants.",
+)
+@click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
+@click.pass_context
+def grade(
+    context: click.Context,
+    folder: Path,
+    answers: Path,
+    report: Path | None,
+    lang: str | None,
+    formats: str,
+    gradebooks: tuple[Path, ...],
+    column: str | None,
+    jobs: int | None,
+    force: bool,
+) -> None:
+    """Mark the answers of a class: DIR is what graphkin variants wrote, ANSWERS a table.
+
+    ANSWERS is a CSV or XLSX file with a column id and one for each field of the form (v_D_mm,
+    v_D, omega_3, omega_3_sense, …), a row for each student; or a folder with a file for each.
+    Decimal comma or point; a unit may be written; a sense is ccw or cw, in three languages, or
+    + or -. An empty cell is not answered; one that cannot be read is told, not marked as wrong.
+
+    A value may be off by what a careful pencil makes of that student's own drawing (tolerances.csv
+    says how much). What is wrong by the key is held against what follows from the student's own
+    earlier values, and against slips known by name. Writes marks.csv, a feedback page for each
+    student, a report on the class, and fills in gradebooks.
+
+    \b
+    Examples:
+      graphkin grade class answers.csv -o report
+      graphkin grade class answers.xlsx -o report --gradebook moodle.csv --column "Lab 3"
+      graphkin grade class answers.csv -o report --force
+
+    \b
+    Exit status: 0; 1 when some cells cannot be read; 2 when nothing was marked.
+    """
+    from graphkin.grading.answers import read_answers
+    from graphkin.grading.book import graded_class
+    from graphkin.grading.folder import open_class
+    from graphkin.grading.report import result_lines
+
+    kinds = kinds_of(formats, context)
+    opened = open_class(folder)
+    given = read_answers(answers, opened.book.form, [t.student.id for t in opened.takers])
+    words = words_of(opened, lang)
+    found = graded_class(opened.book, opened.takers, given.of, jobs or usual_jobs(opened))
+    files = all_files(opened, found, given, words, kinds, report or folder / "report")
+    books = filled_books(gradebooks, column, found)
+    written = put(report or folder / "report", {**files, **books}, force)
+    for line in result_lines(found.result, words):
+        click.echo(line)
+    notes(given)
+    click.echo("")
+    for path in told_paths(written):
+        click.echo(path)
+    if given.unread:
+        context.exit(FAILED)
+
+
+def usual_jobs(opened: ClassFolder) -> int:
+    """As many processes as pay for themselves."""
+    from graphkin.printing.engine import cores
+
+    variants = {tuple(sorted(taker.settings.items())) for taker in opened.takers}
+    return cores() if len(variants) > MANY else 1
+
+
+def kinds_of(text: str, context: click.Context) -> tuple[str, ...]:
+    """The kinds of feedback page named with commas between them; none at all is allowed."""
+    kinds = tuple(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
+    wrong = [kind for kind in kinds if kind not in (*KINDS, "none")]
+    if wrong:
+        known = f"{', '.join(KINDS)} or none"
+        raise click.UsageError(f"--format: {', '.join(wrong)} is not {known}", context)
+    return kinds
+
+
+def words_of(opened: ClassFolder, lang: str | None) -> Words:
+    """The words of the pages."""
+    from graphkin.handout import language_of
+
+    return language_of(opened.book.mechanism({}), lang)
+
+
+def all_files(
+    opened: ClassFolder,
+    found: Class,
+    given: Answers,
+    words: Words,
+    kinds: tuple[str, ...],
+    report: Path,
+) -> dict[str, bytes]:
+    """The files of the report; with what changed since the marks that are there."""
+    from graphkin.grading.outputs import MARKS, Told, report_files
+
+    scene = opened.book.mechanism({}).scene
+    title = scene.titles.get(words.language, scene.title)
+    before = report / MARKS
+    earlier = before.read_bytes() if before.is_file() else b""
+    told = Told(title, words, given.unread)
+    return report_files(found, opened.edition.lab, told, kinds, earlier)
+
+
+def filled_books(
+    gradebooks: tuple[Path, ...], column: str | None, found: Class
+) -> dict[str, bytes]:
+    """The gradebooks with the points in them."""
+    from graphkin.grading.gradebook import filled, read_gradebook
+    from graphkin.grading.outputs import gradebook_name, points_by_id
+
+    files: dict[str, bytes] = {}
+    for path in gradebooks:
+        book = filled(read_gradebook(path), points_by_id(found), column)
+        files[gradebook_name(path)] = book.data
+        click.echo(f'{path.name}: {book.count} points in column "{book.column}"')
+        for who in book.absent[:SHOWN]:
+            complain(f"{path.name}: {who} is not in it")
+    return files
+
+
+def put(folder: Path, files: dict[str, bytes], force: bool) -> list[Path]:
+    """Write all files, or none."""
+    from graphkin.grading.outputs import FEEDBACK
+    from graphkin.paper.files import write_all
+
+    if any(name.startswith(f"{FEEDBACK}/") for name in files) and not folder.is_file():
+        (folder / FEEDBACK).mkdir(parents=True, exist_ok=True)
+    return write_all(folder, files, force)
+
+
+def told_paths(written: list[Path]) -> list[str]:
+    """The files that were written; feedback pages by their folder and number."""
+    from graphkin.grading.outputs import FEEDBACK
+
+    pages = [path for path in written if path.parent.name == FEEDBACK]
+    lines = [str(path) for path in written if path.parent.name != FEEDBACK]
+    return [*lines, f"{pages[0].parent}: {len(pages)} pages"] if pages else lines
+
+
+def notes(given: Answers) -> None:
+    """What is told of the answers: cells that cannot be read, columns that are no fields."""
+    for every in (given.strangers, [f"no answers to {name}" for name in given.missing]):
+        tell_some(list(dict.fromkeys(every)))
+    tell_some([str(problem) for problem in given.unread])
+
+
+def tell_some(lines: list[str]) -> None:
+    """Tell some notes, and how many more there are."""
+    for line in lines[:SHOWN]:
+        complain(line)
+    if len(lines) > SHOWN:
+        complain(f"and {len(lines) - SHOWN} more of this kind; class.html has all of them")

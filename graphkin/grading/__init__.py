@@ -1,0 +1,1 @@
+"""Answers held against each student's own drawing: tolerances, follow-through, slips, reports."""

@@ -1,0 +1,133 @@
+"""A whole class: each student marked against the own variant, then all looked at together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+
+from graphkin.grading.evidence import copies, wrong_variants
+from graphkin.grading.marking import Marker
+from graphkin.grading.model import Answer, Graded, Result, Taker
+from graphkin.grading.standard import Expectation, standard
+from graphkin.lab.items import items
+from graphkin.lab.model import Item, Lab
+from graphkin.mechanism import Mechanism
+from graphkin.printing.engine import chunks, engine
+from graphkin.scene.read import read_text
+
+Settings = tuple[tuple[str, str], ...]
+Given = Mapping[str, Answer]
+KEPT = 64
+"""Variants whose constructions are held at once; in a class by a formula there are few."""
+
+
+@dataclass
+class Book:
+    """The variants of a lab, each constructed once while it is asked for again."""
+
+    lab: Lab
+    scene: str
+    markers: dict[Settings, Marker] = field(default_factory=dict)
+    expected: dict[Settings, Expectation] = field(default_factory=dict)
+
+    @cached_property
+    def form(self) -> tuple[Item, ...]:
+        """The fields of the form, the same for all."""
+        return items(self.mechanism({}), self.lab)
+
+    def mechanism(self, settings: Mapping[str, str]) -> Mechanism:
+        """The mechanism of a variant."""
+        return Mechanism(read_text(self.scene, self.lab.name, settings=dict(settings)))
+
+    def marker(self, settings: Mapping[str, str]) -> Marker:
+        """What marks the answers to a variant."""
+        name = tuple(sorted(settings.items()))
+        if name not in self.markers:
+            if len(self.markers) >= KEPT:
+                del self.markers[next(iter(self.markers))]
+            found = standard(self.mechanism(settings), self.form, self.lab.rubric)
+            self.markers[name] = Marker(found)
+        return self.markers[name]
+
+    def expectation(self, settings: Mapping[str, str]) -> Expectation:
+        """What is expected of a variant; one record for all who have it."""
+        name = tuple(sorted(settings.items()))
+        if name not in self.expected:
+            self.expected[name] = self.marker(settings).standard.expectation
+        return self.expected[name]
+
+    def mark(self, taker: Taker, answers: Given | None) -> tuple[Graded, Expectation]:
+        """The marks of one student, without answers none, and what was expected."""
+        marker = self.marker(taker.settings)
+        graded = marker.mark(taker, answers or {}, answers is not None)
+        return graded, self.expectation(taker.settings)
+
+
+@dataclass(frozen=True)
+class Class:
+    """A class that is marked: its result, and what was expected of each student."""
+
+    result: Result
+    expected: tuple[Expectation, ...]
+
+
+def graded_class(
+    book: Book,
+    takers: Iterable[Taker],
+    answers: Mapping[str, Given],
+    jobs: int = 1,
+) -> Class:
+    """The marks of a whole class, by the ids of its students, with what only a class can tell."""
+    every = [(taker, answers.get(taker.student.id)) for taker in takers]
+    order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
+    marked = spread(book, [every[i] for i in order], jobs)
+    found = [each for _, each in sorted(zip(order, marked, strict=True), key=lambda pair: pair[0])]
+    graded = [each for each, _ in found]
+    expected = shared(found)
+    here = [i for i, each in enumerate(graded) if each.present]
+    present, forms = [graded[i] for i in here], [expected[i] for i in here]
+    result = Result(
+        tuple(graded), wrong_variants(present, forms), copies(present), unsure(graded, expected)
+    )
+    return Class(result, tuple(expected))
+
+
+def spread(
+    book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int
+) -> list[tuple[Graded, Expectation]]:
+    """The marks of students, those of one variant beside one another, by some processes."""
+    if jobs == 1:
+        return mark_all(book, every)
+    work = partial(mark_all, replace(book, markers={}, expected={}))
+    found: list[tuple[Graded, Expectation]] = []
+    with engine(jobs) as (pool, workers):
+        parts = chunks(every, workers)
+        for part in pool.map(work, parts) if pool is not None else map(work, parts):
+            found += part
+    return found
+
+
+def mark_all(
+    book: Book, every: Sequence[tuple[Taker, Given | None]]
+) -> list[tuple[Graded, Expectation]]:
+    """The marks of some students."""
+    return [book.mark(*each) for each in every]
+
+
+def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:
+    """What is expected of each student; one record for all of the same variant."""
+    known: dict[Settings, Expectation] = {}
+    return [
+        known.setdefault(tuple(sorted(graded.taker.settings.items())), expected)
+        for graded, expected in found
+    ]
+
+
+def unsure(graded: Sequence[Graded], expected: Sequence[Expectation]) -> dict[str, tuple[str, ...]]:
+    """The fields of each student's variant that hardly any drawing tells."""
+    found = {
+        each.taker.student.id: tuple(f for f, t in form.tolerance.items() if t.unsure)
+        for each, form in zip(graded, expected, strict=True)
+    }
+    return {who: fields for who, fields in found.items() if fields}

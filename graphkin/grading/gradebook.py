@@ -1,0 +1,226 @@
+"""The lecturer's own gradebook export, filled in: Moodle's, Canvas's, or any other table.
+
+Nothing is written anew: every cell but those of the marks keeps its very characters, quotes,
+separators and ends of lines included, so that order, language, ids and unknown columns stay.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+from graphkin.errors import GraphkinError, Problem
+from graphkin.roster.tables import SEPARATORS, bytes_of, folded
+
+POSSIBLE = "Points Possible"
+"""What Canvas writes, after four blanks, in the row below its head."""
+COMMA = re.compile(r"[0-9]+,[0-9]+")
+POINT = re.compile(r"[0-9]+\.[0-9]+")
+BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
+
+
+class GradebookError(GraphkinError):
+    """A gradebook that cannot be filled in."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """The characters of a cell as they stand in the file, and the text that they mean."""
+
+    raw: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Gradebook:
+    """An export: its rows of cells, each with the end of its line."""
+
+    name: str
+    rows: tuple[tuple[Cell, ...], ...]
+    ends: tuple[str, ...]
+    separator: str
+    coding: str
+    bom: bytes
+
+
+@dataclass(frozen=True)
+class Filled:
+    """A gradebook with marks in it: its bytes, how many, and who of the class is not in it."""
+
+    data: bytes
+    column: str
+    count: int
+    absent: tuple[str, ...]
+
+
+def read_gradebook(path: Path) -> Gradebook:
+    """An export as it stands. Raises GradebookError where it is no table."""
+    data = bytes_of(path)
+    if data.startswith(b"PK\x03\x04"):
+        hint = "export it as CSV, or save it as CSV UTF-8"
+        raise GradebookError(Problem(path.name, "is a spreadsheet file", "a CSV file", hint))
+    bom = next((mark for mark in BOMS if data.startswith(mark)), b"")
+    coding = BOMS.get(bom, "utf-8").removesuffix("-sig")
+    try:
+        text = data[len(bom) :].decode(coding)
+    except UnicodeDecodeError:
+        text, coding = data.decode("cp1250", "surrogateescape"), "cp1250"
+    first = text.partition("\n")[0]
+    separator = max(
+        SEPARATORS,
+        key=lambda sign: (len(next(csv.reader([first], delimiter=sign), [])), sign == ","),
+    )
+    rows, ends = split(text, separator, path.name)
+    if len(rows) < 2:
+        raise GradebookError(Problem(path.name, "has no row below its head", "a gradebook"))
+    return Gradebook(path.name, rows, ends, separator, coding, bom)
+
+
+def split(
+    text: str, separator: str, name: str
+) -> tuple[tuple[tuple[Cell, ...], ...], tuple[str, ...]]:
+    """The rows of cells of a text with their line ends; quotes and blanks stay as they are."""
+    rows: list[tuple[Cell, ...]] = []
+    ends: list[str] = []
+    row: list[Cell] = []
+    start = at = 0
+    quoted = False
+    while at < len(text):
+        sign = text[at]
+        if sign == '"' and (quoted or not text[start:at].strip()):
+            quoted = not quoted
+        elif not quoted and sign == separator:
+            row.append(cell(text[start:at]))
+            start = at + 1
+        elif not quoted and sign in "\r\n":
+            end = "\r\n" if text[at : at + 2] == "\r\n" else sign
+            rows.append((*row, cell(text[start:at])))
+            ends.append(end)
+            row, at = [], at + len(end) - 1
+            start = at + 1
+        at += 1
+    if quoted:
+        found = "a quote that is opened and never closed"
+        raise GradebookError(Problem(f"{name}, row {len(rows) + 1}", found, 'a closing "'))
+    if row or start < len(text):
+        rows.append((*row, cell(text[start:])))
+        ends.append("")
+    return tuple(rows), tuple(ends)
+
+
+def cell(raw: str) -> Cell:
+    """A cell from its characters."""
+    bare = raw.strip()
+    if len(bare) >= 2 and bare[0] == bare[-1] == '"':
+        return Cell(raw, bare[1:-1].replace('""', '"').strip())
+    return Cell(raw, bare)
+
+
+def filled(book: Gradebook, marks: Mapping[str, Fraction], column: str | None = None) -> Filled:
+    """The gradebook with the marks in a column, students found by whatever column has their ids.
+
+    Raises GradebookError where that cannot be told.
+    """
+    head = [each.text for each in book.rows[0]]
+    where = id_column(book, marks)
+    target = mark_column(book, head, column)
+    comma = writes_comma(book, target)
+    rows = list(book.rows)
+    met: set[str] = set()
+    twice: list[Problem] = []
+    for line, row in enumerate(book.rows[1:], 1):
+        who = key_of(row, where, marks)
+        if who is None or is_possible(row):
+            continue
+        if who in met:
+            twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
+        met.add(who)
+        rows[line] = with_mark(row, target, mark_text(marks[who], comma), book.separator)
+    if twice:
+        raise GradebookError(twice)
+    text = "".join(
+        book.separator.join(each.raw for each in row) + end
+        for row, end in zip(rows, book.ends, strict=True)
+    )
+    data = book.bom + text.encode(
+        book.coding, "surrogateescape" if book.coding == "cp1250" else "strict"
+    )
+    absent = tuple(who for who in marks if who not in met)
+    return Filled(data, head[target], len(met), absent)
+
+
+def key_of(row: Sequence[Cell], where: int, marks: Mapping[str, Fraction]) -> str | None:
+    """The student of a row; None for one of another class."""
+    text = row[where].text if where < len(row) else ""
+    return text if text in marks else None
+
+
+def is_possible(row: Sequence[Cell]) -> bool:
+    """Whether a row is the one in which Canvas holds the points of each assignment."""
+    return any(each.text == POSSIBLE for each in row[:1])
+
+
+def id_column(book: Gradebook, marks: Mapping[str, Fraction]) -> int:
+    """The column in which most cells are ids of the class, in whatever language it is named."""
+    width = len(book.rows[0])
+    counts = [sum(key_of(row, i, marks) is not None for row in book.rows[1:]) for i in range(width)]
+    best = max(range(width), key=lambda i: counts[i])
+    if not counts[best]:
+        hint = "the ids of the class list must be those of one of its columns"
+        raise GradebookError(Problem(book.name, "no column holds ids of this class", "", hint))
+    return best
+
+
+def mark_column(book: Gradebook, head: Sequence[str], column: str | None) -> int:
+    """The column for the marks: the one that is named, else the only empty one but feedback."""
+    if column is not None:
+        found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
+        found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
+    else:
+        found = [i for i in range(len(head)) if is_open(book, i)]
+    if len(found) != 1:
+        words = (
+            f'"{column}" is {"several columns" if found else "no column"}'
+            if column
+            else (f"{len(found)} columns are empty")
+        )
+        names = ", ".join(f'"{text}"' for text in head)
+        raise GradebookError(
+            Problem(book.name, words, f"one of {names}", "name the column with --column")
+        )
+    return found[0]
+
+
+def is_open(book: Gradebook, column: int) -> bool:
+    """Whether no student has a mark in a column, and it is none for comments."""
+    name = book.rows[0][column].text.casefold()
+    if name.startswith(("feedback", "commenti", "comentarii")):
+        return False
+    rows = [row for row in book.rows[1:] if not is_possible(row)]
+    return all(column >= len(row) or row[column].text in ("", "-") for row in rows)
+
+
+def writes_comma(book: Gradebook, target: int) -> bool:
+    """Whether a gradebook writes decimals with a comma: as its other numbers do."""
+    texts = [each.text for row in book.rows[1:] for i, each in enumerate(row) if i != target]
+    commas = sum(COMMA.fullmatch(text) is not None for text in texts)
+    points = sum(POINT.fullmatch(text) is not None for text in texts)
+    return commas > points or (commas == points and book.separator == ";")
+
+
+def mark_text(mark: Fraction, comma: bool) -> str:
+    """A mark with two places at most."""
+    text = f"{float(mark):.2f}".rstrip("0").rstrip(".")
+    return text.replace(".", ",") if comma else text
+
+
+def with_mark(row: tuple[Cell, ...], column: int, text: str, separator: str) -> tuple[Cell, ...]:
+    """A row with a mark in a column, quoted where its neighbours of that column are or must be."""
+    cells = list(row) + [Cell("", "")] * (column + 1 - len(row))
+    quoted = cells[column].raw.strip().startswith('"') or separator in text
+    cells[column] = Cell(f'"{text}"' if quoted else text, text)
+    return tuple(cells)

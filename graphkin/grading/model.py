@@ -1,0 +1,139 @@
+"""What marking is about, as plain records: answers as they were read, and what they earned."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+
+from graphkin.lab.model import Item
+from graphkin.roster.model import Student
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """One cell of an answer table: its ``text`` and the number that it states, in the field's unit.
+
+    A sense is +1 or -1, counter-clockwise or along the guide positive. ``signed`` tells that a
+    sign was written; ``problem`` says why a cell cannot be read, which is not the same as wrong.
+    """
+
+    text: str
+    value: float | None = None
+    signed: bool = False
+    problem: str = ""
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing was answered."""
+        return not self.text.strip()
+
+    @property
+    def is_read(self) -> bool:
+        """Whether there is a value."""
+        return self.value is not None
+
+
+BLANK = Answer("")
+
+
+class Status(Enum):
+    """What an answer was found to be."""
+
+    RIGHT = "right"
+    FOLLOWS = "follows"
+    SLIP = "slip"
+    WRONG = "wrong"
+    BLANK = "blank"
+    UNREADABLE = "unreadable"
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """What one field earned, of ``points``, and why.
+
+    ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
+    field's unit; ``source`` is the field from whose own value the answer follows, ``slip`` the
+    name of the mistake that gives it, ``odds`` how much better that explains it than chance.
+    """
+
+    item: Item
+    answer: Answer
+    status: Status
+    points: Fraction
+    earned: Fraction
+    expected: float
+    tolerance: float
+    source: str = ""
+    slip: str = ""
+    odds: float = 0.0
+
+    @property
+    def off(self) -> float | None:
+        """How far the answer lies from the key's; None where there is none."""
+        if self.answer.value is None:
+            return None
+        if self.item.what in ("segment", "value"):
+            return abs(self.answer.value) - abs(self.expected)
+        return self.answer.value - self.expected
+
+
+@dataclass(frozen=True, slots=True)
+class Taker:
+    """A student who takes part: the parameters of the own variant, exact and as written.
+
+    ``compute`` are fields too small to be measured, which were to be computed; ``code`` is the
+    opaque name on the sheets.
+    """
+
+    student: Student
+    settings: Mapping[str, str]
+    code: str = ""
+    compute: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Graded:
+    """A student with the mark of each field, in the order of the form."""
+
+    taker: Taker
+    marks: tuple[Mark, ...]
+    present: bool = True
+
+    @property
+    def earned(self) -> Fraction:
+        """The sum of what was earned."""
+        return sum((mark.earned for mark in self.marks), Fraction())
+
+    @property
+    def points(self) -> Fraction:
+        """The most that could be earned."""
+        return sum((mark.points for mark in self.marks), Fraction())
+
+    def mark(self, name: str) -> Mark:
+        """The mark of a field."""
+        return next(mark for mark in self.marks if mark.item.field == name)
+
+
+@dataclass(frozen=True, slots=True)
+class Suspicion:
+    """Evidence for the lecturer: answers that fit another's data, or were handed in twice.
+
+    ``students`` are ids; ``fields`` what fits, ``odds`` how much better than chance.
+    """
+
+    students: tuple[str, ...]
+    fields: tuple[str, ...]
+    odds: float
+    of: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A whole class, marked; ``unsure`` are fields that no drawing of a student's variant tells."""
+
+    graded: tuple[Graded, ...]
+    wrong_variants: tuple[Suspicion, ...] = ()
+    copies: tuple[Suspicion, ...] = ()
+    unsure: Mapping[str, tuple[str, ...]] = field(default_factory=dict)

@@ -1,0 +1,103 @@
+"""Numbers and senses as students write them: read strictly, or told to be unreadable."""
+
+from __future__ import annotations
+
+import re
+from math import isfinite, pi
+
+from graphkin.grading.model import BLANK, Answer
+from graphkin.lab.model import Item
+
+NUMBER = re.compile(
+    r"(?P<sign>[+\-\u2212]?)(?P<digits>[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)"
+    r"(?:(?:[eE]|\s?[*x×·]\s?10\s?\^\s?)(?P<power>[+-]?[0-9]{1,3}))?"
+)
+"""A number in ASCII digits, with a point or a comma, perhaps with a power of ten."""
+LONGEST = 60
+"""Characters of an answer; a longer one is no number."""
+UNITS: dict[str, dict[str, float]] = {
+    "mm": {"mm": 1, "cm": 10, "m": 1000, "in": 25.4},
+    "m": {"m": 1, "cm": 0.01, "mm": 0.001, "in": 0.0254},
+    "m/s": {"m/s": 1, "cm/s": 0.01, "mm/s": 0.001, "in/s": 0.0254, "ms-1": 1},
+    "m/s²": {"m/s2": 1, "cm/s2": 0.01, "mm/s2": 0.001, "in/s2": 0.0254, "ms-2": 1},
+    "rad/s": {
+        "rad/s": 1,
+        "1/s": 1,
+        "s-1": 1,
+        "rads-1": 1,
+        "deg/s": pi / 180,
+        "°/s": pi / 180,
+        "rev/min": pi / 30,
+        "rot/min": pi / 30,
+        "giri/min": pi / 30,
+        "rpm": pi / 30,
+    },
+    "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
+}
+"""What units stand for in the unit of the field."""
+SENSES = {
+    +1: "+ +1 1 ccw counter-clockwise counterclockwise anticlockwise anti-clockwise left forward"
+    " trigonometric antiorar antiorario levogiro antiorara inainte sinistrorso avanti away ↺",
+    -1: "- -1 −1 − cw clockwise right backward orar orario destrogiro orara inapoi indietro"
+    " towards antitrigonometric ↻",
+}
+"""Words for a sense, without diacritics: counter-clockwise and along a guide are positive."""
+SENSE_OF = {word: sign for sign, words in SENSES.items() for word in words.split()}
+
+
+def read_answer(text: str, item: Item) -> Answer:
+    """The answer that a cell states to a field: blank, a value in its unit, or unreadable."""
+    stripped = text.strip()
+    if not stripped:
+        return BLANK
+    if item.what == "sense":
+        return read_sense(text, stripped)
+    return read_number(text, stripped, item.unit)
+
+
+def read_sense(text: str, stripped: str) -> Answer:
+    """A sense by sign or by word, in any of the languages."""
+    import unicodedata
+
+    spread = unicodedata.normalize("NFD", stripped.casefold())
+    word = "".join(sign for sign in spread if not unicodedata.combining(sign))
+    word = re.sub(r"\s*-\s*|\s+", "-", word) if len(word) > 1 else word
+    known = SENSE_OF.get(word, SENSE_OF.get(word.replace("-", "")))
+    if known is None:
+        return Answer(text, problem=f'"{shown(stripped)}" is no sense: ccw, cw, + or -')
+    return Answer(text, float(known), signed=True)
+
+
+def read_number(text: str, stripped: str, unit: str) -> Answer:
+    """A number with a decimal point or comma, and its unit where one is written."""
+    found = NUMBER.match(stripped) if len(stripped) <= LONGEST else None
+    if found is None:
+        return Answer(text, problem=f'"{shown(stripped)}" is not a number')
+    written = plain_unit(stripped[found.end() :])
+    known = UNITS.get(unit, {unit: 1.0})
+    factor = 1.0 if not written else known.get(written)
+    if factor is None:
+        units = ", ".join(known) or "none"
+        if written[0] in ".,_'" or written[0].isdigit():
+            return Answer(text, problem=f'"{shown(stripped)}" is not a number')
+        what = f'"{shown(written)}" is not a unit of this field: {units}'
+        return Answer(text, problem=what)
+    digits = found["digits"].replace(",", ".")
+    value = float(f"{digits}e{found['power'] or 0}") * factor
+    if not isfinite(value):
+        return Answer(text, problem=f'"{shown(stripped)}" is too large for a number')
+    sign = found["sign"]
+    return Answer(text, value if sign in ("", "+") else -value, signed=bool(sign))
+
+
+def plain_unit(text: str) -> str:
+    """A unit without blanks, brackets and signs of a power."""
+    return (
+        re.sub(r"[\s()\[\]^*·]", "", text).replace("²", "2").replace("⁻¹", "-1").replace("−", "-")
+    )
+
+
+def shown(text: str) -> str:
+    """A cell in a message: short, and without signs that steer a terminal."""
+    clean = "".join(sign if sign.isprintable() else "?" for sign in text)
+    return clean if len(clean) <= 30 else clean[:29] + "…"

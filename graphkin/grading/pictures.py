@@ -1,0 +1,138 @@
+"""The pictures of the class report: how hard each field was, frequent slips, points of all."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from graphkin.curves.style import INK, look, written
+from graphkin.grading.model import Graded, Mark, Status
+from graphkin.grading.rows import SLIPS
+from graphkin.paper.richtext import plain
+from graphkin.text import Words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FILLS = {
+    Status.RIGHT: ("class.right", "#2b8a5b", ""),
+    Status.FOLLOWS: ("class.follows", "#9bc8ae", ""),
+    Status.SLIP: ("class.slip", "#e0b04c", "//"),
+    Status.WRONG: ("class.wrong", "#c8501e", ""),
+    Status.UNREADABLE: ("class.unreadable", "#8a4fa3", "xx"),
+    Status.BLANK: ("class.blank", "#dfe5ea", ""),
+}
+"""Words, colour and hatching of each status; told apart in grey too."""
+WIDTH = 7.2
+BARS = 10
+"""Classes of points, in percent."""
+MOST = 12
+"""Slips that are shown."""
+SHORT = 64
+"""Signs of a slip's sentence under its bar."""
+
+
+def pictures(graded: Sequence[Graded], words: Words, kind: str) -> dict[str, bytes]:
+    """Each picture by its name, as svg or png; the same bytes for the same marks."""
+    present = [each for each in graded if each.present]
+    found: dict[str, bytes] = {}
+    with look():
+        if present:
+            found["difficulty"] = written(difficulty(present, words), kind)
+            found["distribution"] = written(distribution(present, words), kind)
+        if slip_counts(present):
+            found["slips"] = written(frequent(present, words), kind)
+    return found
+
+
+def figure(height: float) -> tuple[Figure, Any]:
+    """A figure with one field."""
+    from matplotlib.figure import Figure
+
+    drawn = Figure(figsize=(WIDTH, height), layout="constrained")
+    return drawn, drawn.add_subplot()
+
+
+def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
+    """For each field how many answers were right, followed, slipped, wrong, or missing."""
+    found: dict[str, list[Mark]] = {}
+    for each in graded:
+        for mark in worth(each):
+            found.setdefault(mark.item.field, []).append(mark)
+    columns = list(found.values())
+    drawn, ax = figure(1.1 + 0.26 * len(columns))
+    left = [0.0] * len(columns)
+    for status, (key, colour, hatch) in FILLS.items():
+        parts = [100 * sum(m.status is status for m in column) / len(column) for column in columns]
+        if any(parts):
+            ax.barh(
+                range(len(columns)),
+                parts,
+                left=left,
+                height=0.72,
+                color=colour,
+                hatch=hatch,
+                edgecolor="white",
+                linewidth=0.6,
+                label=words(key),
+            )
+        left = [a + b for a, b in zip(left, parts, strict=True)]
+    ax.set_yticks(range(len(columns)), [column[0].item.field for column in columns])
+    ax.invert_yaxis()
+    ax.set_xlim(0, 100)
+    ax.set_xlabel(words("class.share_axis"))
+    ax.grid(axis="y", visible=False)
+    drawn.legend(loc="outside upper center", ncols=3)
+    return drawn
+
+
+def worth(graded: Graded) -> list[Mark]:
+    """The marks of the fields that earn points."""
+    return [mark for mark in graded.marks if mark.points]
+
+
+def distribution(graded: Sequence[Graded], words: Words) -> Figure:
+    """How many students reached how many points, in percent."""
+    shares = [float(100 * each.earned / each.points) if each.points else 0.0 for each in graded]
+    drawn, ax = figure(2.6)
+    edges = [i * 100 / BARS for i in range(BARS + 1)]
+    ax.hist(shares, bins=edges, color="#1f5fa8", edgecolor="white", linewidth=0.8)
+    ax.set_xlim(0, 100)
+    ax.set_xticks(edges)
+    ax.yaxis.get_major_locator().set_params(integer=True)
+    ax.set_xlabel(words("class.percent_axis"))
+    ax.set_ylabel(words("class.count_axis"))
+    ax.grid(axis="x", visible=False)
+    return drawn
+
+
+def slip_counts(graded: Sequence[Graded]) -> list[tuple[str, int, int]]:
+    """Each slip with the answers and the students that it explains, the commonest first."""
+    answers: Counter[str] = Counter()
+    students: Counter[str] = Counter()
+    for each in graded:
+        names = [mark.slip for mark in each.marks if mark.slip and mark.points]
+        answers.update(names)
+        students.update(set(names))
+    order = sorted(students, key=lambda name: (-students[name], -answers[name], name))
+    return [(name, answers[name], students[name]) for name in order]
+
+
+def frequent(graded: Sequence[Graded], words: Words) -> Figure:
+    """How many students made each slip."""
+    counts = slip_counts(graded)[:MOST]
+    drawn, ax = figure(0.9 + 0.4 * len(counts))
+    ax.barh(range(len(counts)), [c[2] for c in counts], height=0.5, color="#e0b04c")
+    for i, (name, _, students) in enumerate(counts):
+        text = plain(words(SLIPS[name]))
+        text = text if len(text) <= SHORT else text[: SHORT - 1] + "…"
+        ax.text(0, i - 0.34, text, fontsize=7.5, va="bottom", color=INK)
+        ax.text(students, i, f" {students}", va="center", fontsize=8)
+    ax.set_yticks([])
+    ax.set_ylim(len(counts) - 0.5, -0.8)
+    ax.set_xlim(0, max(c[2] for c in counts) * 1.08)
+    ax.xaxis.get_major_locator().set_params(integer=True)
+    ax.set_xlabel(words("class.count_axis"))
+    ax.grid(axis="y", visible=False)
+    return drawn

@@ -1,0 +1,157 @@
+"""The report on a class for its lecturer: points, difficulty, slips, evidence; one file."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+from statistics import mean, median
+
+from graphkin.errors import Problem
+from graphkin.grading.html import marked_up, page
+from graphkin.grading.model import Graded, Result, Suspicion
+from graphkin.grading.pictures import pictures, slip_counts
+from graphkin.grading.rows import SLIPS
+from graphkin.text import Words
+
+NAMED = 5
+"""Students that are named of many with the same data."""
+
+
+def class_report(result: Result, title: str, unread: Sequence[Problem], words: Words) -> str:
+    """The report as a page for a browser, its pictures within."""
+    pngs = pictures(result.graded, words, "png")
+    body = [f"<h1>{escape(words('class.title'))}</h1>", f"<p>{escape(title)}</p>"]
+    body.append(f'<p class="total">{escape(summary(result.graded, words))}</p>')
+    for name, key in (("distribution", "class.distribution"), ("difficulty", "class.difficulty")):
+        if name in pngs:
+            body += [f"<h2>{escape(words(key))}</h2>", picture(pngs[name], words(key))]
+    body += slips_section(result.graded, pngs, words)
+    body += evidence_sections(result, words)
+    body += lines_section(words("class.unread"), unread_lines(unread))
+    body += lines_section(words("class.unsure"), unsure_lines(result, words))
+    return page(f"{title} – {words('class.title')}", words.language, body)
+
+
+def summary(graded: Sequence[Graded], words: Words) -> str:
+    """How many handed in, and how they did."""
+    shares = [float(100 * g.earned / g.points) for g in graded if g.present and g.points]
+    amounts = {
+        name: words.fixed(found(shares), 1) if shares else "–"
+        for name, found in (("mean", mean), ("median", median))
+    }
+    present = sum(each.present for each in graded)
+    return words("class.summary", present=present, all=len(graded), **amounts)
+
+
+def picture(png: bytes, text: str) -> str:
+    """A picture within the page."""
+    data = b64encode(png).decode("ascii")
+    return f'<img alt="{escape(text)}" src="data:image/png;base64,{data}">'
+
+
+def slips_section(graded: Sequence[Graded], pngs: dict[str, bytes], words: Words) -> Iterator[str]:
+    """The frequent slips, drawn and in a table."""
+    yield f"<h2>{escape(words('class.frequent'))}</h2>"
+    counts = slip_counts([each for each in graded if each.present])
+    if not counts:
+        yield f"<p>{escape(words('class.none'))}</p>"
+        return
+    if "slips" in pngs:
+        yield picture(pngs["slips"], words("class.frequent"))
+    heads = "".join(
+        f"<th>{escape(words(key))}</th>"
+        for key in ("class.slip_name", "class.students", "class.times")
+    )
+    yield f"<table><tr>{heads}</tr>"
+    for name, answers, students in counts:
+        yield (
+            f"<tr><td>{marked_up(words(SLIPS[name]))}</td>"
+            f'<td class="n">{students}</td><td class="n">{answers}</td></tr>'
+        )
+    yield "</table>"
+
+
+def evidence_sections(result: Result, words: Words) -> Iterator[str]:
+    """Wrong variants and copies; nothing where there is no evidence."""
+    names = {each.taker.student.id: name_of(each) for each in result.graded}
+    if result.wrong_variants or result.copies:
+        yield f'<p class="small">{escape(words("class.evidence"))}</p>'
+    yield from lines_section(
+        words("class.wrong_variant"),
+        (wrong_variant_words(each, names, words) for each in result.wrong_variants),
+    )
+    yield from lines_section(
+        words("class.copies"), (copies_words(each, names, words) for each in result.copies)
+    )
+
+
+def name_of(graded: Graded) -> str:
+    """A student by name and id."""
+    student = graded.taker.student
+    return f"{student.name} ({student.id})" if student.name else student.id
+
+
+def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
+    """A wrong variant in a sentence."""
+    who, *others = found.students
+    return words(
+        "class.wrong_variant_row",
+        who=names[who],
+        count=len(found.fields),
+        all=found.of,
+        other=some([names[each] for each in others], words),
+        odds=odds_words(found.odds, words),
+    )
+
+
+def copies_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
+    """A copied set in a sentence."""
+    return words(
+        "class.copies_row",
+        who=some([names[each] for each in found.students], words),
+        fields=", ".join(found.fields),
+        odds=odds_words(found.odds, words),
+    )
+
+
+def some(names: Sequence[str], words: Words) -> str:
+    """Some names, and how many more."""
+    more = len(names) - NAMED
+    rest = words("class.more", count=more) if more > 0 else ""
+    return words("list_mark").join(names[:NAMED]) + rest
+
+
+def odds_words(odds: float, words: Words) -> str:
+    """Odds with the one digit that they are worth."""
+    return words.significant(min(odds, 1e30), 1)
+
+
+def unread_lines(unread: Iterable[Problem]) -> Iterator[str]:
+    """The cells that cannot be read."""
+    for problem in unread:
+        yield str(problem)
+
+
+def unsure_lines(result: Result, words: Words) -> Iterator[str]:
+    """The fields of each student that hardly a drawing tells."""
+    names = {each.taker.student.id: name_of(each) for each in result.graded}
+    for who, fields in result.unsure.items():
+        yield words("class.unsure_row", who=names[who], fields=", ".join(fields))
+
+
+def lines_section(title: str, lines: Iterable[str]) -> Iterator[str]:
+    """A list under a heading; nothing where it is empty."""
+    items = [f"<li>{escape(line)}</li>" for line in lines]
+    if items:
+        yield from (f"<h2>{escape(title)}</h2>", "<ul>", *items, "</ul>")
+
+
+def result_lines(result: Result, words: Words) -> Iterator[str]:
+    """What a terminal shows: how the class did, and evidence."""
+    yield summary(result.graded, words)
+    names = {each.taker.student.id: name_of(each) for each in result.graded}
+    for each in result.wrong_variants:
+        yield wrong_variant_words(each, names, words)
+    for each in result.copies:
+        yield copies_words(each, names, words)

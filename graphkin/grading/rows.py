@@ -1,0 +1,187 @@
+"""What a student is told of each field, as markup: the answer, what was expected, how far, why."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isnan
+
+from graphkin.errors import PageError
+from graphkin.grading.model import Graded, Mark, Status
+from graphkin.grading.numbers import shown
+from graphkin.paper.glyphs import advance
+from graphkin.paper.richtext import escape
+from graphkin.text import Words
+
+COLUMNS = ("quantity", "yours", "expected", "allowed", "off", "earned")
+HEADS = {
+    "quantity": "feedback.quantity",
+    "yours": "feedback.yours",
+    "expected": "feedback.expected",
+    "allowed": "feedback.allowed",
+    "off": "feedback.off",
+    "earned": "feedback.earned",
+}
+SLIPS = {
+    "rpm_as_rad": "feedback.slip_rpm_as_rad",
+    "turns_as_rad": "feedback.slip_turns_as_rad",
+    "rad_as_rpm": "feedback.slip_rad_as_rpm",
+    "degrees_as_radians": "feedback.slip_degrees_as_radians",
+    "angle_clockwise": "feedback.slip_angle_clockwise",
+    "driver_reversed": "feedback.slip_driver_reversed",
+    "driver_acceleration_missing": "feedback.slip_driver_acceleration_missing",
+    "diameter_for_radius": "feedback.slip_diameter_for_radius",
+    "radius_for_diameter": "feedback.slip_radius_for_diameter",
+    "other_side": "feedback.slip_other_side",
+    "coriolis_missing": "feedback.slip_coriolis_missing",
+    "coriolis_reversed": "feedback.slip_coriolis_reversed",
+    "normal_missing": "feedback.slip_normal_missing",
+    "normal_reversed": "feedback.slip_normal_reversed",
+    "sense_reversed": "feedback.slip_sense_reversed",
+    "wrong_scale": "feedback.slip_wrong_scale",
+    "scale_missing": "feedback.slip_scale_missing",
+    "length_not_scaled": "feedback.slip_length_not_scaled",
+    "power_of_ten": "feedback.slip_power_of_ten",
+    "drawn_in_full": "feedback.slip_drawn_in_full",
+    "swapped": "feedback.slip_swapped",
+    "normal_for_tangential": "feedback.slip_normal_for_tangential",
+    "whole_for_tangential": "feedback.slip_whole_for_tangential",
+    "absolute_for_relative": "feedback.slip_absolute_for_relative",
+    "rate_in_degrees": "feedback.slip_rate_in_degrees",
+    "rate_in_turns": "feedback.slip_rate_in_turns",
+    "axes_swapped": "feedback.slip_axes_swapped",
+    "opposite": "feedback.slip_opposite",
+}
+"""The sentence of each slip."""
+SENSES = {
+    (True, True): "feedback.anticlockwise",
+    (True, False): "feedback.clockwise",
+    (False, True): "feedback.forward",
+    (False, False): "feedback.backward",
+}
+"""The words for a sense: of a turning or along a guide, positive or not."""
+PLAIN = {
+    Status.RIGHT: "feedback.right",
+    Status.BLANK: "feedback.blank",
+    Status.UNREADABLE: "feedback.unreadable",
+}
+POWERS = {"²": "^2"}
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One field: its cells in the order of COLUMNS, why, and what was found."""
+
+    cells: tuple[str, ...]
+    why: str
+    status: Status
+
+
+def rows(graded: Graded, words: Words) -> list[Row]:
+    """What a student is told, a row for each field that earns points."""
+    return [row_of(graded, mark, words) for mark in graded.marks if mark.points]
+
+
+def row_of(graded: Graded, mark: Mark, words: Words) -> Row:
+    """What a student is told of one field."""
+    cells = (
+        quantity(mark, words),
+        escape(safe(mark.answer.text)),
+        value_words(mark, words, mark.expected),
+        allowed_words(mark, words),
+        off_words(mark, words),
+        words(
+            "feedback.of_points",
+            earned=points_words(mark.earned, words),
+            points=points_words(mark.points, words),
+        ),
+    )
+    return Row(cells, why(graded, mark, words), mark.status)
+
+
+def safe(text: str) -> str:
+    """An answer as it was written, as far as a page can show it."""
+    return "".join(sign if known_sign(sign) else "?" for sign in shown(text.strip()))
+
+
+def known_sign(sign: str) -> bool:
+    """Whether the lettering has a sign."""
+    try:
+        advance(sign, False)
+    except PageError:
+        return False
+    return True
+
+
+def quantity(mark: Mark, words: Words) -> str:
+    """The symbol of a field, with what is told of it."""
+    item = mark.item
+    if item.what == "sense":
+        return f"{item.symbol}, {words('table.sense')}"
+    return f"{item.symbol}, {unit_markup(item.unit)}"
+
+
+def unit_markup(unit: str) -> str:
+    """A unit as markup."""
+    return "".join(POWERS.get(sign, sign) for sign in unit)
+
+
+def value_words(mark: Mark, words: Words, value: float) -> str:
+    """A value of a field as the page writes it."""
+    item = mark.item
+    if item.what == "sense":
+        turning = item.quantity in ("omega", "epsilon")
+        return words(SENSES[turning, value > 0]) if value else "0"
+    if isnan(value):
+        return "–"
+    return words.significant(value if item.what == "place" else abs(value))
+
+
+def allowed_words(mark: Mark, words: Words) -> str:
+    """How far a value may be off; nothing for a sense."""
+    return "" if mark.item.what == "sense" else words.significant(mark.tolerance, 2)
+
+
+def off_words(mark: Mark, words: Words) -> str:
+    """How far an answer is off, in the field's unit; nothing for a sense or without an answer."""
+    if mark.item.what == "sense" or mark.off is None or isnan(mark.off):
+        return ""
+    sign = "+" if mark.off > 0 else ""
+    return sign + words.significant(mark.off, 2)
+
+
+def why(graded: Graded, mark: Mark, words: Words) -> str:
+    """Why a field earned what it did, in a sentence."""
+    if mark.status in PLAIN:
+        return words(PLAIN[mark.status])
+    share = percent(mark)
+    parts = []
+    if mark.status is Status.FOLLOWS:
+        source = next(each.item for each in graded.marks if each.item.field == mark.source)
+        parts.append(words("feedback.follows", source=source.symbol, share=share))
+    else:
+        parts.append(far(mark, words))
+    if mark.slip:
+        parts.append(words("feedback.guess", slip=words(SLIPS[mark.slip])))
+    if mark.status is Status.SLIP and mark.earned:
+        parts.append(words("feedback.share", share=share))
+    return "; ".join(parts)
+
+
+def far(mark: Mark, words: Words) -> str:
+    """How far off an answer is, in tolerances."""
+    if mark.item.what == "sense":
+        return words("feedback.wrong_sense")
+    times = abs(mark.off or 0.0) / mark.tolerance if mark.tolerance else 0.0
+    return words("feedback.wrong", times=words.significant(times, 2))
+
+
+def percent(mark: Mark) -> str:
+    """What was earned, in percent of a field's points."""
+    return f"{float(100 * mark.earned / mark.points):.0f}" if mark.points else "0"
+
+
+def points_words(points: Fraction, words: Words) -> str:
+    """Points without needless places, two at most."""
+    text = f"{float(points):.2f}".rstrip("0").rstrip(".")
+    return words.decimal(text)

@@ -1,0 +1,123 @@
+"""The tables for the lecturer: marks.csv, tolerances.csv, and what a new marking changed."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from graphkin.grading.model import Graded
+from graphkin.grading.standard import Expectation
+from graphkin.roster.written import csv_text
+
+BEFORE = ("row", "number", "id", "name", "group", "points", "of", "percent")
+WHY = " why"
+
+
+def number(value: Fraction | float) -> str:
+    """A number in a cell: a point, four places at most."""
+    text = f"{float(value):.4f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def written(lines: Iterable[Sequence[object]]) -> bytes:
+    """Rows as CSV in UTF-8, with a mark at the beginning by which spreadsheets know that."""
+    return ("\ufeff" + csv_text(lines)).encode("utf-8")
+
+
+def marks_table(graded: Sequence[Graded], extra: Sequence[str] = ()) -> bytes:
+    """A row for each student in the order of the class: points of each field, and why."""
+    fields = [mark.item.field for mark in graded[0].marks if mark.points] if graded else []
+    head = [*BEFORE, *fields, *(f"{name}{WHY}" for name in fields), *extra]
+    return written([head, *(marks_row(each, fields, extra) for each in graded)])
+
+
+def marks_row(graded: Graded, fields: Sequence[str], extra: Sequence[str]) -> list[str]:
+    """One student's row."""
+    student = graded.taker.student
+    marks = {mark.item.field: mark for mark in graded.marks}
+    percent = 100 * graded.earned / graded.points if graded.points else Fraction()
+    return [
+        str(student.row),
+        "" if student.number is None else str(student.number),
+        student.id,
+        student.name,
+        student.group,
+        number(graded.earned) if graded.present else "",
+        number(graded.points),
+        f"{float(percent):.1f}" if graded.present else "",
+        *(number(marks[name].earned) if graded.present else "" for name in fields),
+        *(reason(graded, name) if graded.present else "" for name in fields),
+        *(student.extra.get(name, "") for name in extra),
+    ]
+
+
+def reason(graded: Graded, name: str) -> str:
+    """What was found of a field, in plain words: right, follows v_BA_mm, slip rpm_as_rad."""
+    mark = graded.mark(name)
+    parts = [mark.status.value, mark.source] + ([mark.slip] if mark.slip else [])
+    return " ".join(part for part in parts if part)
+
+
+def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) -> bytes:
+    """For each student and field the key, its tolerance, and of what that is made."""
+    head = ("id", "field", "unit", "key", "tolerance", "percent", "pencil", "ruler", "unsure")
+    lines: list[Sequence[str]] = [head]
+    for each, form in zip(graded, expected, strict=True):
+        who = each.taker.student.id
+        for field, allowed in form.tolerance.items():
+            key, item = form.key[field], form.item[field]
+            share = 100 * allowed.value / abs(key) if key and item.what != "place" else None
+            amounts = (allowed.value, allowed.pencil, allowed.ruler)
+            value, pencil, ruler = (f"{amount:.4g}" for amount in amounts)
+            lines.append(
+                (
+                    who,
+                    field,
+                    item.unit,
+                    f"{key:.6g}",
+                    value,
+                    "" if share is None else f"{share:.2f}",
+                    pencil,
+                    ruler,
+                    "unsure" if allowed.unsure else "",
+                )
+            )
+    return written(lines)
+
+
+def read_marks(data: bytes) -> dict[str, dict[str, str]]:
+    """The cells of a marks.csv by student and column; nothing where it is none."""
+    rows = list(csv.reader(io.StringIO(data.decode("utf-8-sig", "replace"), newline="")))
+    if not rows or "id" not in rows[0]:
+        return {}
+    where = rows[0].index("id")
+    return {
+        row[where]: dict(zip(rows[0], row, strict=False)) for row in rows[1:] if len(row) > where
+    }
+
+
+def differences(before: bytes, after: bytes) -> list[tuple[str, str, str, str]]:
+    """What a new marking changed: student, column, before, after."""
+    old, new = read_marks(before), read_marks(after)
+    found: list[tuple[str, str, str, str]] = []
+    for who in dict.fromkeys((*old, *new)):
+        found += changed(who, old.get(who, {}), new.get(who, {}))
+    return found
+
+
+def changed(
+    who: str, old: Mapping[str, str], new: Mapping[str, str]
+) -> Iterable[tuple[str, str, str, str]]:
+    """The cells of one student that are not the same; names and rows do not count."""
+    for column in dict.fromkeys((*old, *new)):
+        if column not in ("row", "name", "group") and old.get(column, "") != new.get(column, ""):
+            yield who, column, old.get(column, ""), new.get(column, "")
+
+
+def differences_table(found: Iterable[tuple[str, str, str, str]]) -> bytes:
+    """The difference list as CSV."""
+    lines: list[Any] = [("id", "column", "before", "after"), *found]
+    return written(lines)

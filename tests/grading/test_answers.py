@@ -1,0 +1,178 @@
+"""Answer tables: strict numbers, units, senses in three languages, all mistakes told at once."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.grading.answers import read_answers
+from graphkin.grading.numbers import read_answer
+from graphkin.lab.model import Item
+from graphkin.roster.errors import RosterError
+
+LENGTH = Item("v_D_mm", "segment", "v", "mm", "velocity", "D")
+SPEED = Item("v_D", "value", "v", "m/s", "velocity", "D")
+RATE = Item("omega_3", "value", "ω", "rad/s", "omega", "3")
+HARD = Item("a_D", "value", "a", "m/s²", "acceleration", "D")
+SENSE = Item("omega_3_sense", "sense", "ω", "", "omega", "3")
+FORM = (LENGTH, SPEED, RATE, SENSE)
+IDS = ("001", "002", "ĂÎ-3")
+
+
+@pytest.mark.parametrize(
+    ("text", "item", "value"),
+    [
+        ("19.75", LENGTH, 19.75),
+        ("19,75", LENGTH, 19.75),
+        (" 19,75 mm ", LENGTH, 19.75),
+        ("1,975cm", LENGTH, 19.75),
+        ("-5", LENGTH, -5.0),
+        ("−5", LENGTH, -5.0),
+        ("+.5", LENGTH, 0.5),
+        ("3.8 m/s", SPEED, 3.8),
+        ("380 cm/s", SPEED, 3.8),
+        ("3,8e2", SPEED, 380.0),
+        ("4,7·10^2 m/s^2", HARD, 470.0),
+        ("4.7 x 10^2 m/s2", HARD, 470.0),
+        ("473 m/s²", HARD, 473.0),
+        ("27,6 1/s", RATE, 27.6),
+        ("27,6 s^-1", RATE, 27.6),
+        ("27.6 (rad/s)", RATE, 27.6),
+    ],
+)
+def test_numbers_are_read_with_point_or_comma_and_unit(text, item, value):
+    answer = read_answer(text, item)
+    assert answer.value == pytest.approx(value, rel=1e-15)
+    assert not answer.problem
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "１２.５",
+        "1_000",
+        "nan",
+        "inf",
+        "1e400",
+        "12,3,4",
+        "1.234,5",
+        "0x1F",
+        "twelve",
+        "12 kg",
+        "--5",
+        "5..",
+        "=5",
+        "٣",
+        "1" * 400,
+    ],
+)
+def test_what_is_no_number_is_unreadable_and_says_why(text):
+    answer = read_answer(text, SPEED)
+    assert answer.value is None
+    assert answer.problem
+    assert not answer.is_blank
+
+
+@pytest.mark.parametrize("text", ["", " ", "\t"])
+def test_nothing_is_not_answered(text):
+    assert read_answer(text, SPEED).is_blank
+    assert read_answer(text, SENSE).is_blank
+
+
+@pytest.mark.parametrize(
+    ("text", "sign"),
+    [
+        ("ccw", 1),
+        ("CCW", 1),
+        ("+", 1),
+        ("+1", 1),
+        ("counter-clockwise", 1),
+        ("counter clockwise", 1),
+        ("anticlockwise", 1),
+        ("trigonometric", 1),
+        ("Trigonometric", 1),
+        ("antiorar", 1),
+        ("antiorario", 1),
+        ("înainte", 1),
+        ("cw", -1),
+        ("-", -1),
+        ("−", -1),
+        ("clockwise", -1),
+        ("orar", -1),
+        ("orario", -1),
+        ("înapoi", -1),
+        ("indietro", -1),
+    ],
+)
+def test_senses_are_words_of_three_languages_or_signs(text, sign):
+    assert read_answer(text, SENSE).value == sign
+
+
+@pytest.mark.parametrize("text", ["left-handed", "0", "?", "sus", "ccww"])
+def test_other_words_are_no_sense(text):
+    assert read_answer(text, SENSE).problem
+
+
+def written(folder, name, text):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_table_with_semicolons_a_mark_and_strange_columns(tmp_path):
+    text = (
+        "\ufeffMatricol;V_D_MM;v_D;omega_3_sense;comment\n001;19,75;3,8;orar;=1+1\nĂÎ-3;;abc;+;\n"
+    )
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    assert found.of["001"]["v_D_mm"].value == 19.75
+    assert found.of["001"]["omega_3_sense"].value == -1
+    assert found.of["ĂÎ-3"]["v_D_mm"].is_blank
+    assert [problem.place for problem in found.unread] == ['a.csv, row 3, column "v_D"']
+    assert found.missing == ["omega_3"]
+    assert "comment" in found.strangers[0]
+
+
+def test_everything_wrong_with_the_rows_is_told_at_once(tmp_path):
+    text = "id,v_D\n001,1\n1,2\n001,3\n,4\n"
+    with pytest.raises(RosterError) as error:
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    places = [problem.place for problem in error.value.problems]
+    assert places == [f'a.csv, row {row}, column "id"' for row in (3, 4, 5)]
+    assert "answers already, in a.csv, row 2" in str(error.value)
+
+
+def test_leading_zeros_count(tmp_path):
+    with pytest.raises(RosterError, match="no student of this class; did you mean 001"):
+        read_answers(written(tmp_path, "a.csv", "id,v_D\n01,1\n"), FORM, IDS)
+
+
+@pytest.mark.parametrize("text", ["name,v_D\nA,1\n", "id,colour\n001,red\n"])
+def test_a_table_without_ids_or_fields_is_refused(tmp_path, text):
+    with pytest.raises(RosterError, match="no column"):
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+
+
+def test_a_folder_with_a_file_for_each_student(tmp_path):
+    written(tmp_path, "001.csv", "field;value\nv_D_mm;19,75\nomega_3_sense;ccw\n")
+    written(tmp_path, "x.csv", "câmp,valoare\nmatricol,002\nv_D,3.8 m/s\nv_DD,1\n")
+    written(tmp_path, "notes.md", "nothing")
+    found = read_answers(tmp_path, FORM, IDS)
+    assert found.of["001"]["v_D_mm"].value == 19.75
+    assert found.of["002"]["v_D"].value == 3.8
+    assert "v_DD" in found.strangers[0]
+    assert found.missing == ["omega_3"]
+
+
+def test_a_folder_without_tables_is_refused(tmp_path):
+    with pytest.raises(RosterError, match="without any table"):
+        read_answers(tmp_path, FORM, IDS)
+
+
+def test_answers_in_a_spreadsheet(tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    for line in (("id", "v_D_mm", "omega_3_sense"), ("001", 19.75, "cw")):
+        book.active.append(line)
+    book.save(tmp_path / "a.xlsx")
+    found = read_answers(tmp_path / "a.xlsx", FORM, IDS)
+    assert found.of["001"]["v_D_mm"].value == 19.75
+    assert found.of["001"]["omega_3_sense"].value == -1

@@ -1,0 +1,256 @@
+"""What grading writes: marks, feedback, report, gradebooks as they were but for the marks."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.cli import app
+from graphkin.grading.book import Class, graded_class
+from graphkin.grading.feedback import feedback_html, feedback_pages
+from graphkin.grading.gradebook import GradebookError, filled, read_gradebook
+from graphkin.grading.model import Answer, Taker
+from graphkin.grading.outputs import Told, report_files
+from graphkin.grading.rows import rows
+from graphkin.grading.tables import differences, marks_table, read_marks
+from graphkin.roster.model import Student
+from graphkin.text import LANGUAGES, words
+from tests.grading.students import book_of, given, key_answers, lab_of, marker_of
+
+HOSTILE = '<script>alert("1")</script> O\'Neil, Jr. Ștefan _*^{} \u202eabc'
+MARKS = {"0001": Fraction(17, 2), "0002": Fraction(12), "X9": Fraction(1)}
+
+
+def small_class(**changes: float) -> Class:
+    """Two students of the pump, one with a hostile name and some answers changed, one absent."""
+    marker = marker_of("pump", 7)
+    answers = {"=1+1": {**key_answers(marker.standard), **given(changes)}}
+    answers["=1+1"]["v_D"] = Answer("<b>3,8,2</b>", problem="no number")
+    takers = [
+        Taker(Student(2, "=1+1", 7, HOSTILE, "=cmd"), {"n": "7"}, "ABCDEFGHIJ"),
+        Taker(Student(3, "0002", 8, "Ana", "321"), {"n": "8"}, "KLMNOPQRST"),
+    ]
+    return graded_class(book_of("pump"), takers, answers)
+
+
+def files(found: Class, language: str = "en", before: bytes = b"") -> dict[str, bytes]:
+    """The files of a report."""
+    told = Told(HOSTILE, words(language))
+    return report_files(found, lab_of("pump"), told, ("html", "pdf"), before)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_page_is_whole_escaped_and_fetches_nothing(language):
+    for name, data in files(small_class(omega_3=1.0, omega_2_sense=-1.0), language).items():
+        if not name.endswith(".html"):
+            continue
+        text = data.decode("utf-8")
+        assert f'lang="{language}"' in text
+        assert "<script" not in text
+        assert "<b>3" not in text
+        assert not re.search(r"(?:src|href)=\"(?!data:image/png;base64,)", text)
+        assert "http" not in text.replace("http-equiv", "")
+        assert "{" not in re.sub(r"<style>.*?</style>", "", text).replace("_*^{}", "")
+
+
+def test_file_names_are_plain_letters_inside_the_folder():
+    names = [name for name in files(small_class()) if name.startswith("feedback/")]
+    assert len(names) == 4
+    assert all(re.fullmatch(r"feedback/[\w-]+\.(?:html|pdf)", name, re.ASCII) for name in names)
+
+
+def test_the_same_marks_give_the_same_bytes():
+    assert files(small_class(omega_3=1.0)) == files(small_class(omega_3=1.0))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_feedback_tells_what_was_expected_how_far_and_why(language):
+    marker = marker_of("pump", 7)
+    own = 1.4 * marker.standard.key["v_D_mm"]
+    value = own * marker.standard.paper.velocities / 1000
+    answers = {**key_answers(marker.standard), **given({"v_D_mm": own, "v_D": value})}
+    graded = marker.mark(small_class().result.graded[0].taker, answers)
+    spoken = words(language)
+    first, second, *_ = rows(graded, spoken)
+    assert spoken.significant(marker.standard.key["v_D_mm"]) in first.cells
+    assert first.why.startswith(spoken("feedback.wrong", times="§").partition("§")[0])
+    assert "80 %" in second.why
+    text = feedback_html(graded, "Pump", marker.standard.rubric, spoken)
+    assert spoken("feedback.title") in text
+    for page in feedback_pages(graded, "Pump", marker.standard.rubric, spoken):
+        page.check()
+
+
+def test_a_form_of_many_fields_goes_on_to_further_pages():
+    marker = marker_of("pump", 7)
+    points = dict.fromkeys(marker.standard.key, Fraction(1))
+    rubric = replace(marker.standard.rubric, points=points)
+    graded = marker.mark(small_class().result.graded[0].taker, key_answers(marker.standard))
+    many = replace(graded, marks=graded.marks * 3)
+    pages = feedback_pages(many, "Pump", rubric, words("en"))
+    assert len(pages) > 1
+    for page in pages:
+        page.check()
+
+
+def test_marks_are_a_table_that_no_spreadsheet_runs():
+    data = marks_table(small_class().result.graded)
+    table = list(csv.DictReader(io.StringIO(data.decode("utf-8-sig"))))
+    assert [row["id"] for row in table] == ["'=1+1", "0002"]
+    assert table[0]["group"] == "'=cmd"
+    assert table[0]["v_D why"] == "unreadable"
+    assert table[1]["points"] == ""
+    assert table[0]["points"] == str(
+        float(table[0]["of"]) - float(lab_of("pump").rubric.points["v_D"])
+    ).removesuffix(".0")
+
+
+def test_a_new_marking_lists_what_changed_and_nothing_else():
+    before = files(small_class(omega_3=1.0))["marks.csv"]
+    after = files(small_class(), before=before)
+    found = differences(before, after["marks.csv"])
+    assert {column for _, column, *_ in found} == {"points", "percent", "omega_3", "omega_3 why"}
+    assert "differences.csv" in after
+    assert not differences(before, before)
+    assert read_marks(b"nothing") == {}
+
+
+# --- gradebooks ---------------------------------------------------------------------------------
+
+MOODLE = (
+    '\ufeff"First name",Surname,"ID number",Institution,"Assignment: Lab 3 (Real)",'
+    '"Feedback: Lab 3","Last downloaded"\r\n'
+    'Ana,"O\'Neil, Jr.",0001,UPB,-,,1700000000\r\n'
+    '"Ștefan ""Fane""",Ionescu,"0002",UPB,"-",,1700000000\r\n'
+    "Guest,X,9999,UPB,-,,1700000000\r\n"
+)
+CANVAS = (
+    "Student,ID,SIS User ID,SIS Login ID,Section,Lab 3 (4711),Final Score\n"
+    "    Points Possible,,,,,24,(read only)\n"
+    '"O\'Neil, Ana",77,0001,ana,A,,88.5\n'
+    '"Ionescu, Ștefan",78,0002,stefan,A,,\n'
+)
+GERMAN = "Vorname;ID-Nummer;Aufgabe: Labor;Bemerkung\r\nAna;0001;;1,5\r\nJo;0002;;\r\n"
+
+
+def book(tmp_path: Path, text: str, name: str = "book.csv"):
+    path = tmp_path / name
+    path.write_bytes(text.encode("utf-8"))
+    return read_gradebook(path)
+
+
+def test_moodle_keeps_all_but_the_marks(tmp_path):
+    found = filled(book(tmp_path, MOODLE), MARKS, "Lab 3 (Real)")
+    expected = MOODLE.replace('UPB,-,,1700000000\r\n"Ș', 'UPB,8.5,,1700000000\r\n"Ș')
+    expected = expected.replace('UPB,"-"', 'UPB,"12"')
+    assert found.data.decode("utf-8") == expected
+    assert found.count == 2
+    assert found.absent == ("X9",)
+
+
+def test_canvas_keeps_its_row_of_points_and_its_quotes(tmp_path):
+    found = filled(book(tmp_path, CANVAS), MARKS)
+    expected = CANVAS.replace("A,,88.5", "A,8.5,88.5").replace("stefan,A,,", "stefan,A,12,")
+    assert found.data.decode("utf-8") == expected
+    assert found.column == "Lab 3 (4711)"
+
+
+def test_a_comma_is_written_where_the_gradebook_writes_one(tmp_path):
+    found = filled(book(tmp_path, GERMAN), MARKS, "Aufgabe: Labor")
+    assert found.data.decode("utf-8") == GERMAN.replace("0001;;", "0001;8,5;").replace(
+        "0002;;", "0002;12;"
+    )
+
+
+def test_no_marks_leave_every_byte(tmp_path):
+    for text in (MOODLE, CANVAS, GERMAN):
+        opened = book(tmp_path, text)
+        rows = [opened.separator.join(c.raw for c in row) for row in opened.rows]
+        joined = "".join(a + b for a, b in zip(rows, opened.ends, strict=True))
+        assert opened.bom + joined.encode() == text.encode()
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "words_found"),
+    [
+        (MOODLE, "Lab 9", "is no column"),
+        (MOODLE.replace("0001", "a").replace("0002", "b"), None, "no column holds ids"),
+        (CANVAS.replace("Section", "Lab 4"), "Lab", "several columns"),
+        (CANVAS + '"Twin",79,0002,x,A,,\n', None, "stands there twice"),
+        ('id,"mark\n0001,\n', None, "never closed"),
+        ("id,mark\n", None, "no row below"),
+    ],
+)
+def test_a_gradebook_that_cannot_be_filled_is_refused(tmp_path, text, column, words_found):
+    with pytest.raises(GradebookError, match=words_found):
+        filled(book(tmp_path, text), MARKS, column)
+
+
+# --- the command --------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def folder(tmp_path) -> Path:
+    roster = tmp_path / "roster.csv"
+    roster.write_text("nr;id;name\n7;0001;O'Neil, Ana\n8;0002;Ștefan\n", encoding="utf-8-sig")
+    made = CliRunner().invoke(app, ["variants", "pump", str(roster), "-o", str(tmp_path / "class")])
+    assert made.exit_code == 0, made.output
+    marker = marker_of("pump", 7)
+    fields = list(marker.standard.key)
+    cells = [f"{marker.standard.key[field]:.5g}" for field in fields]
+    table = [["id", *fields], ["0001", *cells]]
+    text = "\n".join(";".join(line).replace(".", ",") for line in table)
+    (tmp_path / "answers.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "canvas.csv").write_text(CANVAS, encoding="utf-8")
+    return tmp_path
+
+
+def run(folder: Path, *more: str):
+    args = ["grade", str(folder / "class"), str(folder / "answers.csv"), "-o", str(folder / "out")]
+    return CliRunner().invoke(app, [*args, *more])
+
+
+def test_the_command_marks_a_class_and_fills_the_gradebook(folder):
+    found = run(folder, "--gradebook", str(folder / "canvas.csv"))
+    assert found.exit_code == 0, found.output
+    table = read_marks((folder / "out" / "marks.csv").read_bytes())
+    assert table["0001"]["percent"] == "100.0"
+    assert table["0002"]["percent"] == ""
+    for name in ("class.html", "tolerances.csv", "feedback/0001.html", "feedback/0002.pdf"):
+        assert (folder / "out" / name).is_file()
+    text = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
+    assert f"A,{table['0001']['points']},88.5" in text
+    assert "stefan,A,," in text
+
+
+def test_an_earlier_report_is_kept_unless_forced_and_then_compared(folder):
+    assert run(folder).exit_code == 0
+    again = run(folder)
+    assert again.exit_code == 2 or isinstance(again.exception, Exception)
+    text = (folder / "answers.csv").read_text(encoding="utf-8")
+    (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;49,"), encoding="utf-8")
+    assert run(folder, "--force").exit_code == 0
+    changes = (folder / "out" / "differences.csv").read_text(encoding="utf-8-sig")
+    assert "0001,v_D_mm,2,0" in changes
+
+
+def test_cells_that_cannot_be_read_are_told_with_status_1(folder):
+    text = (folder / "answers.csv").read_text(encoding="utf-8")
+    (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;1 9_"), encoding="utf-8")
+    found = run(folder)
+    assert found.exit_code == 1
+    assert 'row 2, column "v_D_mm"' in found.output
+    assert (folder / "out" / "marks.csv").is_file()
+
+
+def test_formats_that_are_none_are_refused(folder):
+    assert run(folder, "--format", "docx").exit_code == 2
+    assert run(folder, "--format", "none").exit_code == 0
+    assert not (folder / "out" / "feedback").exists()
