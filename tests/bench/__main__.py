@@ -1,7 +1,7 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
-``python -m tests.bench.effects`` (``.motion``, ``.chain``, ``.variants``, ``.printing``): one alone.
+``python -m tests.bench.effects`` (or ``.motion .chain .variants .printing``) prints one part alone.
 """
 
 from __future__ import annotations

@@ -1,0 +1,160 @@
+"""The command ``print``: a class folder as files for the printer and for each student."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphkin.console import FAILED, complain
+
+if TYPE_CHECKING:
+    from graphkin.paper.style import Ink
+    from graphkin.printing.run import Outcome, Tell
+
+TENTHS = 10
+"""How often a run tells how far it is where there is no terminal."""
+
+
+@click.command("print")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option(
+    "--view",
+    "views",
+    metavar="task,key,overlay,steps",
+    default="task,key",
+    show_default=True,
+    help="What to print of each student; a task comes with its A4 form.",
+)
+@click.option(
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language of the pages; the scene's by default.",
+)
+@click.option(
+    "--ink",
+    type=click.Choice(["colour", "black"]),
+    default="colour",
+    show_default=True,
+    help="black: for printers without colour; the kinds of line tell vectors apart.",
+)
+@click.option(
+    "--format",
+    "formats",
+    metavar="pdf,svg",
+    default="pdf",
+    show_default=True,
+    help="Kinds of file to write for each student; the files for the printer are PDF.",
+)
+@click.option(
+    "--jobs",
+    metavar="N",
+    type=click.IntRange(1, 1024),
+    help="Processes that draw at once; as many as there are cores by default.",
+)
+@click.option(
+    "--engine",
+    "cluster",
+    metavar="dask://HOST:PORT",
+    default="",
+    help="Draw on the Dask cluster with its scheduler there (graphkin[cluster]).",
+)
+@click.option("--force", is_flag=True, help="Replace files that were printed otherwise.")
+@click.pass_context
+def print_sheets(
+    context: click.Context,
+    folder: Path,
+    views: str,
+    lang: str | None,
+    ink: Ink,
+    formats: str,
+    jobs: int | None,
+    cluster: str,
+    force: bool,
+) -> None:
+    """Print the sheets of a class: DIR is what graphkin variants wrote.
+
+    Writes into DIR/print a task sheet (A3) and a form (A4) for every student, and what else
+    --view names; then one file of each view with all students in the order of the roster, for the
+    printer: class-task.pdf, class-key.pdf. Name, group and an opaque code stand on every sheet,
+    the code also as a QR square where it has room.
+
+    A run that was stopped goes on where it was: the same command again makes what is missing, and
+    the same bytes come of it. Two runs into one folder are refused.
+
+    \b
+    Examples:
+      graphkin print mechanics-331
+      graphkin print mechanics-331 --view task,key,overlay --ink black
+      graphkin print mechanics-331 --view steps --format pdf,svg --lang en
+    """
+    from graphkin.printing.engine import CLUSTER, cores
+    from graphkin.printing.manifest import read_edition
+    from graphkin.printing.run import Means, Wishes, print_class
+    from graphkin.printing.work import VIEWS
+
+    chosen = named(context, "--view", views, VIEWS)
+    kinds = named(context, "--format", formats, ("pdf", "svg"))
+    if cluster and not cluster.startswith(CLUSTER):
+        raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
+    wishes = Wishes(chosen, kinds, lang, ink, force)
+    with progress() as tell:
+        outcome = print_class(read_edition(folder), wishes, Means(jobs or cores(), cluster), tell)
+    report(outcome)
+    if outcome.refused:
+        context.exit(FAILED)
+
+
+def named(
+    context: click.Context, option: str, text: str, known: tuple[str, ...]
+) -> tuple[str, ...]:
+    """The words of an option with commas between them, in the order in which they are known."""
+    words = [word.strip().lower() for word in text.split(",") if word.strip()]
+    wrong = [word for word in words if word not in known]
+    if wrong or not words:
+        found = ", ".join(wrong) or "nothing"
+        raise click.UsageError(f"{option}: {found} is none of {', '.join(known)}", context)
+    return tuple(word for word in known if word in words)
+
+
+@contextmanager
+def progress() -> Iterator[Tell]:
+    """What shows how many students are done: a bar on a terminal, else a line for each tenth."""
+    if sys.stderr is not None and sys.stderr.isatty():
+        with click.progressbar(length=1, label="students", show_pos=True, file=sys.stderr) as bar:
+
+            def move(done: int, total: int) -> None:
+                bar.length = max(total, 1)
+                bar.update(done - bar.pos)
+
+            yield move
+        return
+    told = -1
+
+    def line(done: int, total: int) -> None:
+        nonlocal told
+        tenth = TENTHS * done // max(total, 1)
+        if tenth > told:
+            told = tenth
+            click.echo(f"{done} of {total} students", err=True)
+
+    yield line
+
+
+def report(outcome: Outcome) -> None:
+    """Say what came of a run: the files for the printer, and who got none and why."""
+    if outcome.left:
+        complain(f"an earlier run did not end ({outcome.left}); what it had finished was kept")
+    for variant in outcome.lost:
+        complain(f'{variant.id}: "{variant.name}" has signs that the font of the sheets lacks: ?')
+    for variant, problems in outcome.refused:
+        for problem in problems:
+            complain(f"{variant.id} {variant.name}: {problem}")
+    stood = f", {outcome.stood} stood already" if outcome.stood else ""
+    click.echo(f"{outcome.made} student{'' if outcome.made == 1 else 's'} printed{stood}")
+    for path in outcome.files or [outcome.folder]:
+        click.echo(str(path))

@@ -1,0 +1,150 @@
+"""What one worker does: the files of some students, as bytes; the same in every process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from threading import Lock
+
+from graphkin.errors import GraphkinError, Problem
+from graphkin.handout import Sheet, drawings_of, drawn, language_of, proved
+from graphkin.lab.items import items
+from graphkin.lab.model import Lab
+from graphkin.mechanism import Mechanism
+from graphkin.paper.calculation import calculation
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.marks import Page
+from graphkin.paper.richtext import escape
+from graphkin.paper.settings import parameters
+from graphkin.paper.sheet import title_of
+from graphkin.paper.style import Ink
+from graphkin.printing.form import form
+from graphkin.printing.manifest import Variant
+from graphkin.printing.personal import Owner, owned, owned_pages, owner, signed
+from graphkin.scaling import shown
+from graphkin.scene.read import read_text
+from graphkin.text import Words
+
+VIEWS = ("task", "key", "overlay", "steps")
+"""What can be printed of each student."""
+ALONE = Lock()
+"""Held while PDF files are made: their fonts are shared by the threads of a process (Dask's)."""
+FORM = "form"
+"""The A4 pages that go with a task."""
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What all sheets of a class share: the lab, the text of its scene, language and ink."""
+
+    lab: Lab
+    scene: str
+    language: str
+    ink: Ink
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A student's sheets that are to be made: (view, format) each, under a stem of file names."""
+
+    variant: Variant
+    stem: str
+    parts: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """What came of it: the files of each part by name, or why there are none."""
+
+    code: str
+    files: Mapping[tuple[str, str], Mapping[str, bytes]]
+    problems: tuple[Problem, ...] = ()
+
+
+def make(order: Order, wanted: Sequence[Wanted]) -> list[Made]:
+    """The files of some students; one who cannot be drawn is told and keeps nobody else back."""
+    with ALONE:
+        return [made(order, one) for one in wanted]
+
+
+def made(order: Order, wanted: Wanted) -> Made:
+    """The files of one student."""
+    try:
+        sheets = Sheets(order, wanted.variant)
+        files = {
+            part: dict(files_of(sheets, wanted.stem, *part, order.ink)) for part in wanted.parts
+        }
+    except GraphkinError as error:
+        return Made(wanted.variant.code, {}, error.problems)
+    return Made(wanted.variant.code, files)
+
+
+class Sheets:
+    """A student's pages of every view, drawn when they are asked for, from one construction.
+
+    Raises as handout does: a mechanism that does not close or is not proved, a page that does not
+    fit.
+    """
+
+    def __init__(self, order: Order, variant: Variant) -> None:
+        self.lab, self.variant = order.lab, variant
+        scene = read_text(order.scene, order.lab.name, settings=dict(variant.settings))
+        self.mechanism = Mechanism(scene)
+        self.whose: Owner = owner(variant)
+        self.words: Words = language_of(self.mechanism, order.language)
+        verdict = proved(self.mechanism, shown(self.mechanism))
+        self.drawings = drawings_of(self.mechanism, verdict, self.words)
+        self.made: dict[str, list[Sheet]] = {}
+
+    def of(self, view: str) -> list[Sheet]:
+        """The sheets of a view: A3 drawings, then A4 pages where the view has some."""
+        if view not in self.made:
+            self.made[view] = list(self.draw(view))
+        return self.made[view]
+
+    def draw(self, view: str) -> Iterator[Sheet]:
+        """The sheets of a view, each page with its student's name and code."""
+        total = len(self.drawings)
+        for i, drawing in enumerate(self.drawings, 1):
+            pages = drawn(owned(drawing, self.whose), view, f"{i}/{total}")
+            yield Sheet(drawing.kind, tuple(signed(pages, view, self.whose)))
+        if view in ("task", "key"):
+            pages = calculation(owned_pages(self.drawings, self.whose), view)
+            pages = tuple(signed(pages, view, self.whose))
+            kind = FORM if view == "task" else "calculation"
+            yield Sheet(kind, (*pages, *self.answers()) if view == "task" else pages)
+
+    def answers(self) -> tuple[Page, ...]:
+        """The form for answers."""
+        first: Drawing = self.drawings[0]
+        settings = parameters(first.scene, self.words)
+        title, name = "; ".join([escape(title_of(first)), *settings]), self.words("form.title")
+        fields = items(self.mechanism, self.lab)
+        whose = (self.whose.name, self.whose.code)
+        points, compute = self.lab.rubric.points, self.variant.compute
+        return form(fields, points, compute, self.words, (title, name), whose)
+
+
+def files_of(
+    sheets: Sheets, stem: str, view: str, kind: str, ink: Ink
+) -> Iterator[tuple[str, bytes]]:
+    """The files of a view in a format: a PDF of its drawings and one of its form; SVG drawings."""
+    title = f"{sheets.whose.code}, {view}"
+    if kind == "pdf":
+        from graphkin.paper.pdf import write_pdf
+
+        found = sheets.of(view)
+        pages = [page for sheet in found if sheet.kind != FORM for page in sheet.pages]
+        yield f"{view}/{stem}-{view}.pdf", write_pdf(pages, ink, title=title)
+        for sheet in found:
+            if sheet.kind == FORM:
+                data = write_pdf(sheet.pages, ink, title=f"{sheets.whose.code}, {FORM}")
+                yield f"{view}/{stem}-{FORM}.pdf", data
+        return
+    from graphkin.paper.svg import write_svg
+
+    for sheet in sheets.of(view):
+        for number, page in enumerate(sheet.pages, 1):
+            tail = f"-{number:02d}" if len(sheet.pages) > 1 else ""
+            name = f"{view}/{stem}-{view}-{sheet.kind}{tail}.svg"
+            yield name, write_svg(page, ink).encode("utf-8")

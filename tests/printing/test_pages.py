@@ -1,0 +1,180 @@
+"""What a student gets: the name and the code on every page, the id nowhere in the square."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from time import sleep
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphkin.lab.items import items
+from graphkin.paper import pdf
+from graphkin.paper.glyphs import measures
+from graphkin.paper.marks import Page, Text
+from graphkin.paper.richtext import plain
+from graphkin.printing.code import modules
+from graphkin.printing.form import form
+from graphkin.printing.manifest import Variant, read_edition
+from graphkin.printing.personal import fits, lost, owner, shortened, writable
+from graphkin.printing.work import VIEWS, Order, Sheets, Wanted
+from graphkin.printing.work import make as made
+from graphkin.text import LANGUAGES, words
+from tests.printing.conftest import write_class
+
+
+@pytest.fixture(scope="module")
+def edition(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("class") / "a"
+    names = ['Țăran, Ștefan-Ioan "O\'Neil"', "*Bob*_{x}^2\\"]
+    return read_edition(write_class(folder, ["0012", "secret-id"], names=names))
+
+
+def order(edition, language="ro"):
+    return Order(edition.lab, edition.scene, language, "colour")
+
+
+def texts(page: Page) -> list[str]:
+    return [plain(mark.markup) for mark in page.marks if isinstance(mark, Text)]
+
+
+def pages(sheets: Sheets, view: str) -> list[Page]:
+    return [page for sheet in sheets.of(view) for page in sheet.pages]
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_name_group_and_code_stand_on_every_page(edition, view):
+    for variant in edition.variants:
+        found = pages(Sheets(order(edition), variant), view)
+        assert found
+        for page in found:
+            page.check()
+            said = " ".join(texts(page))
+            assert variant.code in said
+            for word in (*variant.name.split(), "331"):
+                assert word in said, (view, word)
+            assert variant.id not in said
+
+
+def test_the_code_stands_beside_a_drawing_number_of_the_scene(edition):
+    text = edition.scene + '[sheet]\nnumber = "M-12"\n'
+    numbered = replace(order(edition), scene=text)
+    variant = edition.variants[0]
+    (page,) = pages(Sheets(numbered, variant), "overlay")
+    assert variant.code in " ".join(texts(page))
+    (page, *_) = pages(Sheets(numbered, variant), "task")
+    assert f"M-12 / {variant.code}" in texts(page)
+
+
+def test_files_are_made_by_one_thread_at_a_time(edition, monkeypatch):
+    """The fonts of reportlab are shared by all documents of a process."""
+    active, most = 0, 0
+
+    def slow(*_args, **_more):
+        nonlocal active, most
+        active += 1
+        most = max(most, active)
+        sleep(0.02)
+        active -= 1
+        return b""
+
+    monkeypatch.setattr(pdf, "write_pdf", slow)
+    wanted = [Wanted(edition.variants[0], "a", (("overlay", "pdf"),))]
+    with ThreadPoolExecutor(3) as threads:
+        list(threads.map(lambda _: made(order(edition), wanted), range(6)))
+    assert most == 1
+
+
+def test_the_square_holds_the_code_alone(edition, monkeypatch):
+    import segno
+
+    seen: list[str] = []
+    make_qr = segno.make_qr
+
+    def noted(text, **more):
+        seen.append(text)
+        return make_qr(text, **more)
+
+    monkeypatch.setattr(segno, "make_qr", noted)
+    modules.cache_clear()
+    variant = edition.variants[1]
+    pages(Sheets(order(edition), variant), "task")
+    assert set(seen) == {variant.code}
+
+
+def test_every_task_sheet_and_form_of_this_lab_has_its_square(edition):
+    sheets = Sheets(order(edition), edition.variants[0])
+    for page in pages(sheets, "task"):
+        assert [mark for mark in page.marks if mark.cls == "qr"]
+    for page in pages(sheets, "key"):
+        assert not [mark for mark in page.marks if mark.cls == "qr"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_form_has_every_field_once_with_its_points(edition, language):
+    sheets = Sheets(order(edition, language), edition.variants[1])
+    (page,) = sheets.answers()
+    said = texts(page)
+    fields = items(sheets.mechanism, edition.lab)
+    assert {item.field for item in fields} == {"v_B_mm", "v_B", "omega_2", "omega_2_sense"}
+    for item in fields:
+        assert said.count(item.field) == 1
+    assert said.count("0.5" if language == "en" else "0,5") == 1
+    hints = [mark for mark in page.marks if isinstance(mark, Text) and mark.name == "hint"]
+    assert [plain(mark.markup) for mark in hints] == [words(language)("form.compute")]
+
+
+def test_a_long_form_goes_on_on_further_pages(edition):
+    sheets = Sheets(order(edition), edition.variants[0])
+    fields = items(sheets.mechanism, edition.lab)[:1] * 70
+    found = form(fields, {}, (), words("en"), ("Title", "Answers"), ("Ana", "AAAA"))
+    assert len(found) == 3
+    assert sum(texts(page).count("v_B_mm") for page in found) == 70
+    assert texts(found[2]).count("3/3") == 1
+
+
+def test_without_fields_there_is_no_form(edition):
+    assert form([], {}, (), words("en"), ("", ""), ("Ana", "AAAA")) == ()
+
+
+@given(st.text(max_size=60))
+def test_any_name_can_be_written_and_fits(text):
+    whose = owner(Variant(text or "id", "CODE", {}, name=text, group=text))
+    assert fits(whose.name)
+    assert set(whose.name) <= measures(italic=False).keys()
+
+
+def test_names_keep_their_letters_and_lose_only_what_the_font_lacks():
+    assert writable("Ștefan Țăran-Łukasz Müller") == "Ștefan Țăran-Łukasz Müller"
+    assert writable("S\u0327tefan") == "Ştefan"
+    assert writable("a\u202eb\x00c\nd") == "abc d"
+    assert writable("王 Wang") == "? Wang"
+    assert lost("王")
+    assert not lost("Ștefan?")
+
+
+def test_a_name_too_long_ends_with_dots():
+    name = "Maria-Magdalena " * 20
+    short = shortened(name.strip())
+    assert short.endswith("…")
+    assert name.startswith(short[:-1])
+    assert fits(short)
+    assert shortened("W" * 500).startswith("WWWWWW")
+
+
+def test_who_has_no_name_is_called_by_the_id():
+    assert owner(Variant("0012", "CODE", {})).name == "0012"
+    assert owner(Variant("0012", "CODE", {}, group="331")).name == "0012, 331"
+
+
+def test_a_student_who_cannot_be_drawn_keeps_nobody_else_back(edition):
+    good = edition.variants[0]
+    bad = Variant("9", "BAD", {"n": "9999"})
+    parts = (("task", "pdf"),)
+    found = made(order(edition), [Wanted(bad, "9", parts), Wanted(good, "0012", parts)])
+    assert found[0].problems
+    assert not found[0].files
+    assert not found[1].problems
+    assert list(found[1].files["task", "pdf"]) == ["task/0012-task.pdf", "task/0012-form.pdf"]
