@@ -504,9 +504,7 @@ def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
         return None
 
 
-def motion_words(
-    scene: Scene, solution: Solution, found: Record, verdict: Verdict | None
-) -> str:
+def motion_words(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
     """The text of solve, in certified digits where the record holds them."""
     if "digits" in found:
         from graphkin.report.certified import certified_text

@@ -44,19 +44,20 @@ def loaded(*words: str) -> tuple[set[str], set[str]]:
     return modules & set(HEAVY), modules & set(HOUSE)
 
 
+CASES = [
+    (("list",), set(), set()),
+    (("explain", "pump"), set(), set()),
+    (("explain", "{oscillating-slide}", "--json"), set(), set()),
+    # the witness solves its loops as matrices
+    (("solve", "pump", "--asked"), {"numpy"}, {"graphkin.loops"}),
+    (("solve", "pump", "--asked", "--json"), {"numpy"}, {"graphkin.loops", "graphkin.paper"}),
+    (("solve", "pump"), {"numpy"}, {"graphkin.loops", "graphkin.paper"}),
+    (("check", "pump", "--set", "n=7"), {"numpy"}, {"graphkin.loops", "graphkin.motion"}),
+]
+
+
 @pytest.mark.parametrize(
-    ("words", "libraries", "rooms"),
-    [
-        (("list",), set(), set()),
-        (("explain", "pump"), set(), set()),
-        (("explain", "{oscillating-slide}", "--json"), set(), set()),
-        # the witness solves its loops as matrices
-        (("solve", "pump", "--asked"), {"numpy"}, {"graphkin.loops"}),
-        (("solve", "pump", "--asked", "--json"), {"numpy"}, {"graphkin.loops", "graphkin.paper"}),
-        (("solve", "pump"), {"numpy"}, {"graphkin.loops", "graphkin.paper"}),
-        (("check", "pump", "--set", "n=7"), {"numpy"}, {"graphkin.loops", "graphkin.motion"}),
-    ],
-    ids=" ".join,
+    ("words", "libraries", "rooms"), CASES, ids=[" ".join(case[0]) for case in CASES]
 )
 def test_a_command_loads_what_it_needs(words, libraries, rooms):
     named = [word.format(**FILES) if "{" in word else word for word in words]
