@@ -105,7 +105,8 @@ class Mechanism:
         """Every value that the targets need (all targets if None), on this one scene.
 
         ``by_hand`` runs the drawn steps too, with velocities set on the mechanism at the scale
-        ``seconds`` = kL/kv; ``kind`` is that of the numbers (see kinds). Raises ClosureError for a step that cannot be drawn.
+        ``seconds`` = kL/kv; ``kind`` is that of the numbers (see kinds). Raises
+        ClosureError for a step that cannot be drawn.
         """
         program = self.program
         needed = program.needed(program.answers if targets is None else targets, by_hand=by_hand)

@@ -1,7 +1,7 @@
 """Ten million variants streamed to a reducer: time a variant, and the memory of the process.
 
-``python -m tests.bench.stream`` prints it; the peers are one variant of a plain batch, and the limit
-of 200 MB that the stream has to keep.
+``python -m tests.bench.stream`` prints it; the peers are one variant of a plain batch, and the
+limit of 200 MB that the stream has to keep.
 """
 
 from __future__ import annotations

@@ -5,15 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin import load
-
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 
 
 @pytest.mark.parametrize("count", [25, 5_000])
 @pytest.mark.parametrize("kind", ["float64", "float32"])
 def test_a_parallelogram_on_its_line_is_no_number(count, kind):
-    """At whole turns and halves all four pins lie in line; everywhere else both cranks turn alike."""
+    """At half turns all four pins lie in line; everywhere else both cranks turn alike."""
     angles = np.resize(np.arange(0.0, 361.0, 15.0), count)
     found = moving(angles, kind)
     in_line = angles % 180 == 0
