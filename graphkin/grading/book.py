@@ -16,7 +16,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.printing.engine import chunks, engine
 from graphkin.scene.read import read_text
 
-Settings = tuple[tuple[str, str], ...]
+Variant = tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
 Given = Mapping[str, Answer]
 KEPT = 64
 """Variants whose constructions are held at once; in a class by a formula there are few."""
@@ -28,8 +28,8 @@ class Book:
 
     lab: Lab
     scene: str
-    markers: dict[Settings, Marker] = field(default_factory=dict)
-    expected: dict[Settings, Expectation] = field(default_factory=dict)
+    markers: dict[Variant, Marker] = field(default_factory=dict)
+    expected: dict[Variant, Expectation] = field(default_factory=dict)
 
     @cached_property
     def form(self) -> tuple[Item, ...]:
@@ -40,28 +40,34 @@ class Book:
         """The mechanism of a variant."""
         return Mechanism(read_text(self.scene, self.lab.name, settings=dict(settings)))
 
-    def marker(self, settings: Mapping[str, str]) -> Marker:
-        """What marks the answers to a variant."""
-        name = tuple(sorted(settings.items()))
+    def marker(self, settings: Mapping[str, str], computed: tuple[str, ...] = ()) -> Marker:
+        """What marks the answers to a variant, some of whose fields are computed."""
+        name = variant(settings, computed)
         if name not in self.markers:
             if len(self.markers) >= KEPT:
                 del self.markers[next(iter(self.markers))]
-            found = standard(self.mechanism(settings), self.form, self.lab.rubric)
+            found = standard(self.mechanism(settings), self.form, self.lab.rubric, computed)
             self.markers[name] = Marker(found)
         return self.markers[name]
 
-    def expectation(self, settings: Mapping[str, str]) -> Expectation:
-        """What is expected of a variant; one record for all who have it."""
-        name = tuple(sorted(settings.items()))
+    def expectation(self, taker: Taker) -> Expectation:
+        """What is expected of a student's variant; one record for all who have it."""
+        name = variant(taker.settings, taker.compute)
         if name not in self.expected:
-            self.expected[name] = self.marker(settings).standard.expectation
+            marker = self.marker(taker.settings, taker.compute)
+            self.expected[name] = marker.standard.expectation
         return self.expected[name]
 
     def mark(self, taker: Taker, answers: Given | None) -> tuple[Graded, Expectation]:
         """The marks of one student, without answers none, and what was expected."""
-        marker = self.marker(taker.settings)
+        marker = self.marker(taker.settings, taker.compute)
         graded = marker.mark(taker, answers or {}, answers is not None)
-        return graded, self.expectation(taker.settings)
+        return graded, self.expectation(taker)
+
+
+def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
+    """What all students share who have the same data, and the same fields to be computed."""
+    return tuple(sorted(settings.items())), computed
 
 
 @dataclass(frozen=True)
@@ -117,9 +123,9 @@ def mark_all(
 
 def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:
     """What is expected of each student; one record for all of the same variant."""
-    known: dict[Settings, Expectation] = {}
+    known: dict[Variant, Expectation] = {}
     return [
-        known.setdefault(tuple(sorted(graded.taker.settings.items())), expected)
+        known.setdefault(variant(graded.taker.settings, graded.taker.compute), expected)
         for graded, expected in found
     ]
 

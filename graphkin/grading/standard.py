@@ -43,6 +43,8 @@ class Standard:
     scales: Scales
     items: tuple[Item, ...]
     rubric: Rubric
+    computed: tuple[str, ...] = ()
+    """The fields that are too small to be measured."""
 
     @cached_property
     def exact(self) -> Original:
@@ -67,7 +69,7 @@ class Standard:
     @cached_property
     def tolerance(self) -> Mapping[str, Tolerance]:
         """How far each field but senses may be off."""
-        return tolerances(self.probes, self.key, self.exact, self.rubric)
+        return tolerances(self.probes, self.key, self.exact, self.rubric, self.computed)
 
     @cached_property
     def expectation(self) -> Expectation:
@@ -130,6 +132,8 @@ def sign_of(probe: Probe, value: float) -> float:
     return float((value > 0) - (value < 0))
 
 
-def standard(mechanism: Mechanism, items: Iterable[Item], rubric: Rubric) -> Standard:
+def standard(
+    mechanism: Mechanism, items: Iterable[Item], rubric: Rubric, computed: Iterable[str] = ()
+) -> Standard:
     """What the answers to a variant are held against, at the scales of its sheets."""
-    return Standard(mechanism, scales(mechanism), tuple(items), rubric)
+    return Standard(mechanism, scales(mechanism), tuple(items), rubric, tuple(computed))

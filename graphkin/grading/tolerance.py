@@ -8,7 +8,7 @@ are made, the same at every run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot, inf, isfinite
 from typing import Any
@@ -55,9 +55,15 @@ class Reading:
 
 
 def tolerances(
-    probes: Sequence[Probe], key: Mapping[str, float], exact: Original, rubric: Rubric
+    probes: Sequence[Probe],
+    key: Mapping[str, float],
+    exact: Original,
+    rubric: Rubric,
+    computed: Collection[str] = (),
 ) -> dict[str, Tolerance]:
-    """The tolerance of each field of a form, senses left out."""
+    """The tolerance of each field of a form, senses left out; never above the cap where a field is
+    computed instead of measured.
+    """
     readings = [
         Reading(probe, exact, key[probe.item.field])
         for probe in probes
@@ -66,7 +72,9 @@ def tolerances(
     found = pencil_errors(readings, exact, Pencil(rubric.point, rubric.line))
     size = extent(exact)
     return {
-        reading.probe.item.field: combined(reading, error, rubric, size)
+        (field := reading.probe.item.field): combined(
+            reading, error, rubric, size, drawn=field not in computed
+        )
         for reading, error in zip(readings, found, strict=True)
     }
 
@@ -131,11 +139,13 @@ def joint_drawings(exact: Original, pencil: Pencil, count: int, seed: int) -> di
     return redrawn(exact, pencil, errors)
 
 
-def combined(reading: Reading, error: float, rubric: Rubric, size: float) -> Tolerance:
+def combined(
+    reading: Reading, error: float, rubric: Rubric, size: float, *, drawn: bool
+) -> Tolerance:
     """Pencil and ruler together, not less than the floor nor more than the cap of the value.
 
-    For a place the cap is of the mechanism's size. Never below what the ruler tells, nor below
-    what a fine drawing misses.
+    For a place the cap is of the mechanism's size. What is ``drawn`` is never held to less than
+    the ruler tells, nor to less than a fine drawing misses.
     """
     ruler = rubric.ruler * ruler_unit(reading)
     whole, fine = hypot(error, ruler), hypot(FINE * error, ruler)
@@ -144,6 +154,8 @@ def combined(reading: Reading, error: float, rubric: Rubric, size: float) -> Tol
     most = rubric.cap * beside
     capped = most if not isfinite(fine) else max(most, fine)
     floor = 0.0 if is_place else rubric.floor * beside
+    if not drawn:
+        return Tolerance(max(floor, min(whole, most)), error, ruler, whole > most)
     return Tolerance(max(floor, ruler, min(whole, capped)), error, ruler, whole > most)
 
 

@@ -17,6 +17,7 @@ from graphkin.pencil.pencil import Pencil
 from graphkin.roster.model import Student
 from tests.grading.students import (
     LABS,
+    book_of,
     drawn,
     given,
     key_answers,
@@ -158,3 +159,14 @@ def test_the_same_variant_has_the_same_key_and_tolerances_every_time():
 def test_the_number_of_a_student_leads_to_the_parameters_of_the_variant():
     student = Student(1, "a", 12)
     assert settings(lab_of("pump"), student) == {"n": Fraction(12)}
+
+
+def test_a_computed_value_is_held_to_the_cap():
+    """Student 25 cannot measure the piston's acceleration: nought is not right for 30 m/s²."""
+    book = book_of("pump")
+    measured = book.marker({"n": "25"}).standard
+    computed = book.marker({"n": "25"}, ("a_D_mm", "a_D")).standard
+    right = abs(computed.key["a_D"])
+    assert measured.tolerance["a_D"].value > right
+    assert computed.tolerance["a_D"].value == pytest.approx(computed.rubric.cap * right)
+    assert computed.tolerance["v_D"] == measured.tolerance["v_D"]
