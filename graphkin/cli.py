@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
 FORMATS = ("svg", "pdf")
+LOST = 0.1
+"""Bound of an error, in parts of the largest, from which no digit is sure."""
 
 
 class Folder(click.Path):
@@ -488,7 +490,7 @@ def by_pencil(
 
     found = forecast(original(mechanism, drawn_at), Pencil(millimetres))
     for warning in warnings(found):
-        complain(warning)
+        complain(f"{mechanism.scene.name} {warning}")
     return pencil_record(found), ("", *pencil_lines(found))
 
 
@@ -532,7 +534,11 @@ def doubts(scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | No
 
     flat = solution.margin < FAIR
     if flat:
-        bound = f"; it is good to {verdict.limit:.1e} of the largest of its kind" if verdict else ""
+        bound = ""
+        if verdict is not None and verdict.limit < LOST:
+            bound = f"; it is good to {verdict.limit:.1e} of the largest of its kind"
+        elif verdict is not None:
+            bound = "; in doubles no digit of it is sure"
         complain(f"{flat_words(scene, trace)}{bound}")
     if verdict is not None and not verdict.agrees:
         complain(f"the independent check {verdict_words(verdict)}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 from graphkin.errors import Problem, SceneError
 from graphkin.handout import drawings_of, hand_out, language_of, proved
@@ -63,6 +63,8 @@ def plot(
 
 def chosen(drawings: list[Drawing], which: Which) -> Drawing:
     """The drawing that shows a plan; the mechanism stands on the first."""
+    if which not in get_args(Which):
+        raise SceneError(Problem("plot", f"{which!r} is no drawing", ", ".join(get_args(Which))))
     for drawing in drawings:
         if which in ("mechanism", drawing.kind):
             return drawing

@@ -73,7 +73,8 @@ def _joints(lines: Array, clear: Array, loose: Array) -> tuple[Index, Array]:
     off = np.abs(lx * cy - ly * cx) / size.clip(TINY) + np.maximum(loose[:-1], loose[1:])
     place = np.arange(len(linked))
     nth = place - np.maximum.accumulate(np.where(linked, 0, place + 1))
-    linked &= (size < SHORT) & (off <= LOOSE) & (along >= 0) & (along <= size * size)
+    linked &= (size > TINY) & (size < SHORT) & (off <= LOOSE)
+    linked &= (along >= 0) & (along <= size * size)
     return np.flatnonzero(linked & (nth % 2 == 0)), off
 
 

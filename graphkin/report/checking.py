@@ -19,6 +19,7 @@ from graphkin.scene.model import Scene
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.structure.drivers import driver_problem
+from graphkin.structure.groups import Higher
 from graphkin.structure.order import decompose
 
 WORST = 3
@@ -118,9 +119,15 @@ def range_words(mechanism: Mechanism) -> str:
         return "not swept: it is for mechanisms with one driver"
     turns = scene.drivers[0].kind == "turn"
     found = closing_ranges(scene)
+    what = "angle" if turns else "position"
+    if any(isinstance(group, Higher) for group in mechanism.groups) and found:
+        where = "every" if found == [(0.0, 360.0)] else "some"
+        words = f"has the closure of that number for {where} {what} of the driver"
+        if where == "some":
+            words += f": {reached_words(scene, found)}"
+        return f"{words}; numbers change hands at dead points: graphkin cycle follows the motion"
     if turns and found == [(0.0, 360.0)]:
         return "closes for every angle of the driver: it turns fully"
-    what = "angle" if turns else "position"
     if not found:
         return f"closes for no {what} of the driver"
     return f"closes for driver {what}s {reached_words(scene, found)}"

@@ -475,3 +475,11 @@ def test_a_closure_that_puts_one_pin_on_another_is_noted(
         "not meant, take another closure or another position of the driver"
     )
     assert result.exit_code == 0
+
+
+def test_of_a_group_of_class_three_the_range_speaks_of_numbers(run: Run) -> None:
+    """A number exists at every angle; whether the motion leads there is for cycle to tell."""
+    said = run("check", str(ROOT / "examples" / "scenes" / "rapid-return.toml")).stdout
+    words = " ".join(said.split())
+    assert "has the closure of that number for every angle of the driver" in words
+    assert "turns fully" not in words.partition("range")[2].partition("rank")[0]

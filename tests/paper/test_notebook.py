@@ -76,3 +76,11 @@ def test_a_plan_of_which_nothing_is_asked_is_refused(tmp_path):
     path.write_text(text.replace(asked, ""), encoding="utf-8")
     with pytest.raises(SceneError, match="nothing of the acceleration plan is asked"):
         load(str(path)).plot(axes(), "acceleration")
+
+
+@pytest.mark.parametrize("which", ["vel", None, 3])
+def test_what_is_no_drawing_is_said_to_be_none(which):
+    with pytest.raises(
+        SceneError, match="is no drawing; expected mechanism, velocity, acceleration"
+    ):
+        load("pump", n=7).plot(axes(), which)

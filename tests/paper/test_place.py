@@ -274,3 +274,11 @@ def test_a_label_walled_in_far_around_still_finds_a_place():
     (spot,) = place([Wish(6, 3, (40, 30))], walls, NONE, FIELD)
     assert spot.free
     assert spot.leader
+
+
+def test_a_line_drawn_there_and_back_is_not_merged_away():
+    there = (37.0, 27.0, 40.5, 29.0)
+    wish = Wish(width=3, height=2.5, subject=(37.0, 27.0), radius=0.5)
+    (spot,) = place([wish], [there, (*there[2:], *there[:2])], NONE, FIELD)
+    line = LineString([there[:2], there[2:]])
+    assert spot.free and line.distance(ink(wish, spot)) >= CLEAR - 1e-9
