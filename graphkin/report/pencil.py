@@ -44,6 +44,8 @@ LINES = {
     "velocity-normal": "⊥ velocity of {p}",
 }
 """What lines and arcs are called, by the key of their sentence."""
+UNNAMED = {"ray": "guide {g}"}
+"""The same where they pass through no point with a name."""
 
 
 def pencil_record(found: Forecast) -> dict[str, Any]:
@@ -223,6 +225,8 @@ def arrow_end(program: Program, number: int) -> str:
 def line_words(step: Step) -> str:
     """A line or an arc by what it is square or parallel to; nothing for other steps."""
     words = LINES.get(step.action.key if step.action is not None else "")
+    if "p" in step.says and not step.says["p"]:
+        words = UNNAMED.get(step.action.key if step.action is not None else "")
     try:
         return words.format_map(step.says) if words else ""
     except KeyError:

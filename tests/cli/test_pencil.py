@@ -11,7 +11,7 @@ import pytest
 from graphkin.handout import scales
 from graphkin.mechanism import load
 from graphkin.pencil import Pencil, drawn
-from tests.cli.conftest import Run
+from tests.cli.conftest import ROOT, Run
 
 
 def by_pencil(run: Run, *args: object) -> Any:
@@ -140,3 +140,10 @@ def test_a_pencil_that_cannot_be_is_refused(run: Run, wrong: str) -> None:
     result = run("solve", "pump", "--pencil", wrong)
     assert result.exit_code == 2
     assert "Traceback" not in result.stderr
+
+
+def test_a_guide_through_no_named_point_is_called_by_its_block(run: Run) -> None:
+    scene = str(ROOT / "examples" / "scenes" / "offset-slider-crank.toml")
+    said = run("solve", scene, "--asked", "--pencil", "0.25").stdout
+    assert "guide 3 and the arc AB about A" in said
+    assert "through  " not in said
