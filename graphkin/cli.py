@@ -1,42 +1,31 @@
-"""The command line: list, check, explain, solve, sheet, cycle, accuracy."""
+"""The command line: the commands that speak, list, check, explain, solve; all others join them."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from graphkin import __version__
+from graphkin.cli_class import new, variants
+from graphkin.cli_draw import accuracy, cycle, sheet
 from graphkin.cli_grade import grade
 from graphkin.cli_print import print_sheets
-from graphkin.console import FAILED, READING, Desk, complain
+from graphkin.console import FAILED, Desk, complain
+from graphkin.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
     from graphkin.paper.scale import Scales
-    from graphkin.paper.style import Ink
     from graphkin.report.record import Record
     from graphkin.scene.model import Scene
     from graphkin.steps.run import Trace
     from graphkin.steps.solution import Solution, Verdict
 
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
-FORMATS = ("svg", "pdf")
 LOST = 0.1
 """Bound of an error, in parts of the largest, from which no digit is sure."""
-
-
-class Folder(click.Path):
-    """A folder to write into; nothing at all is no folder."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path of a folder."""
-        if not str(value).strip():
-            self.fail("the name of the folder is empty; . is the current one", param, ctx)
-        return super().convert(value, param, ctx)
 
 
 @click.group(cls=Desk, invoke_without_command=True, context_settings=HELP)
@@ -64,18 +53,6 @@ def app(context: click.Context) -> None:
     """
     if context.invoked_subcommand is None:
         click.echo(context.get_help())
-
-
-def scene_argument(command: Any) -> Any:
-    """SCENE and --set, which every command but list takes."""
-    command = click.option(
-        "--set",
-        "settings",
-        metavar="NAME=VALUE",
-        multiple=True,
-        help="Give a parameter of the scene another value, such as n=7. May be repeated.",
-    )(command)
-    return click.argument("name", metavar="SCENE")(command)
 
 
 @app.command("list")
@@ -223,264 +200,6 @@ def solve(
         leave(FAILED)
 
 
-@app.command()
-@scene_argument
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    metavar="DIR",
-    type=Folder(path_type=Path),
-    default=Path(),
-    help="Folder to write into, made if it is missing; the current one by default.",
-)
-@click.option(
-    "--view",
-    type=click.Choice(["key", "task", "steps", "overlay"]),
-    default="key",
-    show_default=True,
-    help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
-    " by sentence; overlay: the key alone, to be laid over a drawing.",
-)
-@click.option(
-    "--lang",
-    type=click.Choice(["ro", "en", "it"]),
-    help="Language of the pages; the scene's by default.",
-)
-@click.option(
-    "--ink",
-    type=click.Choice(["colour", "black"]),
-    default="colour",
-    show_default=True,
-    help="black: for printers without colour; the kinds of line tell vectors apart.",
-)
-@click.option(
-    "--format",
-    "formats",
-    metavar="svg,pdf",
-    default="svg,pdf",
-    show_default=True,
-    help="Kinds of file to write; calculations come as PDF only.",
-)
-@click.option("--force", is_flag=True, help="Replace files that exist.")
-def sheet(
-    name: str,
-    settings: tuple[str, ...],
-    folder: Path,
-    view: str,
-    lang: str | None,
-    ink: Ink,
-    formats: str,
-    force: bool,
-) -> None:
-    """Draw the velocity and acceleration sheets and the calculations.
-
-    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and
-    what is set: pump-n7-velocity-key.pdf. Files that exist are kept unless --force is given.
-
-    \b
-    Examples:
-      graphkin sheet pump --set n=7 -o sheets
-      graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
-    """
-    kinds = formats_of(formats)
-    from graphkin.handout import hand_out
-    from graphkin.paper.files import file_stem, rendered, write_all
-
-    mechanism = mechanism_of(name, settings)
-    stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    files: dict[str, bytes] = {}
-    for part in hand_out(mechanism, view=view, language=lang):
-        files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, kinds, ink)
-    tell(str(path) for path in write_all(folder, files, force))
-
-
-@app.command()
-@scene_argument
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    metavar="DIR",
-    type=Folder(path_type=Path),
-    default=Path(),
-    help="Folder to write into, made if it is missing; the current one by default.",
-)
-@click.option(
-    "--driver",
-    metavar="N",
-    type=int,
-    help="Of several drivers move only this one, counted from 1, while the others stand still.",
-)
-@click.option(
-    "--steps",
-    metavar="N",
-    type=click.IntRange(4, 1_000_000),
-    default=360,
-    show_default=True,
-    help="Positions in a whole turn, in a range, or in the time shown.",
-)
-@click.option(
-    "--from", "low", metavar="NUMBER", type=float, help="Begin here, not at the start of the range."
-)
-@click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
-@click.option(
-    "--format",
-    "formats",
-    metavar="svg,png",
-    default="svg,png",
-    show_default=True,
-    help="Kinds of picture to write; the table comes as CSV.",
-)
-@click.option("--force", is_flag=True, help="Replace files that exist.")
-def cycle(
-    name: str,
-    settings: tuple[str, ...],
-    folder: Path,
-    driver: int | None,
-    steps: int,
-    low: float | None,
-    high: float | None,
-    formats: str,
-    force: bool,
-) -> None:
-    """Move the driver through a whole turn, or as far as it can go.
-
-    Tells its range, its dead points and change points by name, how far the followers go, and what
-    the lengths say of a single loop. Writes a table (CSV, SI units), curves of all motions, paths
-    of points, centrodes, and the circle of the driven pin against what the rest can reach.
-
-    Several drivers, and laws of time, are moved by the time: one turn of the first, or --from
-    and --to seconds.
-
-    \b
-    Examples:
-      graphkin cycle pump --set n=7 -o cycles
-      graphkin cycle mine.toml -o cycles --steps 720 --format png
-    """
-    kinds = formats_of(formats, ("svg", "png"))
-    from graphkin.curves.files import picture_files
-    from graphkin.motion import cycle as moved
-    from graphkin.motion.sweep import bounds_in_si
-    from graphkin.paper.files import file_stem, write_all
-    from graphkin.report.cycle import agrees, cycle_lines
-    from graphkin.report.cycle_table import cycle_table
-
-    mechanism = mechanism_of(name, settings)
-    first, last = bounds_in_si(mechanism.scene, driver, low, high)
-    found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
-    tell(cycle_lines(found))
-    stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
-    files |= picture_files(found, stem, kinds)
-    tell(["", *(str(path) for path in write_all(folder, files, force))])
-    if not agrees(found):
-        complain("the independent route does not agree with the construction")
-        leave(FAILED)
-
-
-@app.command()
-@scene_argument
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    metavar="DIR",
-    type=Folder(path_type=Path),
-    default=Path(),
-    help="Folder to write into, made if it is missing; the current one by default.",
-)
-@click.option("--quick", is_flag=True, help="A few positions, hardly timed: to see what comes.")
-@click.option(
-    "--format",
-    "formats",
-    metavar="svg,png",
-    default="svg,png",
-    show_default=True,
-    help="Kinds of picture to write; the table comes as CSV.",
-)
-@click.option("--force", is_flag=True, help="Replace files that exist.")
-def accuracy(
-    name: str, settings: tuple[str, ...], folder: Path, quick: bool, formats: str, force: bool
-) -> None:
-    """Measure what accuracy costs in time: errors of every method against certified answers.
-
-    Runs the same positions in doubles one by one and in batches, in single and extended precision,
-    in decimals of up to 120 digits, in balls that prove their radius, by Newton's method on the
-    loop equations and by central differences, and foretells what a pencil makes of them. Writes
-    a table (CSV) and three pictures: error against time; error towards a dead point; cost by what
-    is asked. It takes about half a minute; groups of class III and higher some minutes.
-
-    \b
-    Examples:
-      graphkin accuracy pump -o accuracy
-      graphkin accuracy mine.toml -o accuracy --quick
-    """
-    kinds = formats_of(formats, ("svg", "png"))
-    from graphkin.accuracy.files import picture_files
-    from graphkin.accuracy.stopwatch import QUICK, Effort
-    from graphkin.accuracy.study import study
-    from graphkin.paper.files import file_stem, write_all
-    from graphkin.report.accuracy import accuracy_lines, accuracy_table
-
-    mechanism = mechanism_of(name, settings)
-    effort = QUICK if quick else Effort()
-    say = progress()
-    found = study(mechanism, scales_if_any(mechanism), effort, say=say)
-    say("")
-    tell(accuracy_lines(found))
-    stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    files = {f"{stem}-accuracy.csv": accuracy_table(found).encode()}
-    files |= picture_files(found, stem, kinds)
-    tell(["", *(str(path) for path in write_all(folder, files, force))])
-
-
-app.add_command(print_sheets)
-app.add_command(grade)
-
-
-def formats_of(text: str, known: tuple[str, ...] = FORMATS) -> tuple[str, ...]:
-    """The kinds of file named with commas between them."""
-    kinds = tuple(dict.fromkeys(kind.strip().lower() for kind in text.split(",") if kind.strip()))
-    wrong = [kind for kind in kinds if kind not in known]
-    if wrong or not kinds:
-        found, both = ", ".join(wrong) or "nothing", ",".join(known)
-        words = f"--format: {found} is not {', '.join(known)} or {both}"
-        raise click.UsageError(words, current())
-    return kinds
-
-
-def mechanism_of(name: str, settings: tuple[str, ...]) -> Mechanism:
-    """The mechanism of a lab or a file with its parameters set."""
-    from graphkin import labs
-    from graphkin.mechanism import Mechanism
-    from graphkin.scene.read import read_scene
-
-    path, pairs = labs.find(name), pairs_of(settings)
-    current().meta[READING] = str(path) if Path(name).is_dir() else name
-    return Mechanism(read_scene(path, pairs))
-
-
-def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
-    """Each NAME=VALUE in its two parts; a name may be set once."""
-    found: dict[str, str] = {}
-    for setting in settings:
-        name, equals, value = (part.strip() for part in setting.partition("="))
-        if not (name and equals and value):
-            raise click.UsageError(f"--set {setting}: write NAME=VALUE, such as n=7", current())
-        if name in found:
-            raise click.UsageError(f"--set {name}: is set twice", current())
-        found[name] = value
-    return found
-
-
-def scales_of(mechanism: Mechanism) -> Scales:
-    """The scale factors of the sheets."""
-    from graphkin.scaling import scales
-
-    return scales(mechanism)
-
-
 def by_pencil(
     mechanism: Mechanism, drawn_at: Scales, millimetres: float
 ) -> tuple[dict[str, Any], tuple[str, ...]]:
@@ -545,51 +264,11 @@ def doubts(scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | No
     return flat or verdict is None or not verdict.agrees
 
 
-def scales_if_any(mechanism: Mechanism) -> Scales | None:
-    """The scale factors of the sheets; None, and a message, where they cannot be drawn."""
-    from graphkin.errors import GraphkinError
-
-    try:
-        return scales_of(mechanism)
-    except GraphkinError as error:
-        for problem in error.problems:
-            complain(f"the pencil is left out: {problem}")
-        return None
-
-
-def progress() -> Callable[[str], None]:
-    """What shows on a terminal, on one line, what is being done; elsewhere it is silent."""
-    import sys
-
-    def say(words: str) -> None:
-        click.echo(f"\r\x1b[K{words}{' …' if words else ''}", nl=False, err=True)
-
-    def silent(words: str) -> None:
-        return
-
-    return say if sys.stderr is not None and sys.stderr.isatty() else silent
-
-
-def current() -> click.Context:
-    """The context of the command that runs."""
-    return click.get_current_context()
-
-
-def leave(status: int) -> None:
-    """End the command with a status."""
-    current().exit(status)
-
-
-def tell(lines: Iterable[str]) -> None:
-    """Print lines."""
-    for line in lines:
-        click.echo(line)
+for command in (sheet, cycle, accuracy, print_sheets, grade, new, variants):
+    app.add_command(command)
 
 
 def main() -> None:
     """Run the command line and leave with its status."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
     app(prog_name="graphkin")
-
-
-import graphkin.cli_class  # noqa: E402, F401  (its commands join the app, which stands by now)

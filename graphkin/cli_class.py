@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli import Folder, app, leave, tell
 from graphkin.console import FAILED, complain
+from graphkin.options import Folder, force_option, leave, tell
 
 if TYPE_CHECKING:
     from graphkin.variants.assign import Assigned
 
 
-@app.group(invoke_without_command=True)
+@click.group(invoke_without_command=True)
 @click.pass_context
 def new(context: click.Context) -> None:
     """Make something to start from: a lab.
@@ -38,7 +38,7 @@ def new(context: click.Context) -> None:
     default=Path(),
     help="Folder in which the lab's folder is made; the current one by default.",
 )
-@click.option("--force", is_flag=True, help="Replace files that exist.")
+@force_option
 def new_lab(name: str, folder: Path, force: bool) -> None:
     """Make a lab: a folder NAME with a scene and the rule of its variants, to be changed.
 
@@ -54,7 +54,7 @@ def new_lab(name: str, folder: Path, force: bool) -> None:
     tell(str(path) for path in made(name, folder, force=force))
 
 
-@app.command()
+@click.command()
 @click.argument("name", metavar="LAB")
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
 @click.option(

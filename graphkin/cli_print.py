@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.console import FAILED, complain
+from graphkin.options import ink_option, language_option
 
 if TYPE_CHECKING:
     from graphkin.paper.style import Ink
@@ -30,18 +31,8 @@ TENTHS = 10
     show_default=True,
     help="What to print of each student; a task comes with its A4 form.",
 )
-@click.option(
-    "--lang",
-    type=click.Choice(["ro", "en", "it"]),
-    help="Language of the pages; the scene's by default.",
-)
-@click.option(
-    "--ink",
-    type=click.Choice(["colour", "black"]),
-    default="colour",
-    show_default=True,
-    help="black: for printers without colour; the kinds of line tell vectors apart.",
-)
+@language_option
+@ink_option
 @click.option(
     "--format",
     "formats",

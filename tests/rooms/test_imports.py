@@ -63,9 +63,22 @@ TABLE: dict[str, set[str]] = {
     "lab": NUMERIC | {"paper", "loci", "scaling", "roster", "report.table"},
     "roster": {"scene"},
     "variants": NUMERIC | {"lab", "roster", "paper", "report.table", "__version__"},
-    "cli_class": {"cli", "console", "lab", "roster", "variants"},
+    "options": {"mechanism", "labs", "scene", "scaling", "paper.scale", "console"},
+    "cli_draw": NUMERIC
+    | {
+        "options",
+        "console",
+        "accuracy",
+        "curves",
+        "motion",
+        "report",
+        "paper",
+        "handout",
+        "scaling",
+    },
+    "cli_class": {"options", "console", "lab", "roster", "variants"},
     "printing": NUMERIC | {"text", "paper", "scaling", "handout", "lab", "variants", "__version__"},
-    "cli_print": {"printing", "paper", "console"},
+    "cli_print": {"options", "printing", "paper", "console"},
     "grading": NUMERIC
     | {
         "pencil",
