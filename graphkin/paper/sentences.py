@@ -8,7 +8,7 @@ from typing import Any
 from graphkin.paper.centre_words import with_centres_together
 from graphkin.paper.closing import closing_sentence, idle_sentences
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import amount, height_above, plan_amount, rate_symbol, vector_of
+from graphkin.paper.naming import amount, height_above, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.paper.phrases import SWINGS, point_sentence
 from graphkin.paper.richtext import escape
 from graphkin.paper.sentence import Sentence, in_one, together
@@ -61,7 +61,8 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
         elif number in drawing.tags:
             yield from trial_sentence(drawing, number)
         elif key in OWN and is_own(drawing, step):
-            yield Sentence(number, key, OWN[key](drawing, number, step))
+            if markup := OWN[key](drawing, number, step):
+                yield Sentence(number, key, markup)
         elif is_found_point(drawing, number, step) and not is_again(drawing, step):
             divided = key == "between" and step.by_hand not in drawing.trace.values
             markup = "" if divided else point_sentence(drawing, number, step)
@@ -120,10 +121,31 @@ def rolling_sentence(drawing: Drawing, number: int, step: Step) -> str:
     )
 
 
+def laid_off_sentence(drawing: Drawing, number: int, step: Step) -> str:
+    """A Coriolis component laid off between points that are known: what is left is the guide's.
+
+    Nothing where a line is drawn from its end: the point on that line tells of it.
+    """
+    steps = drawing.trace.program.steps
+    users = [steps[user] for user in drawing.children.get(number, ())]
+    left = [user for user in users if user.arrow and user.says.get("kind") == "r"]
+    if not left or not all(user.arrow or user.part is Part.RESULT for user in users):
+        return ""
+    return drawing.words(
+        "step.coriolis-laid",
+        s=symbol(step.says["s"]),
+        c=symbol(f"a_{step.says['i']}^c"),
+        r=symbol(left[0].says["symbol"]),
+        q=symbol(steps[left[0].args[1]].name),
+        guide=way_of(drawing, steps[step.args[1]].says["g"]),
+    )
+
+
 OWN: dict[str, Callable[[Drawing, int, Step], str]] = {
     **dict.fromkeys(SWINGS, swing_sentence),
     "rolling-normal": rolling_sentence,
     "close": closing_sentence,
+    "lay-off-coriolis": laid_off_sentence,
     "share": share_sentence,
 }
 """Steps that find no point by themselves and have a sentence all the same."""

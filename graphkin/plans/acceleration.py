@@ -25,7 +25,7 @@ from graphkin.plans.plates import crosses_well
 from graphkin.plans.shape import Shapes
 from graphkin.plans.velocity import driven_rate, line_of
 from graphkin.steps.effect import Effect
-from graphkin.steps.guides import driven_slide, lay_off_turned
+from graphkin.steps.guides import driven_slide
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
@@ -246,8 +246,9 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
         tail = image_under(pen, pair.links[1], first)
         vector = coriolis_of(pen, pair.links[1], tail, pen.the("velocity", first), first, block)
         pen.want("coriolis", block, vector)
-        with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for(Effect.CORIOLIS):
-            start = pen.draw(lay_off_turned, start, vector, q=first)
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            start = lay_off_coriolis(pen, pair, block, first, first, vector)
+            slide_arrow(pen, start, end, pair.links[1], first)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.links import under
-from graphkin.plans.pen import Pen, Says, image, letter, second_image
+from graphkin.plans.normals import component_arrow
+from graphkin.plans.pen import Pen, Says, about, image, letter, second_image
 from graphkin.scene.model import FRAME
 from graphkin.steps.effect import Effect
 from graphkin.steps.program import Part, Plane
@@ -113,6 +114,7 @@ def found_by_turning(pen: Pen, link: str, point: str, quantity: str) -> int:
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             return pen.draw(turned_velocity, start, *ends, turning, name=image(name), **says)
     rate, called = omega_of(pen, link, "epsilon"), second_image(name)
+    says["i"] = about(pen, name, base.start)
     steady = pen.is_nought(rate)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         with pen.calls_for(Effect.NORMAL):
@@ -121,7 +123,10 @@ def found_by_turning(pen: Pen, link: str, point: str, quantity: str) -> int:
         if steady:
             return corner
         with pen.calls_for(tangential_effect(pen, rate)):
-            return pen.draw(driven_tangential, corner, *ends, rate, name=called, **says)
+            found = pen.draw(driven_tangential, corner, *ends, rate, name=called, **says)
+        component_arrow(pen, start, corner, "ν", name, base.start)
+        component_arrow(pen, corner, found, "τ", name, base.start)
+        return found
 
 
 def tangential_effect(pen: Pen, rate: int) -> Effect:

@@ -113,7 +113,8 @@ def lay_off_coriolis(
         return start
     says = coriolis_says(pen, partner(pair, link), point, named(pen, start))
     with pen.calls_for(Effect.CORIOLIS):
-        corner = pen.draw(lay_off_turned, start, vector, **says)
+        key = ("laid off", start, vector)
+        corner = pen.shared.get(key) or pen.draw_shared(key, lay_off_turned, start, vector, **says)
     coriolis_arrow(pen, start, corner, says)
     return corner
 

@@ -16,25 +16,37 @@ from graphkin.plans.coriolis import guide_corner
 from graphkin.plans.guides import known_guide
 from graphkin.plans.higher import Each, cut_at, slide_of
 from graphkin.plans.links import bases, ending
-from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
+from graphkin.plans.normals import lay_off_normal, normal_component, square
 from graphkin.plans.pen import Pen, Says, about, image, letter, named, second_image
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.closing import (
     after_component,
+    after_way,
     along_component,
+    along_way,
+    before_component,
     between,
     far,
     inverse,
     lacks,
     lacks_across,
+    last_component,
     less,
     line_through,
     product,
     share,
 )
+from graphkin.steps.guides import lay_back, lay_off_turned
 from graphkin.steps.program import Part, Plane, Target
-from graphkin.steps.vocabulary import distance, meet, part_along, sum_of
+from graphkin.steps.vocabulary import (
+    Action,
+    distance,
+    driven_tangential,
+    meet,
+    part_along,
+    sum_of,
+)
 from graphkin.structure.graph import Pin, Sliding
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.joints import partner
@@ -67,23 +79,25 @@ ACCELERATION = Kind("acceleration", "epsilon", Part.ACCELERATION, Plane.ACCELERA
 
 def two_trials(pen: Pen, shapes: Shapes, group: Higher, each: Each, kind: Kind) -> None:
     """Two wrong plans give the right one: what is missed is linear in what is tried."""
-    layers, misses = [], []
+    layers, misses, begun = [], [], []
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         at_rest = pen.given("nought", name=f"{kind.rate} tried of {group.trial.link}")
         values = at_rest, trial_value(pen, group, kind)
     for tag, value in zip("¹²", values, strict=True):
+        begun.append(len(pen.steps))
         with pen.trial(tag) as layer:
             move_trial(pen, shapes, group, kind, value)
             for member in group.chain:
                 each(pen, shapes, member, bases(pen.scene, member))
             misses.append(missed(pen, shapes, group, kind))
         layers.append(layer)
+    tried = range(begun[1], len(pen.steps))
     with pen.on(kind.part, Plane.NUMBERS):
         says: Says = {"k": group.trial.link, "tried": "{} {}".format(*values), **cut_at(group.last)}
         divided = pen.draw(share, *misses, **says)
     settle(pen, group, kind, layers, divided)
     if kind is ACCELERATION:
-        components(pen, group, layers[1])
+        components(pen, group, layers[1], tried)
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))
     for link in group.links:
@@ -242,26 +256,63 @@ def crossing(pen: Pen, group: Higher, kind: Kind, of: str, one: int, two: int) -
         return pen.draw(meet, line, square(pen, other, of, corner))
 
 
-def components(pen: Pen, group: Higher, second: dict[Target, int]) -> None:
-    """The arrows of normal and tangential components in the right plan.
+def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range) -> None:
+    """The arrows of the components in the right plan.
 
-    The normal components are those of the trials, for they do not hang on what is tried.
+    What is laid off there is what the second trial has laid off, for it does not hang on what is
+    tried: normal and Coriolis components. What closes the way to a point is its tangential
+    component, or the acceleration along a guide.
     """
-    base = pen.bases[group.trial.link]
+    right = {number: pen.targets[t] for t, number in second.items() if t in pen.targets}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        if isinstance(group.trial.pair, Pin) and base.end is not None:
-            corner = pen.steps[second["acceleration", base.end]].args[0]
-            start, tip = (pen.the("acceleration", point) for point in (base.start, base.end))
-            component_arrow(pen, start, corner, "ν", base.end, base.start)
-            component_arrow(pen, corner, tip, "τ", base.end, base.start)
+        for number in tried:
+            carried_legs(pen, right, number)
         for pivot, pin, vector in normals_of(pen, group):
             ends = pen.the("acceleration", pivot), pen.the("acceleration", pin)
-            index = about(pen, pin, pivot)
-            says: Says = {"q": letter(pin), "p": letter(pivot)}
-            for leg, sign in ((along_component, "ν"), (after_component, "τ")):
-                symbol = f"a_{index}^{sign}"
-                if symbol not in pen.arrows:
-                    pen.arrow(leg, *ends, vector, name=symbol, symbol=symbol, kind=sign, **says)
+            says: Says = {"i": about(pen, pin, pivot), "q": letter(pin), "p": letter(pivot)}
+            legs(pen, "ντ", along_component, after_component, (*ends, vector), says)
+        for number in tried:
+            sliding_legs(pen, right, number)
+
+
+def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
+    """Normal and tangential component of a point that a link of known turning carries."""
+    step = pen.steps[number]
+    if step.action is not driven_tangential or number not in right:
+        return
+    corner = step.args[0]
+    start = pen.steps[corner].args[0]
+    ends = right.get(start, start), right[number]
+    legs(pen, "ντ", along_way, after_way, (*ends, start, corner), step.says)
+
+
+def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
+    """Coriolis component and relative acceleration of a point that slides on what turns.
+
+    Where the point of the guide under it is sought, the way is gone backwards from the sliding one.
+    """
+    step = pen.steps[number]
+    if step.action not in (lay_off_turned, lay_back):
+        return
+    start, vector = (right.get(arg, arg) for arg in step.args)
+    says: Says = {**step.says, "p": ""}
+    if step.action is lay_off_turned:
+        ends = start, pen.the("acceleration", step.says["q"])
+        legs(pen, "cr", along_component, after_component, (*ends, vector), says)
+    else:
+        ends = pen.the("acceleration", f"{step.says['q']}@{step.says['k']}"), start
+        legs(pen, "rc", before_component, last_component, (*ends, vector), says)
+
+
+def legs(
+    pen: Pen, kinds: str, first: Action, last: Action, args: tuple[int, ...], says: Says
+) -> None:
+    """The arrows of both legs of a way in the plan, each under the sign of its component."""
+    for action, sign in zip((first, last), kinds, strict=True):
+        symbol = f"a_{says['i']}^{sign}"
+        if symbol not in pen.arrows:
+            told = {name: says[name] for name in ("q", "p")}
+            pen.arrow(action, *args, name=symbol, symbol=symbol, kind=sign, **told)
 
 
 def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:

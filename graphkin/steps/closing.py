@@ -128,6 +128,30 @@ def after_component(start: Point, tip: Point, component: Point) -> Vector:
     return Vector(start + component, tip)
 
 
+@action("to-corner")
+def along_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
+    """The first leg of such a way: as long as the one from a foot to a corner elsewhere."""
+    return Vector(start, start + (corner - foot))
+
+
+@action("from-corner")
+def after_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
+    """The last leg of such a way."""
+    return Vector(start + (corner - foot), tip)
+
+
+@action("to-corner")
+def before_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The first leg of a way whose last one is a component, laid off backwards from its tip."""
+    return Vector(start, tip - component)
+
+
+@action("from-corner")
+def last_component(start: Point, tip: Point, component: Point) -> Vector:
+    """A component as the last leg of a way between two points of a plan."""
+    return Vector(tip - component, tip)
+
+
 @action("line-through")
 def line_through(first: Point, second: Point) -> Line:
     """The line through two points."""

@@ -150,13 +150,21 @@ class Program:
         return tuple(sorted(wanted))
 
     def _arrows(self, wanted: set[int]) -> set[int]:
-        """The arrows whose ends are all there, with the given values that they need."""
-        found: set[int] = set()
+        """The arrows whose ends are all there, with what comes along to them."""
+        found = set(wanted)
         for number, step in enumerate(self.steps):
-            givens = {arg for arg in step.args if self.steps[arg].given is not None}
-            if step.arrow and wanted.issuperset(set(step.args) - givens):
-                found |= {number, *givens}
-        return found
+            along = {arg for arg in step.args if self._comes_along(arg, found)}
+            if step.arrow and found.issuperset(set(step.args) - along):
+                found |= {number, *along}
+        return found - wanted
+
+    def _comes_along(self, number: int, found: set[int]) -> bool:
+        """Whether an arrow brings a step: a given value, or the point under a sliding one in a plan
+        that two trials give, through which the sliding one's components lead."""
+        step = self.steps[number]
+        if step.action is None or step.action.key != "between":
+            return step.given is not None
+        return "@" in step.says.get("q", "") and found.issuperset(step.args)
 
     def descendants(self, number: int) -> frozenset[int]:
         """The steps whose values depend on a step, itself included."""

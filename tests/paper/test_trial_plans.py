@@ -91,22 +91,54 @@ def test_the_trials_take_up_little_more_room_than_the_right_plan(higher):
         assert max(abs(one - two) for _, one, two in points) > 0.25 * whole
 
 
-@pytest.mark.parametrize("name", [name for name in HIGHER if name.startswith("stephenson")])
-def test_the_right_plan_has_its_normal_and_tangential_components(name):
-    """Between two points of a bar stand the normal component and then the tangential one."""
-    some = mechanism(name)
+def components(some: Mechanism, signs: str) -> dict[str, Vector]:
+    """The arrows of the components in the right plan, under their symbols."""
     trace = some.trace(by_hand=True)
-    arrows = {
+    return {
         step.name: trace.values[number]
         for number, step in enumerate(some.program.steps)
-        if step.arrow and number in trace.values and step.says.get("kind") in ("ν", "τ")
+        if step.arrow and number in trace.values and step.says.get("kind", "-") in signs
     }
+
+
+def assert_square(one: Vector, other: Vector, symbol: str) -> None:
+    """Two arrows stand square to each other."""
+    first, second = one.tip - one.tail, other.tip - other.tail
+    size = max(abs(first), abs(second))
+    assert abs((first * second.conjugate()).real) <= 1e-9 * size * size, symbol
+
+
+@pytest.mark.parametrize("name", HIGHER)
+def test_the_right_plan_has_its_normal_and_tangential_components(name):
+    """Between two points of a bar stand the normal component and then the tangential one."""
+    arrows = components(mechanism(name), "ντ")
     tangential = [symbol for symbol in arrows if symbol.endswith("τ")]
-    assert len(tangential) > 3
+    assert len(tangential) > 1
     for symbol in tangential:
         normal, other = arrows[symbol[:-1] + "ν"], arrows[symbol]
-        assert isinstance(normal, Vector)
         assert abs(normal.tip - other.tail) < 1e-9
-        along, across = normal.tip - normal.tail, other.tip - other.tail
-        size = max(abs(along), abs(across))
-        assert abs((along * across.conjugate()).real) <= 1e-9 * size * size, symbol
+        assert_square(normal, other, symbol)
+
+
+@pytest.mark.parametrize(
+    ("name", "slides"), [("rapid-return", {"PP2", "AA3"}), ("rod-and-wheel", {"BB1"})]
+)
+def test_the_right_plan_has_the_coriolis_component_of_each_slide_and_what_is_left(name, slides):
+    """A slide's acceleration is that of the guide's point, Coriolis and what is along the guide."""
+    arrows = components(mechanism(name), "cr")
+    assert set(arrows) == {f"a_{index}^{sign}" for index in slides for sign in "cr"}
+    for index in slides:
+        coriolis, left = arrows[f"a_{index}^c"], arrows[f"a_{index}^r"]
+        joined = (left.tip == coriolis.tail, coriolis.tip == left.tail)
+        assert any(joined), index
+        assert_square(coriolis, left, index)
+
+
+def test_an_arrow_brings_the_point_under_a_sliding_one_and_no_other_point():
+    """Through p′_2 the way leads to p′; who asks for P alone gets no q′."""
+    some = load(SCENES / "rapid-return.toml")
+    program = some.program
+    needed = program.needed([("acceleration", "P")], by_hand=True)
+    names = {program.steps[number].name for number in needed}
+    assert "p′_2" in names
+    assert "q′" not in names
