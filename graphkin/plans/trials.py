@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from graphkin.plans import acceleration as accelerations
 from graphkin.plans import velocity as velocities
-from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
+from graphkin.plans.arrows import acceleration_arrow, arrow_between, velocity_arrows
 from graphkin.plans.carried import image_under, omega_of
 from graphkin.plans.coriolis import guide_corner
 from graphkin.plans.guides import known_guide
@@ -233,9 +233,26 @@ def settle(
     for point in settled:
         if "@" not in point:
             finish(pen, kind, point)
+        elif kind is VELOCITY:
+            relative_arrows(pen, point)
     match group.last:
         case Tie(_, Pin(point=p), Pin(point=q)) if kind is VELOCITY:
             velocity_arrows(pen, *((q, p) if q in settled else (p, q)))
+
+
+def relative_arrows(pen: Pen, name: str) -> None:
+    """The arrows of the right plan about the point of a link under a sliding one (name P@2).
+
+    One is its velocity about the base of its link, the other that of the sliding point against it.
+    """
+    point, _, link = name.partition("@")
+    here, start = pen.the("velocity", name), pen.bases[link].start
+    if pen.has("velocity", point):
+        arrow_between(pen, here, pen.the("velocity", point), point, letter(name))
+    if pen.has("velocity", start):
+        fixed = start in pen.scene.frame.points
+        about_which = "" if fixed else letter(start)
+        arrow_between(pen, pen.the("velocity", start), here, name, about_which)
 
 
 def crossing(pen: Pen, group: Higher, kind: Kind, of: str, one: int, two: int) -> int | None:

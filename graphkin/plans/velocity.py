@@ -221,6 +221,7 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
         guide = known_guide(pen, shapes, pair)
         found = pen.draw(part_along, guide, start, pen.the("velocity", first))
     pen.want("slide speed", block, found)
+    slide_arrow(pen, pair, block, first)
 
 
 # --- arrows --------------------------------------------------------------------------------------

@@ -142,3 +142,22 @@ def test_an_arrow_brings_the_point_under_a_sliding_one_and_no_other_point():
     names = {program.steps[number].name for number in needed}
     assert "p′_2" in names
     assert "q′" not in names
+
+
+def test_a_relative_velocity_on_a_guide_is_an_arrow_along_it():
+    """From the point of the guide to the sliding one: what the table gives as the slide's speed."""
+    some = mechanism("rapid-return")
+    trace = some.trace(by_hand=True)
+    steps = some.program.steps
+    arrows = {
+        s.says["symbol"]: trace.values[n]
+        for n, s in enumerate(steps)
+        if s.arrow and n in trace.values
+    }
+    places = [trace.value("position", point) for point in "PQ"]
+    speed = some.solve().slides["2"].speed
+    for symbol in ("v_PP2", "v_AA3"):
+        way = arrows[symbol].tip - arrows[symbol].tail
+        along = way / (places[1] - places[0]) * abs(places[1] - places[0])
+        assert abs(along.imag) < 1e-9 * abs(way)
+        assert abs(abs(along.real) - abs(speed)) < 1e-9 * abs(speed)
