@@ -20,6 +20,8 @@ ROW, BASE = 4.7, 3.4
 HEIGHT, SMALL = 2.5, 1.8
 VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
+PAD = 1.4
+"""Least room beside the letters of a cell, both sides together, in mm."""
 BETWEEN, APART = 3, 0.6
 """Room between tables beside one another, in mm, and below one another, in rows."""
 
@@ -106,9 +108,19 @@ def sense(words: Words, value: Any) -> str:
 
 
 def table(
-    x: float, y: float, widths: Sequence[float], head: Row, rows: Sequence[Row]
+    x: float,
+    y: float,
+    widths: Sequence[float],
+    head: Row,
+    rows: Sequence[Row],
+    among: Sequence[Row] = (),
 ) -> list[Mark]:
-    """A ruled table with its top-left corner at (x, y); widths of columns in mm."""
+    """A ruled table with its top-left corner at (x, y); widths of columns in mm.
+
+    ``among`` are all rows of a table that stands in blocks, which look alike.
+    """
+    widths = shared(widths, head, among or rows)
+    letters = size_for(widths, among or rows)
     marks: list[Mark] = []
     total, height = sum(widths), ROW * (len(rows) + 1)
     marks.append(box(x, y, total, ROW, "shade"))
@@ -118,11 +130,24 @@ def table(
     for width in (*widths, 0.0):
         marks.append(Line(left, y, left, y + height, "panel"))
         left += width
-    marks += cells(x, y + BASE, widths, head, size_for(widths, [head]))
-    height = size_for(widths, rows)
+    marks += cells(x, y + BASE, widths, head, SMALL)
     for i, row in enumerate(rows, 1):
-        marks += cells(x, y + i * ROW + BASE, widths, row, height)
+        marks += cells(x, y + i * ROW + BASE, widths, row, letters)
     return marks
+
+
+def shared(widths: Sequence[float], head: Row, rows: Sequence[Row]) -> tuple[float, ...]:
+    """Widths of columns with the same sum, in which the room beside the cells is shared evenly.
+
+    The given ones where every cell has room enough in them, or where not even all together have.
+    """
+    needs = [
+        max(extent(name, SMALL)[0], *(extent(row.cells[i], HEIGHT)[0] for row in rows))
+        for i, name in enumerate(head.cells)
+    ]
+    left = (sum(widths) - sum(needs)) / len(widths)
+    enough = all(need + PAD <= width for need, width in zip(needs, widths, strict=True))
+    return tuple(widths) if enough or left < PAD else tuple(need + left for need in needs)
 
 
 def size_for(widths: Sequence[float], rows: Sequence[Row]) -> float:
@@ -130,7 +155,7 @@ def size_for(widths: Sequence[float], rows: Sequence[Row]) -> float:
     for row in rows:
         for width, markup in zip(widths, row.cells, strict=True):
             across, _, below = extent(markup, HEIGHT)
-            if across > width - 1 or below > ROW - BASE - 0.1:
+            if across > width - PAD + 1e-9 or below > ROW - BASE - 0.1:
                 return SMALL
     return HEIGHT
 
@@ -162,7 +187,7 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     marks: list[Mark] = []
     x = rect[0]
     for block in blocks:
-        marks += table(x, rect[1], VECTORS, head, block)
+        marks += table(x, rect[1], VECTORS, head, block, rows)
         x += sum(VECTORS) + BETWEEN
     used = float(len(blocks[-1]) + 1 if blocks else room + 1)
     below = len(blocks) > 1 and room - used > len(turns)
