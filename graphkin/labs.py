@@ -58,7 +58,8 @@ def find(name: str) -> Path:
     if path.is_dir():
         expected = "a folder with scene.toml, a .toml file or the name of a lab"
         raise SceneError(Problem(name, "is a folder without scene.toml", expected))
-    near = get_close_matches(name, names(), n=1)
+    beside = [str(path.with_name(other.name)) for other in path.parent.glob("*.toml")]
+    near = get_close_matches(name, [*beside, *names()], n=1)
     hint = f"did you mean {near[0]}? " if near else ""
     raise SceneError(
         Problem(

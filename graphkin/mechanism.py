@@ -187,6 +187,11 @@ class Mechanism:
             known = ", ".join(self.scene.values) or "none: the scene has no parameters"
             raise SceneError([Problem(name, "is no parameter", known) for name in strangers])
         arrays = np.broadcast_arrays(*(np.atleast_1d(p) for p in parameters.values()))
+        strange = [n for n, a in zip(parameters, arrays, strict=True) if a.dtype.kind not in "biuf"]
+        if strange:
+            raise SceneError(
+                [Problem(name, "holds what is no number", "real numbers") for name in strange]
+            )
         floats = [np.asarray(array, dtype=float) for array in arrays]
         given = dict(zip(parameters, floats, strict=True))
         refuse_out_of_range(self.scene, given)

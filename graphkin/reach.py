@@ -109,12 +109,15 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
     if not error.ways:
         found = f"links {links} do not close{least_miss(failed)}"
         return Problem("position", found, "loci that cross", where_it_closes(scene))
+    elsewhere = ""
+    if closes_elsewhere(scene):
+        elsewhere = f"; with closure {error.asked} {where_it_closes(scene)}"
     ways = "1 way" if error.ways == 1 else f"{error.ways} ways"
     return Problem(
         f"branches.{branch_of(scene, links)}",
         f"links {links} close in {ways} here, closure {error.asked} is asked",
         '"closure 1"' if error.ways == 1 else f'"closure 1" to "closure {error.ways}"',
-        f"graphkin check lists them; with closure {error.asked} {where_it_closes(scene)}",
+        "graphkin check lists them" + elsewhere,
     )
 
 

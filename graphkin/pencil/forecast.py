@@ -96,7 +96,7 @@ class Forecast:
 
 
 def forecast(exact: Original, pencil: Pencil) -> Forecast:
-    """The 95th percentile of the error of each answer of an original, in milliseconds.
+    """The 95th percentile of the error of each answer of an original, without drawing it often.
 
     A grid rounds some marks and leaves others where they are: with one, joint drawings are made.
     """

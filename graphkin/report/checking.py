@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import asin, degrees
+from math import degrees
 
 from graphkin.closures import Choice, choices
 from graphkin.errors import ClosureError, GraphkinError, Problem, WitnessError
@@ -16,6 +16,7 @@ from graphkin.report.record import plain, settings_words
 from graphkin.report.structure import group_lines, structure
 from graphkin.report.table import labelled, listed, table
 from graphkin.scene.model import Scene
+from graphkin.steps.crossings import crossings
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.structure.drivers import driver_problem
@@ -44,7 +45,8 @@ class Checking:
             yield from self.closing()
             yield from labelled("rank", self.rank())
             trace = self.mechanism.trace()
-            yield from labelled("crossings", crossing_lines(trace))
+            by_hand = self.mechanism.trace(self.mechanism.asked(), by_hand=True)
+            yield from labelled("crossings", crossing_lines(by_hand))
             yield from labelled("note", fallen_together(scene, trace))
             self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
             yield from labelled("witness", [self.witness(trace)])
@@ -134,12 +136,13 @@ def range_words(mechanism: Mechanism) -> str:
 
 
 def crossing_lines(trace: Trace) -> list[str]:
-    """The flattest crossings: the angle, the part of the work, and the point."""
-    program = trace.program
-    drawn = [(s, n) for n, s in trace.margins.items() if not program.steps[n].hand]
+    """The flattest crossings on paper: the angle, the part of the work, and the point.
+
+    ``trace`` holds the hand's way to what is asked: right triangles, plates and poles, too.
+    """
     rows: dict[tuple[str, str], str] = {}
-    for sine, step in sorted(drawn):
-        rows.setdefault(crossing(program, step), f"{degrees(asin(min(1.0, sine))):.2f}°")
+    for found in sorted(crossings(trace), key=lambda found: found.angle):
+        rows.setdefault(crossing(trace.program, found.number), f"{degrees(found.angle):.2f}°")
         if len(rows) == WORST:
             break
     if not rows:

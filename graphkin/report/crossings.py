@@ -5,6 +5,7 @@ from __future__ import annotations
 from graphkin.alignment import closed_by
 from graphkin.plans.pen import image, letter, second_image
 from graphkin.report.table import listed
+from graphkin.scene.model import FRAME
 from graphkin.steps.program import CONTACT, Part, Program
 
 TAGS = "¹²"
@@ -25,15 +26,22 @@ def crossing(program: Program, number: int) -> tuple[str, str]:
 def place_words(program: Program, number: int) -> str:
     """The point, the line, the centre or the links that a step settles; empty for none of them."""
     step = program.steps[number]
+    whole = next((n for n, other in enumerate(program.steps) if other.by_hand == number), None)
+    if whole is not None and not step.name:
+        return place_words(program, whole)
     says, key = step.says, step.action.key if step.action else ""
     if key == "swing-through":
         return f"the line {says['p']}-{says['q']}"
+    if step.part is Part.NORMAL and says.keys() >= {"p", "q"}:
+        kind = "the Coriolis triangles" if "k" in says else "the right triangle"
+        return f"{kind} of {says['q']} about {says['p']}"
     if not step.name and key.startswith(("close", "part", "share")):
         return f"links {listed(closed_by(program, number))} together"
     name = drawn_name(program, number)
-    kind, _, link = name.partition("_")
-    if step.part in (Part.CENTRE, Part.POLE) and kind in CENTRES and link:
-        return f"{CENTRES[kind]} {link}"
+    if step.part in (Part.CENTRE, Part.POLE) and name[:1] in CENTRES and "k" in says:
+        with_which = says.get("j", FRAME)
+        about = "" if with_which == FRAME else f" against link {with_which}"
+        return f"{CENTRES[name[:1]]} {says['k']}{about}"
     return point_words(program, name)
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from graphkin.errors import Problem, SceneError
+from graphkin.mechanism import load
 from graphkin.scene.read import read_text
 
 Finder = Callable[..., Problem]
@@ -367,3 +369,17 @@ def test_every_table_written_as_a_number() -> None:
     with pytest.raises(SceneError) as caught:
         read_text("graphkin = 1\n" + "".join(f"{key} = -3\n" for key in keys.split()), "numbers")
     assert {problem.place for problem in caught.value.problems} == set(keys.split())
+
+
+def test_a_file_that_is_not_there_is_held_against_those_beside_it(tmp_path: Path) -> None:
+    (tmp_path / "slider-crank.toml").write_text("")
+    with pytest.raises(SceneError) as raised:
+        load(tmp_path / "slider-cran.toml")
+    assert f"did you mean {tmp_path / 'slider-crank.toml'}?" in str(raised.value)
+
+
+@pytest.mark.parametrize("strange", ["a", 1 + 2j, [None]])
+def test_a_batch_wants_real_numbers(strange: object) -> None:
+    with pytest.raises(SceneError) as raised:
+        load("pump").batch(n=strange)
+    assert str(raised.value) == "n: holds what is no number; expected real numbers"
