@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from graphkin.alignment import beside_dead_point
 from graphkin.errors import Problem, SceneError, WitnessError
 from graphkin.loci import curves_of
 from graphkin.mechanism import Mechanism
 from graphkin.paper.drawing import Drawing
 from graphkin.scaling import WANTED, drawing, scales, shown, targets_of
+from graphkin.steps.crossings import letter_of
 from graphkin.steps.solution import FAIR, Solution, Verdict
 from graphkin.text import LANGUAGES, Words, words
 
@@ -80,14 +82,7 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
 def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
     """The witness's verdict. Raises WitnessError when it does not agree, or cannot be trusted."""
     if solution.margin < FAIR:
-        raise WitnessError(
-            Problem(
-                "position",
-                f"the flattest crossing has a sine of {solution.margin:.1e}",
-                f"at least {FAIR:g}",
-                "the position is nearly singular: choose another driver angle",
-            )
-        )
+        raise WitnessError(nearly_singular(mechanism))
     verdict = mechanism.witness(solution)
     if not verdict.agrees:
         raise WitnessError(
@@ -99,6 +94,20 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
             )
         )
     return verdict
+
+
+def nearly_singular(mechanism: Mechanism) -> Problem:
+    """The problem of lines that cross too flatly to be drawn: where, and what is nearly in line."""
+    targets = dict.fromkeys(t for kind in WANTED for t in targets_of(mechanism, kind))
+    margins = mechanism.trace(targets or None).margins
+    number = min(margins, key=lambda step: float(margins[step]))
+    return Problem(
+        f"{mechanism.scene.name}: position",
+        f"the lines at {letter_of(mechanism.program, number)} cross at a sine of "
+        f"{float(margins[number]):.1e}, nearly singular",
+        f"at least {FAIR:g}",
+        beside_dead_point(mechanism.scene, mechanism.program, number),
+    )
 
 
 def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[Drawing]:
