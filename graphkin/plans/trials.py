@@ -5,8 +5,9 @@ What a trial misses grows in proportion to what was tried (method of two plans, 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from graphkin.plans import acceleration as accelerations
 from graphkin.plans import velocity as velocities
@@ -322,7 +323,12 @@ def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
 
 
 def legs(
-    pen: Pen, kinds: str, first: Action, last: Action, args: tuple[int, ...], says: Says
+    pen: Pen,
+    kinds: str,
+    first: Action,
+    last: Action,
+    args: tuple[int, ...],
+    says: Mapping[str, Any],
 ) -> None:
     """The arrows of both legs of a way in the plan, each under the sign of its component."""
     for action, sign in zip((first, last), kinds, strict=True):
