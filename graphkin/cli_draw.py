@@ -10,6 +10,7 @@ import click
 
 from graphkin.console import FAILED, complain
 from graphkin.options import (
+    FORMATS,
     force_option,
     formats_of,
     ink_option,
@@ -45,10 +46,11 @@ if TYPE_CHECKING:
 @click.option(
     "--format",
     "formats",
-    metavar="svg,pdf",
+    metavar="svg,pdf,html",
     default="svg,pdf",
     show_default=True,
-    help="Kinds of file to write; calculations come as PDF only.",
+    help="Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
+    " which draws itself step by step (key and steps alike), or holds the task.",
 )
 @force_option
 def sheet(
@@ -66,20 +68,31 @@ def sheet(
     Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and
     what is set: pump-n7-velocity-key.pdf. Files that exist are kept unless --force is given.
 
+    With --format html it writes one page for a browser, pump-n7-key.html, with all drawings, every
+    step and the results inside; it needs no network.
+
     \b
     Examples:
       graphkin sheet pump --set n=7 -o sheets
+      graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
-    kinds = formats_of(formats)
-    from graphkin.handout import hand_out
+    kinds = formats_of(formats, (*FORMATS, "html"))
     from graphkin.paper.files import file_stem, rendered, write_all
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     files: dict[str, bytes] = {}
-    for part in hand_out(mechanism, view=view, language=lang):
-        files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, kinds, ink)
+    if "html" in kinds:
+        from graphkin.screen.handed import hand_out_page
+
+        page = hand_out_page(mechanism, name, stem, view, lang, ink)
+        files[f"{stem}-{view}.html"] = page.encode("utf-8")
+    if kinds != ("html",):
+        from graphkin.handout import hand_out
+
+        for part in hand_out(mechanism, view=view, language=lang):
+            files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, kinds, ink)
     tell(str(path) for path in write_all(folder, files, force))
 
 
@@ -104,13 +117,15 @@ def sheet(
     "--from", "low", metavar="NUMBER", type=float, help="Begin here, not at the start of the range."
 )
 @click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
+@language_option
 @click.option(
     "--format",
     "formats",
-    metavar="svg,png",
+    metavar="svg,png,gif,html",
     default="svg,png",
     show_default=True,
-    help="Kinds of picture to write; the table comes as CSV.",
+    help="Kinds of picture to write; the table comes as CSV. gif, html: mechanism and plans as they"
+    " move, a picture and a page.",
 )
 @force_option
 def cycle(
@@ -121,6 +136,7 @@ def cycle(
     steps: int,
     low: float | None,
     high: float | None,
+    lang: str | None,
     formats: str,
     force: bool,
 ) -> None:
@@ -137,14 +153,17 @@ def cycle(
     Examples:
       graphkin cycle pump --set n=7 -o cycles
       graphkin cycle mine.toml -o cycles --steps 720 --format png
+      graphkin cycle pump --set n=7 -o cycles --format gif,html
     """
-    kinds = formats_of(formats, ("svg", "png"))
+    kinds = formats_of(formats, ("svg", "png", "gif", "html"))
+    from graphkin.curves.files import FORMATS as CURVES
     from graphkin.curves.files import picture_files
     from graphkin.motion import cycle as moved
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.paper.files import file_stem, write_all
     from graphkin.report.cycle import agrees, cycle_lines
     from graphkin.report.cycle_table import cycle_table
+    from graphkin.screen.animation import animation_files
 
     mechanism = mechanism_of(name, settings)
     first, last = bounds_in_si(mechanism.scene, driver, low, high)
@@ -152,7 +171,9 @@ def cycle(
     tell(cycle_lines(found))
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
-    files |= picture_files(found, stem, kinds)
+    curves = [kind for kind in kinds if kind in CURVES]
+    files |= picture_files(found, stem, curves) if curves else {}
+    files |= animation_files(found, stem, kinds, lang)
     tell(["", *(str(path) for path in write_all(folder, files, force))])
     if not agrees(found):
         complain("the independent route does not agree with the construction")

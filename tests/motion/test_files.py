@@ -89,7 +89,7 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
         assert words in result.stdout
     again = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg")
     assert again.exit_code == 2
-    assert "--force replaces it" in again.stderr
+    assert "--force replaces them" in again.stderr
     forced = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--force")
     assert forced.exit_code == 0
 
@@ -97,7 +97,7 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
 @pytest.mark.parametrize(
     ("args", "words"),
     [
-        (("--format", "pdf"), "pdf is not svg, png or svg,png"),
+        (("--format", "pdf"), "pdf is not svg, png, gif, html or svg,png,gif,html"),
         (("--driver", "2"), "there is no driver 2"),
         (("--steps", "1"), "--steps"),
         (("--from", "50", "--to", "40"), "a window that grows"),

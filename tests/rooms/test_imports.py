@@ -99,6 +99,7 @@ TABLE: dict[str, set[str]] = {
         "lab",
         "grading.html",
         "grading.numbers",
+        "printing.form",
     },
     "printing": NUMERIC
     | {"text", "paper", "scaling", "handout", "lab", "variants", "screen", "__version__"},

@@ -1,0 +1,253 @@
+"""How the marks of steps follow: each is drawn from values, so the same values draw it again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from math import hypot, pi
+from typing import Any
+
+from graphkin.arithmetic import pick
+from graphkin.paper.centre import STRAIGHT
+from graphkin.paper.coriolis import is_coriolis
+from graphkin.paper.desk import TINY, above_foot
+from graphkin.paper.layout import BEYOND, SWEEP
+from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline
+from graphkin.paper.symbols import SHORT, VECTORS
+from graphkin.paper.trial_marks import NEAR as SHORTEST
+from graphkin.paper.trial_marks import leg_start
+from graphkin.plane import Circle as Round
+from graphkin.plane import Line as Carrier
+from graphkin.plane import Ratio, Vector, dot
+from graphkin.screen.binding import Binding, only_at_start
+from graphkin.screen.places import place_of
+from graphkin.screen.poses import larger, smaller, unit
+from graphkin.screen.visible import ALIKE, Seen
+from graphkin.steps.program import Part, Plane, Step
+
+FULL, NEAR, FAR, LAST = 0, 1, 2, 3
+"""The parts of a construction line: all of it, before its first point, after its last, its end."""
+BEYOND_BOTH = ("square-to", "parallel-to", "along-bar")
+"""The lines of a plan of which only the parts beyond their points are drawn."""
+SQUARE, ROOMY = 2.0, 6.0
+"""Side of the mark of a right angle, and of a triangle that has room for one, in mm."""
+
+
+class Steps(Seen):
+    """How the marks of the steps of one field follow."""
+
+    def binding(self, mark: Mark) -> Binding | None:
+        """How a mark of a step follows; None where none of its values gives it."""
+        number = mark.step
+        assert number is not None
+        if isinstance(mark, Circle):
+            return self.circle(number, mark)
+        if isinstance(mark, Arc):
+            return self.arc(number)
+        if isinstance(mark, Polyline):
+            return self.polygon(number, mark)
+        if isinstance(mark, Line):
+            return self.line(number, mark)
+        return None
+
+    def circle(self, number: int, mark: Circle) -> Binding:
+        """A point, a pole or a centre; a centre shows where its field has room for it."""
+        value = self.value(number)
+        if not isinstance(value, Ratio):
+            is_inflection = self.key(number) == "inflection-point"
+            return self.bench.at(value, self.within(value) if is_inflection else self.seen(number))
+        if self.key(number) == "pin-centre":
+            return self.bench.at(value.start)
+        return self.bench.at(place_of(value), self.within(place_of(value)))
+
+    @cached_property
+    def ends(self) -> dict[int, tuple[Any, Any]]:
+        """The tails and tips of vectors that are set on the mechanism by steps that are points."""
+        found = {}
+        for number, step, value in self.bench.places.drawing.steps(Plane.MECHANISM):
+            if isinstance(value, complex) and (ends := self.set_on(number, step)) is not None:
+                found[number] = ends
+        return found
+
+    def set_on(self, number: int, step: Step) -> tuple[Any, Any] | None:
+        """Tail and tip of such a vector."""
+        key, tip, spots = self.key(number), self.value(number), self.bench.places.spots
+        if key in ("set-velocity", "turn-over") and step.says.get("q") in spots:
+            return spots[step.says["q"]], tip
+        if key == "coriolis-base":
+            return self.value(step.args[0]), tip
+        if key == "meet" and step.part is Part.NORMAL and is_coriolis(step):
+            return self.value(self.step(step.args[0]).args[0]), tip
+        return None
+
+    def vector(self, number: int) -> tuple[Any, Any] | None:
+        """Tail and tip of the vector of a step, if it has one."""
+        value = self.value(number)
+        if isinstance(value, Vector):
+            return value.tail, value.tip
+        return self.ends.get(number)
+
+    def arc(self, number: int) -> Binding | None:
+        """A compass arc about the points on it, or the one that turns a length over."""
+        if self.key(number) == "turn-over":
+            tail, tip = self.ends[number]
+            lift, mm = self.bench.shelf.lifted, self.bench.field.mm
+            way, degrees = lift(tip - tail), 180 / pi
+            radius = abs(way)
+            bearing = way.imag.do("atan2", way.real) * degrees
+            half = smaller(degrees * SWEEP / 2 / (radius * mm), 60.0)
+            span = (bearing - half, bearing + half)
+            return self.bench.arc(tail, radius, span, radius * mm - SHORT)
+        value = self.value(number)
+        if not isinstance(value, Round):
+            return None
+        span = self.bench.places.arc_span(number, self.bench.field.mm)
+        return self.bench.arc(value.centre, value.radius, span)
+
+    def polygon(self, number: int, mark: Polyline) -> Binding | None:
+        """An arrowhead, the mark of a right angle, or the inflection circle."""
+        ends = self.vector(number)
+        cls = mark.cls.split()[0]
+        if cls == "arrowhead":
+            return only_at_start if ends is None else self.bench.head(*ends, self.fine(number))
+        if cls == "square-mark":
+            return self.square(number)
+        value = self.value(number)
+        if isinstance(value, Round):
+            mm, lift = self.bench.field.mm, self.bench.shelf.lifted
+            size = lift(value.radius) * mm
+            centre = self.bench.page(value.centre)
+            rect = self.bench.rect(above_foot(self.bench.field.rect))
+            shown = smaller(size - TINY, STRAIGHT - size)
+            shelf = self.bench.shelf
+            return lambda _: [
+                "i",
+                self.bench.condition(shown),
+                shelf.point(centre),
+                shelf.number(size),
+                rect,
+            ]
+        return None
+
+    def square(self, number: int) -> Binding | None:
+        """The mark of a right angle at the corner of a triangle on the mechanism."""
+        value, step = self.value(number), self.step(number)
+        other = self.value(step.args[1]) if self.belongs_to_coriolis(number) else self.pivot(number)
+        if other is None:
+            return None
+        bench = self.bench
+        corner, pivot = bench.page(value.point), bench.page(other)
+        first = unit(pivot - corner)
+        low, high = bench.places.span(number, bench.field.mm)
+        along = bench.places.way(number).conjugate()
+        second = along * pick(-low > high, -1.0, 1.0)
+        places = [corner + SQUARE * way for way in (first, first + second, second)]
+        large, seen = abs(pivot - corner) - ROOMY, self.seen(number)
+        return bench.corners(places, large if seen is None else smaller(large, seen))
+
+    def belongs_to_coriolis(self, number: int) -> bool:
+        """Whether a step belongs to the similar triangles of a Coriolis component."""
+        step = self.step(number)
+        return step.part is Part.NORMAL and is_coriolis(step)
+
+    def pivot(self, number: int) -> Any:
+        """The pivot of the bar on which a right triangle stands."""
+        return self.bench.places.spots.get(self.step(number).says.get("p", ""))
+
+    # --- lines ---------------------------------------------------------------------------------
+
+    def line(self, number: int, mark: Line) -> Binding | None:
+        """A vector, a part of a construction line, or a leg of a triangle."""
+        ends, cls = self.vector(number), mark.cls.split()[0]
+        if ends is not None and cls in VECTORS:
+            return self.bench.between(*ends, shown=self.fine(number))
+        if cls == "centre":
+            return self.circle(number, Circle(0, 0, 1, ""))
+        for start, end in self.legs(number):
+            if self.is_at(mark, start, end):
+                is_leg = cls in ("trial", "trial-line")
+                shown = self.apart(end, start) - SHORTEST if is_leg else self.seen(number)
+                return self.bench.between(start, end, shown=shown)
+        if isinstance(self.drawn(number), Carrier) and number in self.layout.spans:
+            return self.part(number, self.which(number, mark))
+        return None
+
+    def is_at(self, mark: Line, start: Any, end: Any) -> bool:
+        """Whether a line was drawn between two places."""
+        now = self.bench.shelf.now
+        x0, y0 = self.bench.field(complex(now(start)))
+        x1, y1 = self.bench.field(complex(now(end)))
+        return max(hypot(x0 - mark.x1, y0 - mark.y1), hypot(x1 - mark.x2, y1 - mark.y2)) < ALIKE
+
+    def legs(self, number: int) -> Iterator[tuple[Any, Any]]:
+        """The lines between two points that a step may be drawn with."""
+        value, step, shelf = self.value(number), self.step(number), self.bench.shelf
+        if isinstance(value, Carrier):
+            pivot = self.pivot(number)
+            if pivot is not None:
+                yield shelf.lifted(pivot), shelf.lifted(value.point)
+            if self.key(number) == "coriolis-ray":
+                yield (shelf.lifted(self.value(step.args[i])) for i in (1, 3))  # type: ignore[misc]
+            return
+        drawing = self.bench.places.drawing
+        if number in drawing.tags and leg_start(self.desk, step) is not None:
+            yield shelf.lifted(self.value(step.args[0])), shelf.lifted(value)
+        if self.key(number) == "between":
+            yield self.divided(number)
+
+    def divided(self, number: int) -> tuple[Any, Any]:
+        """The line through the two trials of a point, as far as the right one and a little more."""
+        lift = self.bench.shelf.lifted
+        first, last = (lift(self.value(arg)) for arg in self.step(number).args[:2])
+        way = unit(last - first)
+        low = high = lift(0.0)
+        for point in (last, lift(self.value(number))):
+            along = dot(point - first, way)
+            low, high = smaller(low, along), larger(high, along)
+        beyond = BEYOND / 2 / self.bench.field.mm
+        return first + way * (low - beyond), first + way * (high + beyond)
+
+    def is_short(self, mark: Line) -> bool:
+        """Whether a mark is all there is of a line of which only the ends are drawn elsewhere."""
+        number = mark.step
+        if number is None or self.key(number) not in BEYOND_BOTH:
+            return False
+        if number in self.bench.places.drawing.tags or number not in self.layout.spans:
+            return False
+        low, high = self.layout.spans[number]
+        return mark.cls == "construction" and high - low <= 2 * BEYOND + TINY
+
+    def part(self, number: int, which: int) -> Binding:
+        """A part of a construction line, cut at the edge of its field."""
+        bench, line = self.bench, self.value(number)
+        origin = bench.page(line.point)
+        way = bench.places.way(number).conjugate()
+        low, high = bench.places.span(number, bench.field.mm)
+        shown = self.seen(number)
+        if self.key(number) == "bar-line":
+            shown = high - low - (2 * BEYOND + TINY)
+        shelf, rect = bench.shelf, bench.rect(above_foot(bench.field.rect))
+        return lambda _: [
+            "s",
+            bench.condition(shown),
+            *map(shelf.point, (origin, way)),
+            *map(shelf.number, (low, high)),
+            which,
+            rect,
+        ]
+
+    def which(self, number: int, mark: Line) -> int:
+        """Which part of its line a mark is."""
+        if self.key(number) == "ray":
+            return LAST
+        if self.key(number) not in BEYOND_BOTH or number in self.bench.places.drawing.tags:
+            return FULL
+        low, high = self.layout.spans[number]
+        if high - low <= 2 * BEYOND + TINY:
+            return NEAR
+        value = self.drawn(number)
+        x, y = self.bench.field(value.point)
+        u, v = self.bench.field.way(value.along)
+        middle = ((mark.x1 + mark.x2) / 2 - x) * u + ((mark.y1 + mark.y2) / 2 - y) * v
+        is_low = abs(middle - low) < abs(middle - high)
+        return NEAR if is_low == (abs(low) < abs(high)) else FAR

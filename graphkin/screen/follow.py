@@ -1,0 +1,200 @@
+"""How every mark of a field follows the driver: bodies, steps, and the labels beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphkin.arithmetic import pick
+from graphkin.paper.desk import TINY
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.layout import Layout
+from graphkin.paper.marks import Circle, Line, Mark, Text
+from graphkin.paper.symbols import VECTORS
+from graphkin.plane import Line as Carrier
+from graphkin.plane import Ratio, Vector
+from graphkin.screen.binding import Bench, Binding, Record, Told, only_at_start, still
+from graphkin.screen.bodies import told
+from graphkin.screen.drawn import BEYOND_BOTH, FAR, Steps
+from graphkin.screen.drivers import of_driver
+from graphkin.screen.places import place_of
+from graphkin.screen.poses import Pose, unit
+
+SOLID = ("link", "plate", "weld", "spoke", "guide-bar", "block", "slider", "disc", "gear-disc")
+"""The classes of marks that are parts of the link whose name they bear."""
+PINS = ("pin", "hinge", "fixed-pivot")
+"""The classes of marks at the point whose name they bear."""
+FIXED = ("caption", "guide", "ground", "centre-line", "fixed-pivot", "title", "panel")
+"""The classes of marks that stay, where nothing else is known of them."""
+CURVES = ("trajectory", "fixed-centrode")
+"""The curves that stay; the locus of a group that is tried is another at each place."""
+
+
+@dataclass(frozen=True)
+class Following:
+    """The marks of one field, each with how it follows."""
+
+    bench: Bench
+    layout: Layout
+    marks: Sequence[Mark]
+    angles: Mapping[str, Any]
+    """The angles in degrees of the links that drivers turn."""
+
+    @property
+    def drawing(self) -> Drawing:
+        """The sheet's material."""
+        return self.bench.places.drawing
+
+    @cached_property
+    def steps(self) -> Steps:
+        """The steps of this field."""
+        return Steps(self.bench, self.layout)
+
+    @cached_property
+    def on_mechanism(self) -> bool:
+        """Whether this is the field of the mechanism."""
+        return self.bench.field is self.layout.mechanism
+
+    @cached_property
+    def bodies(self) -> Told:
+        """The marks of bodies and drivers."""
+        if not self.on_mechanism:
+            return {}
+        found = told(self.bench)
+        if self.drawing.kind == "velocity":
+            for driver in self.drawing.scene.drivers:
+                found.update(of_driver(self.bench, driver, self.angles))
+        return found
+
+    def records(self) -> Iterator[tuple[int, Record]]:
+        """The record of every mark that moves, with the mark's number in the field."""
+        for k, mark in enumerate(self.marks):
+            record = self.binding(k, mark)(mark)
+            if record is not None:
+                yield k, record
+
+    def more(self) -> Iterator[tuple[int, str, str, Record]]:
+        """Marks that are not drawn where the scene stands, after those of the same step: number of
+        that one, element, class, record.
+
+        The head of a vector too short to have one, the far part of a line too short to be parted.
+        """
+        for k, mark in enumerate(self.marks):
+            first = mark.cls.split()[0]
+            if not isinstance(mark, Line) or mark.step is None:
+                continue
+            ends, after = self.steps.vector(mark.step), self.marks[k + 1 : k + 2]
+            found = None
+            if first in VECTORS and ends is not None:
+                if not (after and after[0].cls.startswith("arrowhead")):
+                    found = self.bench.head(*ends, self.steps.fine(mark.step))(mark)
+                if found is not None:
+                    yield k, "polygon", f"arrowhead {first}", found
+            elif self.steps.is_short(mark):
+                found = self.steps.part(mark.step, FAR)(mark)
+                if found is not None:
+                    yield k, "line", mark.cls, found
+
+    def binding(self, k: int, mark: Mark) -> Binding:
+        """How a mark follows; what nothing is known of holds for the drawn position alone."""
+        found = self.bodies.get(mark)
+        if found is not None:
+            return found
+        first = mark.cls.split()[0]
+        if first in ("label", "number", "leader"):
+            return self.label(k, mark)
+        if mark.step is not None:
+            return self.steps.binding(mark) or only_at_start
+        if isinstance(mark, Text):
+            return only_at_start if mark.name == "note" else still
+        return self.body(mark, first)
+
+    def body(self, mark: Mark, first: str) -> Binding:
+        """A mark of the mechanism that no step has drawn."""
+        places = self.bench.places
+        if mark.name in self.drawing.scene.links and first in SOLID:
+            return self.bench.carried_by(places.pose(mark.name))
+        if first in PINS and mark.name in places.positions:
+            return self.bench.with_point(places.positions[mark.name])
+        if first == "moving-centrode":
+            return self.bench.carried_by(places.pose(mark.name.partition(" ")[2]))
+        is_fixed = first in FIXED or first in CURVES or mark.name in self.drawing.scene.frame.points
+        return still if is_fixed else only_at_start
+
+    # --- labels --------------------------------------------------------------------------------
+
+    def label(self, k: int, mark: Mark) -> Binding:
+        """A letter, a number in its circle, or a leader: each goes with what it names."""
+        text = self.text_of(k)
+        if text is None:
+            return only_at_start
+        name, step = text.name, text.step
+        if step is not None:
+            if (step, name) not in self.named:
+                self.named[step, name] = self.of_step(text, step)
+            return self.named[step, name]
+        places = self.bench.places
+        if name in self.drawing.scene.links:
+            return self.bench.carried_by(places.pose(name))
+        if name in places.spots:
+            return self.bench.with_point(places.spots[name])
+        if name.startswith(("omega ", "speed ")):
+            pose = places.pose(name.partition(" ")[2])
+            return self.bench.carried_by(pose)
+        if name.partition(" ")[0] in (*CURVES, "moving-centrode"):
+            return still
+        return only_at_start
+
+    @cached_property
+    def named(self) -> dict[tuple[int, str], Binding]:
+        """The labels of steps that are known."""
+        return {}
+
+    def text_of(self, k: int) -> Text | None:
+        """The text of a label: a leader and a circle come right before it."""
+        for mark in self.marks[k : k + 3]:
+            if isinstance(mark, Text):
+                return mark
+        return None
+
+    def of_step(self, mark: Mark, number: int) -> Binding:
+        """The label of a vector, of a construction line, or of a point."""
+        bench, steps = self.bench, self.steps
+        if number not in bench.places.values:
+            return only_at_start
+        ends, value = steps.vector(number), steps.value(number)
+        if ends is not None and not (number in steps.ends and self.names_point(mark, number)):
+            tail, tip = (bench.page(end) for end in ends)
+            pose = Pose((tail + tip) * 0.5, unit(tip - tail))
+            return bench.beside(pose, abs(tip - tail) - TINY)
+        if isinstance(value, Carrier):
+            return self.beside_line(number)
+        if isinstance(value, Ratio):
+            is_on = self.near_mark(number)
+            place = value.start if steps.key(number) == "pin-centre" else place_of(value)
+            return bench.at(place, steps.within(place)) if is_on else only_at_start
+        if isinstance(value, Vector) or not isinstance(bench.shelf.now(value), complex):
+            return only_at_start
+        return bench.at(value, steps.seen(number))
+
+    def names_point(self, mark: Mark, number: int) -> bool:
+        """Whether a label is the letter of the point at a vector's tip."""
+        letter = self.steps.step(number).name
+        return bool(letter) and mark.name == letter
+
+    def near_mark(self, number: int) -> bool:
+        """Whether a centre is marked in this field, so that its label stands beside it."""
+        return any(isinstance(m, Circle) and m.step == number for m in self.marks)
+
+    def beside_line(self, number: int) -> Binding:
+        """What stands beside the far end of a construction line."""
+        bench, line = self.bench, self.steps.value(number)
+        if number not in self.layout.spans:
+            return only_at_start
+        low, high = bench.places.span(number, bench.field.mm)
+        way = bench.places.way(number).conjugate()
+        near_low = abs(low) < abs(high) if self.steps.key(number) in BEYOND_BOTH else low < high
+        end = pick(near_low, high, low)
+        return bench.beside(Pose(bench.page(line.point) + way * end, way))

@@ -1,0 +1,170 @@
+// Marks that follow the driver. `run(x, y)` is the construction itself, printed from its trace; `data`
+// says of each mark from which of the results in y its coordinates are laid off (see binding.py).
+const BEYOND = 7, HEAD = 3.2, SHORT = 2, TINY = 0.5, RING = 240, DIGITS = 4, NOTHING = 1e-6;
+const y = new Float64Array(data.size), x = new Float64Array(data.inputs);
+let reckoned = NaN, closes = false;
+
+const reckon = (at) => {
+  if (at !== reckoned) {
+    reckoned = at;
+    x[0] = at;
+    closes = closeAll() && (run(x, y), data.closed.every((i) => Number.isFinite(y[i])));
+  }
+  return closes;
+};
+
+// Groups of class III: near a state that the way through the range gives, the secant closes them.
+const TRIES = 24, TRIAL = 1e-6, CLOSED = 1e-9;
+const trial = [0, 0];
+const secant = (miss, start, step) => {
+  let old = start + step, now = start, before = miss(old), after = miss(now);
+  for (let k = 0; k < TRIES && after !== 0 && after !== before; k++) {
+    const next = now - after * (now - old) / (after - before);
+    old = now; now = next; before = after; after = miss(now);
+    if (!(Math.abs(now - old) >= 1e-15 * Math.max(1, Math.abs(now)))) break;
+  }
+  return Math.abs(after) < CLOSED * data.reach && trial[1] > 0;
+};
+const closeAll = () => {
+  if (!closings.length) return true;
+  const { at, states, sizes, turn } = data.course;
+  const place = turn ? at[0] + ((((x[0] - at[0]) % turn) + turn) % turn) : x[0];
+  let k = 1;
+  while (k < at.length - 1 && at[k] < place) k++;
+  const part = (place - at[k - 1]) / (at[k] - at[k - 1]);
+  states[k - 1].forEach((before, i) => { x[i + 1] = before + part * (states[k][i] - before); });
+  return closings.every((miss, i) => {
+    const start = x[i + 1], step = TRIAL * sizes[i];
+    const missed = (tried) => { x[i + 1] = tried; miss(x, trial); return trial[0]; };
+    return secant(missed, start, step) || secant(missed, start, -step);
+  });
+};
+
+const written = (number) => String(Number(number.toFixed(DIGITS)));
+const point = (i) => [y[i], y[i + 1]];
+const laid = (o, d, a, b) => [y[o] + a * y[d] - b * y[d + 1], y[o + 1] + a * y[d + 1] + b * y[d]];
+const listed = (points) => points.map(([u, v]) => written(u) + "," + written(v)).join(" ");
+
+const clipped = (p, q, rect) => {
+  if (rect < 0) return [p, q];
+  const [left, top, right, bottom] = data.rects[rect], du = q[0] - p[0], dv = q[1] - p[1];
+  let low = 0, high = 1;
+  for (const [way, room] of [[-du, p[0] - left], [du, right - p[0]], [-dv, p[1] - top], [dv, bottom - p[1]]]) {
+    if (way === 0) {
+      if (room < 0) return null;
+    } else if (way < 0) low = Math.max(low, room / way);
+    else high = Math.min(high, room / way);
+  }
+  const at = (t) => [p[0] + t * du, p[1] + t * dv];
+  return low < high ? [low > 0 ? at(low) : p, high < 1 ? at(high) : q] : null;
+};
+
+const line = (p, q, rect) => {
+  const part = Math.hypot(q[0] - p[0], q[1] - p[1]) > NOTHING ? clipped(p, q, rect) : null;
+  return part && { x1: written(part[0][0]), y1: written(part[0][1]), x2: written(part[1][0]), y2: written(part[1][1]) };
+};
+
+const arc = (c, r, start, end) => {
+  const at = (angle) => [c[0] + r * Math.cos(angle * Math.PI / 180), c[1] - r * Math.sin(angle * Math.PI / 180)];
+  const pair = (p) => written(p[0]) + " " + written(p[1]), turn = Math.abs(end - start);
+  return { d: `M${pair(at(start))}A${written(r)} ${written(r)} 0 ${turn > 180 ? 1 : 0} ${end > start ? 0 : 1} ${pair(at(end))}` };
+};
+
+const shapes = {
+  l: (p, q, rect) => line(point(p), point(q), rect),
+  f: (o, d, a, b, e, f, rect) => line(laid(o, d, a, b), laid(o, d, e, f), rect),
+  r: (o, d, ...at) => ({ points: listed(at.filter((_, i) => i % 2 === 0).map((a, i) => laid(o, d, a, at[2 * i + 1]))) }),
+  x: (...at) => {
+    const points = [];
+    for (let i = 0; i < at.length; i += 4) points.push(laid(at[i], at[i + 1], at[i + 2], at[i + 3]));
+    return { points: listed(points) };
+  },
+  g: (...places) => ({ points: listed(places.map(point)) }),
+  m: (o, d, a, b) => {
+    const [u, v] = laid(o, d, a, b);
+    return { cx: written(u), cy: written(v) };
+  },
+  e: (o, d, a, b, r, start, end) => {
+    const turned = Math.atan2(-y[d + 1], y[d]) * 180 / Math.PI;
+    return arc(laid(o, d, a, b), r, start + turned, end + turned);
+  },
+  a: (c, r, start, end) => (Math.abs(y[end] - y[start]) > 0.5 ? arc(point(c), y[r], y[start], y[end]) : null),
+  h: (tail, tip) => {
+    const p = point(tail), q = point(tip), long = Math.hypot(q[0] - p[0], q[1] - p[1]);
+    if (!(long >= SHORT)) return null;
+    const size = Math.min(HEAD, 0.4 * long), half = 0.17 * size, u = (q[0] - p[0]) / long, v = (q[1] - p[1]) / long;
+    const back = [q[0] - size * u, q[1] - size * v];
+    return { points: listed([q, [back[0] - half * v, back[1] + half * u], [back[0] + half * v, back[1] - half * u]]) };
+  },
+  s: (o, d, low, high, which, rect) => {
+    const at = (far) => [y[o] + far * y[d], y[o + 1] + far * y[d + 1]];
+    let from = y[low], to = y[high];
+    const short = to - from <= 2 * BEYOND + TINY, lowIsNear = Math.abs(from) < Math.abs(to);
+    if (which === 3) from = to - 2 * BEYOND;
+    if (which === 2 && short) return null;
+    if ((which === 1 || which === 2) && !short) {
+      if (lowIsNear === (which === 1)) to = from + BEYOND;
+      else from = to - BEYOND;
+    }
+    return line(at(from), at(to), rect);
+  },
+  i: (c, r) => {
+    const points = [];
+    for (let k = 0; k <= RING; k++) {
+      const turn = 2 * Math.PI * k / RING;
+      points.push([y[c] + y[r] * Math.cos(turn), y[c + 1] - y[r] * Math.sin(turn)]);
+    }
+    return { points: listed(points) };
+  },
+  t: (o, d, a, b, u, v) => shifted(laid(o, d, a, b), u, v),
+  b: (o, d, a, b, u, v, width, height, room) => {
+    // beside a segment: as far off it as the box of the text, which stays upright, now reaches
+    const reach = Math.abs(y[d + 1]) * width + Math.abs(y[d]) * height;
+    return shifted(laid(o, d, a, Math.sign(b) * (room + reach)), u, v);
+  },
+  o: () => (Math.abs(reckoned - data.start) < 1e-9 ? {} : null),
+};
+const shifted = ([u, v], fromU, fromV) => ({ transform: `translate(${written(u - fromU)} ${written(v - fromV)})` });
+
+const made = (id, element) => {
+  // what is not drawn where the scene stands, such as the head of a vector that is too short there
+  const [before, tag, cls] = data.more[id] || [], line = before && element(before);
+  if (!line || !line.ownerDocument) return null;
+  const mark = line.ownerDocument.createElementNS(line.namespaceURI, tag);
+  for (const { name, value } of line.attributes) if (name.startsWith("data-")) mark.setAttribute(name, value);
+  mark.setAttribute("id", id);
+  mark.setAttribute("class", cls);
+  line.after(mark);
+  return mark;
+};
+
+const draw = (at, element) => {
+  if (!reckon(at)) return { ok: false };
+  for (const [id, kind, shown, ...rest] of data.marks) {
+    const mark = element(id) || made(id, element);
+    if (!mark) continue;
+    const found = shown < 0 || y[shown] > 0 ? shapes[kind](...rest) : null;
+    const good = found && Object.values(found).every((text) => !text.includes("NaN") && !text.includes("Infinity"));
+    if (!good) mark.setAttribute("visibility", "hidden");
+    else {
+      mark.removeAttribute("visibility");
+      for (const name in found) mark.setAttribute(name, found[name]);
+    }
+  }
+  return { ok: true };
+};
+
+const settled = (found) => {
+  // what is only rounding beside the largest of its kind is nought
+  const most = {};
+  for (const [, , kind, i] of data.values) most[kind] = Math.max(most[kind] || 0, Math.abs(y[i]));
+  for (const [name, , kind, i] of data.values) found[name] = Math.abs(y[i]) < 1e-9 * most[kind] ? 0 : y[i];
+  return found;
+};
+
+return {
+  name: data.name, unit: data.unit, low: data.low, high: data.high, start: data.start, whole: data.whole, step: data.step,
+  set: draw,
+  values: (at) => (reckon(at) ? settled({}) : {}),
+  margins: (at) => (reckon(at) ? Object.fromEntries(data.margins.map(([step, i]) => [step, y[i]])) : {}),
+};

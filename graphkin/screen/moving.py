@@ -1,0 +1,220 @@
+"""The part of a page that moves: the construction as JavaScript, and how each mark follows it.
+
+The program is traced with the driver's place as its input, by the tracer that gives numpy and
+compiled source elsewhere; the scales and the fields stay those of the drawn position.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from graphkin.errors import GraphkinError
+from graphkin.mechanism import Mechanism
+from graphkin.motion.sweep import TURN, reach_of
+from graphkin.paper.areas import Rect
+from graphkin.plane import Vector
+from graphkin.screen.binding import Bench, Record
+from graphkin.screen.closings import Course
+from graphkin.screen.driven import Driven, Reach, driven_by
+from graphkin.screen.follow import Following
+from graphkin.screen.places import Places
+from graphkin.screen.tracing import Tracing
+from graphkin.steps.crossings import is_drawn
+from graphkin.steps.script import MATH, script_source
+from graphkin.steps.traced import UntraceableError
+
+if TYPE_CHECKING:
+    from graphkin.screen.sheets import ScreenSheet
+
+NO_DRIVER, NO_RANGE, NO_LINE = "moving.no_driver", "moving.no_range", "moving.no_line"
+"""The keys of the sentences why a page stands still: nothing drives it, it stands at a place from
+which it cannot move, or its construction is no straight line of reckoning."""
+
+
+@dataclass(frozen=True)
+class Moving:
+    """JavaScript that moves the marks of a page.
+
+    ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step,
+    set(x, element), values(x), margins(x)}: ``set`` writes the coordinates of all marks, which
+    ``element`` finds by their ids, and tells {ok: false} where the mechanism does not close;
+    ``values`` are in SI by the names of the rows of the tables, ``margins`` sines of crossings by
+    the step. ``data`` is what it knows of the marks, ``tracing`` what it reckons.
+    """
+
+    source: str
+    driven: Driven
+    reach: Reach
+    data: dict[str, Any]
+    tracing: Tracing
+
+
+def moving(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Moving | None:
+    """How the marks of some sheets follow the driver; None where ``still`` says why they cannot."""
+    try:
+        driven = driven_by(mechanism.scene)
+        return None if driven is None else put_together(Tracing(mechanism, driven), sheets)
+    except (GraphkinError, UntraceableError):
+        return None
+
+
+def still(mechanism: Mechanism) -> str | None:
+    """The key of the sentence that says why a mechanism stands still on a page, or None."""
+    targets = [target for target in mechanism.program.targets if target[0] == "position"]
+    try:
+        driven = driven_by(mechanism.scene)
+        if driven is None:
+            return NO_DRIVER
+        tracing = Tracing(mechanism, driven)
+        trace = tracing.traced(mechanism.trace(targets))
+    except UntraceableError:
+        return NO_LINE
+    except GraphkinError:
+        return NO_RANGE
+    size = reach_of(mechanism.scene)
+    return None if tracing.reached(tracing.closed(trace, size), size) else NO_RANGE
+
+
+def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | None:
+    """The moving part of some sheets; None where the mechanism only has a place, not a range."""
+    places = [
+        Places(sheet.drawing, tracing.traced(sheet.drawing.trace), tracing.shelf)
+        for sheet in sheets
+    ]
+    size = sheets[0].drawing.reach
+    closed = tracing.closed(places[0].trace, size)
+    found = tracing.reached(closed, size)
+    if found is None:
+        return None
+    driven, (reach, course) = tracing.driven, found
+    rects: list[Rect] = []
+    more: dict[str, tuple[str, str, str]] = {}
+    marks = [
+        record
+        for s, (sheet, here) in enumerate(zip(sheets, places, strict=True))
+        for record in followed(s, sheet, here, rects, more, tracing)
+    ]
+    data = {
+        "name": driven.name,
+        "unit": driven.unit,
+        "low": reach.low,
+        "high": reach.high,
+        "start": driven.start,
+        "whole": reach.whole,
+        "step": reach.step,
+        "inputs": len(tracing.inputs),
+        "closed": closed,
+        "marks": marks,
+        "more": more,
+        "rects": rects,
+        "values": list(read_outs(places)),
+        "margins": list(crossings(tracing, sheets[0])),
+        "reach": size,
+    }
+    data |= {"size": len(tracing.shelf.outputs), "course": way_through(course, tracing, reach)}
+    return Moving(source(data, tracing), driven, reach, data, tracing)
+
+
+def followed(
+    s: int,
+    sheet: ScreenSheet,
+    places: Places,
+    rects: list[Rect],
+    more: dict[str, tuple[str, str, str]],
+    tracing: Tracing,
+) -> Iterator[Record]:
+    """The records of a sheet's marks, each with the id of its mark.
+
+    ``more`` takes the marks that a page makes itself: by id after which one, element and class.
+    """
+    angles, first = tracing.driven.angles(tracing.x), 0
+    fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
+    for marks, field in fields:
+        following = Following(Bench(places, field, rects), sheet.layout, marks, angles)
+        for k, record in following.records():
+            yield [f"m{s}-{first + k}", *record]
+        for k, element, cls, record in following.more():
+            before = f"m{s}-{first + k}"
+            more[f"{before}h"] = (before, element, cls)
+            yield [f"{before}h", *record]
+        first += len(marks)
+
+
+def read_outs(places: Sequence[Places]) -> Iterator[tuple[str, int, str, int]]:
+    """Name, sheet, kind and output of each number of the tables: vectors by their size in SI.
+
+    Of what slides the speeds are called ``slide 5``, the accelerations ``slide acceleration 5``.
+    """
+    for s, place in enumerate(places):
+        drawing, shelf = place.drawing, place.shelf
+        for number, step, value in drawing.steps(drawing.plane):
+            if step.arrow and isinstance(value, Vector):
+                vector = place.values[number]
+                size = abs(shelf.lifted(vector.tip - vector.tail))
+                yield step.says["symbol"], s, drawing.kind, shelf.number(size)
+        first = drawing.kind == "velocity"
+        rate, letter = ("omega", "ω") if first else ("epsilon", "ε")
+        for link in drawing.scene.links:
+            value = place.trace.value(rate, link)
+            if value is not None:
+                yield f"{letter}{link}", s, rate, shelf.number(value)
+        what, name = ("slide speed", "slide") if first else ("slide acceleration",) * 2
+        for block in drawing.scene.ask.slides:
+            value = place.trace.value(what, block)
+            if value is not None:
+                yield f"{name} {block}", s, what, shelf.number(value)
+
+
+def crossings(tracing: Tracing, sheet: ScreenSheet) -> Iterator[tuple[int, int]]:
+    """The sines of what crosses on paper, by the step."""
+    steps = sheet.drawing.trace.program.steps
+    for number, sine in sorted(tracing.margins.items()):
+        if is_drawn(steps[number], float(tracing.shelf.now(sine))):
+            yield number, tracing.shelf.number(sine)
+
+
+# --- JavaScript ----------------------------------------------------------------------------------
+
+
+def source(data: dict[str, Any], tracing: Tracing) -> str:
+    """The construction, the data and what lays the marks out, in one expression."""
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    lines = [
+        "const graphkinMotion = (() => {",
+        '"use strict";',
+        MATH,
+        script_source(tracing.graph, tracing.shelf.outputs, tracing.inputs, "run"),
+        *misses(tracing),
+        f"const data = {text};",
+        script(),
+        "})();",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def misses(tracing: Tracing) -> Iterator[str]:
+    """By how much each group that is closed anew misses, as functions."""
+    names = [f"miss{i}" for i, _ in enumerate(tracing.closings)]
+    for name, each in zip(names, tracing.closings, strict=True):
+        outputs = (each.misfit.node, each.facing.node)
+        yield script_source(tracing.graph, outputs, tracing.inputs, name)
+    yield f"const closings = [{','.join(names)}];"
+
+
+def way_through(course: Course, tracing: Tracing, reach: Reach) -> dict[str, Any]:
+    """The way of groups of higher class through the range, as a page knows it."""
+    sizes = [each.size for each in tracing.closings]
+    turn = TURN if reach.whole else 0
+    return {"at": course.at, "states": course.states, "sizes": sizes, "turn": turn}
+
+
+@lru_cache(maxsize=1)
+def script() -> str:
+    """What lays the marks out, on every page the same."""
+    text = Path(__file__).with_name("moving.js").read_text(encoding="utf-8")
+    return "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("//"))

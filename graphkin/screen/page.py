@@ -1,0 +1,315 @@
+"""The step page: a scene's sheets in one offline file that draws itself sentence by sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+from itertools import chain
+from math import degrees
+
+from graphkin.grading.html import marked_up
+from graphkin.mechanism import Mechanism
+from graphkin.paper.areas import Rect
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.marks import Mark
+from graphkin.paper.sheet import title_of
+from graphkin.paper.style import Ink
+from graphkin.paper.svg import number
+from graphkin.paper.symbolic import symbol
+from graphkin.screen import facts
+from graphkin.screen.buttons import button
+from graphkin.screen.fields import field_picture, headline, ink_sheet
+from graphkin.screen.sheets import ScreenSheet, screen_sheets
+from graphkin.screen.skeleton import data_block, offline_page, part
+from graphkin.screen.slider import Slider, slider
+from graphkin.screen.telling import Said, Telling, Timed, telling
+from graphkin.steps.crossings import Crossing
+from graphkin.steps.program import Part
+from graphkin.text import Words
+
+ANGLE, FACTOR = "\ue000", "\ue001"
+"""Where the angle and the factor of a crossing stand in its sentence until it is marked up."""
+STOP_NAMES = {
+    Part.POSITION: "screen.position",
+    Part.VELOCITY: "screen.velocity",
+    Part.CENTRE: "screen.centre",
+    Part.NORMAL: "screen.normal",
+    Part.ACCELERATION: "screen.acceleration",
+    Part.POLE: "screen.pole",
+}
+"""What the buttons say that go to the ends of the parts of the work."""
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """A form for answers in a task page: its markup, its rules and its script."""
+
+    body: str
+    style: str
+    script: str
+
+
+def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "colour") -> str:
+    """The page of a scene that draws itself; ``language`` is the scene's own if None.
+
+    Raises WitnessError when the independent route disagrees, PageError where a drawing does not
+    fit.
+    """
+    sheets = screen_sheets(mechanism, language)
+    told = telling(sheets)
+    moves = slider(mechanism, sheets)
+    body = "\n".join(
+        (
+            *top(sheets),
+            '<main id="page">',
+            '<div id="desk">',
+            *chain.from_iterable(figures(sheets, told, place) for place in range(len(sheets))),
+            "</div>",
+            *construction(sheets, told),
+            *outcome(sheets),
+            "</main>",
+            *foot(sheets),
+            dock(sheets[0].drawing.words, told, moves),
+            data_block("run", record(sheets, told)),
+        )
+    )
+    scripts = [part("page.js")]
+    if moves.source:
+        scripts.insert(0, moves.source)
+    return written(sheets, body, ink, (), scripts)
+
+
+def task_page(
+    mechanism: Mechanism,
+    language: str | None = None,
+    ink: Ink = "colour",
+    form: Form | None = None,
+) -> str:
+    """The page of a scene as a task: what is given and what is asked, and nothing of the key."""
+    sheets = screen_sheets(mechanism, language, "task")
+    words = sheets[0].drawing.words
+    asked = words("page.asked")
+    parts = [*top(sheets), '<main id="page" class="task">', *given(sheets), '<div id="desk">']
+    for place, sheet in enumerate(sheets):
+        marks = [Timed(mark, 0, None) for mark in (*sheet.left, *sheet.right)]
+        parts += figure_pair(sheet, place, marks, ((), ()))
+        parts.insert(-1, f"<h3>{escape(asked)}</h3>{facts.wanted(sheet.drawing)}")
+    body = "\n".join((*parts, "</div>", form.body if form else "", "</main>", *foot(sheets)))
+    styles, scripts = ([form.style], [form.script]) if form else ([], [])
+    return written(sheets, body, ink, styles, scripts)
+
+
+def written(
+    sheets: Sequence[ScreenSheet],
+    body: str,
+    ink: Ink,
+    styles: Sequence[str],
+    scripts: Sequence[str],
+) -> str:
+    """A page with the looks of the sheets."""
+    marks = [mark for sheet in sheets for mark in all_marks(sheet)]
+    drawing = sheets[0].drawing
+    looks = (ink_sheet(marks, ink), part("page.css"), shapes(sheets), *styles)
+    return offline_page(title_of(drawing), drawing.words.language, body, looks, scripts)
+
+
+def all_marks(sheet: ScreenSheet) -> tuple[Mark, ...]:
+    """Every mark of a sheet."""
+    return (*sheet.left, *sheet.right, *sheet.more_left, *sheet.more_right)
+
+
+def shapes(sheets: Sequence[ScreenSheet]) -> str:
+    """How wide the two fields of each sheet stand beside one another."""
+    return "\n".join(
+        f"#fields-{place}{{--left:{number(width(sheet.layout.mechanism.rect))}fr;"
+        f"--right:{number(width(sheet.layout.plan.rect))}fr}}"
+        for place, sheet in enumerate(sheets)
+    )
+
+
+def width(rect: Rect) -> float:
+    """Width of a field in mm."""
+    return rect[2] - rect[0]
+
+
+# --- what stands on the page ---------------------------------------------------------------------
+
+
+def top(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+    """The title."""
+    yield f"<header><h1>{escape(title_of(sheets[0].drawing))}</h1></header>"
+
+
+def figures(sheets: Sequence[ScreenSheet], told: Telling, place: int) -> list[str]:
+    """The two fields of a sheet as they grow."""
+    sheet = sheets[place]
+    last = told.bounds(place)[1]
+    more = tuple(
+        [Timed(mark, last, None) for mark in marks] for marks in (sheet.more_left, sheet.more_right)
+    )
+    return figure_pair(sheet, place, told.timed[place], more)
+
+
+def figure_pair(
+    sheet: ScreenSheet,
+    place: int,
+    timed: Sequence[Timed],
+    more: Sequence[Sequence[Timed]],
+) -> list[str]:
+    """A sheet: the field of the mechanism and that of the plan, each under its caption."""
+    drawing, count = sheet.drawing, len(sheet.left)
+    name = escape(drawing.words(f"sheet.{drawing.kind}"))
+    ids = [f"m{place}-{k}" for k in range(len(timed))]
+    named = list(zip(ids, timed, strict=True))
+    found = [
+        f'<section class="sheet" id="sheet-{place}" data-kind="{drawing.kind}"'
+        f' aria-labelledby="name-{place}">',
+        f'<h2 id="name-{place}">{name}</h2>',
+        f'<div class="fields" id="fields-{place}">',
+    ]
+    sides = (
+        (named[:count], sheet.left, sheet.layout.mechanism.rect),
+        (named[count:], sheet.right, sheet.layout.plan.rect),
+    )
+    for side, (own, marks, rect) in enumerate(sides):
+        caption, _ = headline(marks)
+        shown = [*own[1:], *(("", mark) for mark in more[side])]
+        label = f"caption-{place}-{side}"
+        found += [
+            f'<figure><figcaption id="{label}">{marked_up(caption)}</figcaption>',
+            f'<div class="view">{field_picture(shown, rect, label)}</div></figure>',
+        ]
+    return [*found, "</div>", "</section>"]
+
+
+def construction(sheets: Sequence[ScreenSheet], told: Telling) -> Iterator[str]:
+    """The numbered sentences, those of each sheet under its name, and the crossings of each."""
+    words = sheets[0].drawing.words
+    yield '<section id="steps" aria-labelledby="steps-name"><h2 id="steps-name">'
+    yield f"{escape(words('page.construction'))}</h2>"
+    for place, sheet in enumerate(sheets):
+        first, last = told.bounds(place)
+        yield f"<h3>{escape(words(f'sheet.{sheet.drawing.kind}'))}</h3>"
+        yield f'<ol start="{first}">'
+        for number_ in range(first, last + 1):
+            yield sentence(words, number_, told.said[number_ - 1])
+        yield "</ol>"
+    yield "</section>"
+
+
+def sentence(words: Words, place: int, said: Said) -> str:
+    """A sentence, below it why, and the crossings of its lines."""
+    lines = "".join(crossing(words, found) for found in said.crossings)
+    text = f'<span class="say">{marked_up(said.markup)}</span>'
+    why = f'<small class="why">{marked_up("; ".join(said.why))}</small>' if said.why else ""
+    return f'<li id="step-{place}" value="{place}">{text}{why}{lines}</li>'
+
+
+def crossing(words: Words, found: Crossing) -> str:
+    """How flat two lines cross, and what a millimetre of pencil becomes there."""
+    markup = words("page.crossing", name=symbol(found.name), angle=ANGLE, factor=FACTOR)
+    angle, factor = words.fixed(degrees(found.angle), 0), words.significant(found.factor, 2)
+    text = marked_up(markup)
+    text = text.replace(ANGLE, f'<span class="angle">{angle}</span>')
+    text = text.replace(FACTOR, f'<span class="factor">{factor}</span>')
+    return f'<small class="crossing" data-of="{found.number}">{text}</small>'
+
+
+def outcome(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+    """The tables of results, and the data."""
+    words = sheets[0].drawing.words
+    yield '<section id="results" aria-labelledby="results-name"><h2 id="results-name">'
+    yield f"{escape(words('screen.results'))}</h2>"
+    for sheet in sheets:
+        yield f'<div data-kind="{sheet.drawing.kind}">'
+        yield f"<h3>{escape(words(f'sheet.{sheet.drawing.kind}'))}</h3>"
+        yield from facts.results(sheet.drawing)
+        yield "</div>"
+    yield "</section>"
+    yield from given(sheets)
+
+
+def given(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+    """The data of the scene."""
+    drawing = sheets[0].drawing
+    name = escape(drawing.words("page.data"))
+    yield f'<section id="given" aria-labelledby="given-name"><h2 id="given-name">{name}</h2>'
+    yield f"{facts.data(drawing)}</section>"
+
+
+def foot(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+    """What the independent route says of the drawings."""
+    drawing = sheets[0].drawing
+    words = drawing.words
+    worst = words.significant(drawing.verdict.largest_difference, 2)
+    text = words("page.verified", difference=worst)
+    yield f"<footer><p>{marked_up(text)}</p></footer>"
+
+
+# --- what a script makes of it -------------------------------------------------------------------
+
+
+def dock(words: Words, told: Telling, moves: Slider) -> str:
+    """The controls, in a template: a page without a script does not show them."""
+    last = len(told.said)
+    stops = [
+        f'<button type="button" data-stop="{at}"><kbd>{place}</kbd> '
+        f"{escape(words(STOP_NAMES[stop]))}</button>"
+        for place, (at, stop) in enumerate(told.stops(), 1)
+    ]
+    play = (
+        f'data-play="{escape(words("screen.play"))}" data-pause="{escape(words("screen.pause"))}"'
+    )
+    return "\n".join(
+        (
+            '<template id="controls">',
+            f'<div id="dock" role="group" aria-label="{escape(words("screen.controls"))}">',
+            '<div id="say" aria-live="polite" aria-atomic="true"><p id="count"></p>'
+            '<p id="sentence"></p></div>',
+            f'<details id="because" open><summary>{escape(words("screen.because"))}</summary>'
+            '<p id="reason"></p></details>',
+            '<p id="crossing"></p>',
+            f'<p id="behind"><span id="new-key">{escape(words("screen.new"))}</span> '
+            f'<span id="from-key">{escape(words("screen.from"))}</span> ',
+            '<span id="from"></span></p>',
+            '<div id="keys">',
+            button("previous", words("screen.previous")),
+            button("play", words("screen.play"), play),
+            button("next", words("screen.next")),
+            f'<input type="range" id="step" min="1" max="{last}" step="1" value="1"'
+            f' aria-label="{escape(words("screen.step"))}">',
+            button("follow", words("screen.follow"), 'aria-pressed="false"'),
+            "</div>",
+            f'<div id="stops" role="group" aria-label="{escape(words("screen.stops"))}">',
+            *stops,
+            "</div>",
+            *moves.controls(words),
+            f'<p id="help">{escape(words("screen.help"))}</p>',
+            "</div>",
+            "</template>",
+        )
+    )
+
+
+def record(sheets: Sequence[ScreenSheet], told: Telling) -> dict[str, object]:
+    """What the script has to know."""
+    words = sheets[0].drawing.words
+    return {
+        "bounds": [told.bounds(place) for place in range(len(sheets))],
+        "at": told.at,
+        "from": told.sources,
+        "sides": told.sides,
+        "letters": {step: marked_up(symbol(name)) for step, name in told.letters.items()},
+        "stops": [at for at, _ in told.stops()],
+        "count": words("page.step_of", number="{number}", all="{all}"),
+        "mark": words("decimal_mark"),
+        "sense": [words("page.anticlockwise"), words("page.clockwise")],
+        "slides": facts.senses(sheets[0].drawing),
+        "scales": {sheet.drawing.kind: scale_of(sheet.drawing) for sheet in sheets},
+    }
+
+
+def scale_of(drawing: Drawing) -> float:
+    """What a millimetre of a plan stands for."""
+    return (drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka) / 1000

@@ -1,0 +1,257 @@
+"""The page of a cycle: mechanism and plans that move to and fro or round, in one offline file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from html import escape
+from typing import TYPE_CHECKING
+
+from graphkin.errors import Problem, SceneError
+from graphkin.grading.html import marked_up
+from graphkin.mechanism import Mechanism
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.field import Field
+from graphkin.paper.inputs import draw_drivers
+from graphkin.paper.labels import Board
+from graphkin.paper.layout import Layout, spans
+from graphkin.paper.marks import Circle, Mark, Text
+from graphkin.paper.richtext import escape as markup
+from graphkin.paper.richtext import extent
+from graphkin.paper.scale import Scales
+from graphkin.paper.sheet import title_of
+from graphkin.paper.symbolic import symbol
+from graphkin.scaling import WANTED, natural_seconds, targets_of
+from graphkin.screen.buttons import button
+from graphkin.screen.facts import asked_rows
+from graphkin.screen.fields import field_picture, ink_sheet
+from graphkin.screen.frames import Stage, scale_bar, stage
+from graphkin.screen.moments import Motion, made, place_in
+from graphkin.screen.moving import Moving, moving
+from graphkin.screen.pictured import ASIDE, NEAR, mechanism_marks, plan_marks
+from graphkin.screen.sheets import ScreenSheet
+from graphkin.screen.skeleton import data_block, offline_page, part
+from graphkin.screen.telling import Timed
+from graphkin.text import Words
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+
+POINTS = ("pin", "fixed-pivot", "point", "pole")
+"""The classes of the circles that points are drawn as."""
+SPEEDS = (0.25, 0.5, 1.0, 2.0)
+"""How many times as fast as usual it can be played."""
+
+
+def player_page(motion: Motion, words: Words) -> str:
+    """The page of a motion. Raises SceneError where a page cannot move the mechanism as asked."""
+    set_up = stage(motion, words, beside=True)
+    sheets = screen_sheets(set_up)
+    moved = moving(motion.cycle.mechanism, sheets)
+    if moved is None or moved.driven.driver is not motion.cycle.sweep.driver:
+        raise SceneError(cannot(motion.cycle))
+    shown = list(set_up.captions)
+    fixed = [list(scale_bar(field, unit, size, words)) for field, _, unit, size in shown]
+    fixed[0] = [*set_up.ground, *fixed[0]]
+    title = title_of(sheets[0].drawing)
+    body = "\n".join(
+        (
+            f"<header><h1>{escape(title)}</h1></header>",
+            '<main id="player">',
+            '<div id="stage">',
+            *figures(set_up, sheets, fixed),
+            "</div>",
+            *controls(words, moved, sheets),
+            *shortened(motion, moved, words),
+            "</main>",
+            data_block("run", record(motion, moved, sheets, words)),
+        )
+    )
+    marks = [mark for sheet in sheets for mark in (*sheet.left, *sheet.right)]
+    marks += [mark for own in fixed for mark in own]
+    looks = (ink_sheet(marks, "colour"), part("page.css"), part("player.css"), shape(set_up))
+    scripts = (moved.source, part("player.js"))
+    return offline_page(title, words.language, body, looks, scripts)
+
+
+def cannot(cycle: Cycle) -> Problem:
+    """The problem of a page that cannot show this motion."""
+    found = "a page moves the one driver of a scene, or all of them by the time"
+    hint = "--format gif shows other motions"
+    return Problem("--format html", f"{found}; not this motion", "", hint)
+
+
+def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
+    """The fields of a motion as they stand where the scene does, the mechanism on the first."""
+    mechanism = set_up.motion.cycle.mechanism
+    scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
+    kinds = [kind for kind in WANTED if targets_of(mechanism, kind)]
+    found = []
+    for number, kind in enumerate(kinds or ["velocity"]):
+        drawing = drawing_of(mechanism, kind, scales, set_up.words)
+        layout = layout_of(drawing, set_up.mechanism, set_up.plans.get(kind))
+        left, right = list[Mark](), list[Mark]()
+        if number == 0:
+            left = [
+                *mechanism_marks(drawing, layout.mechanism),
+                *drivers(drawing, layout.mechanism),
+            ]
+        if kinds:
+            right = plan_marks(drawing, layout.plan)
+        found.append(ScreenSheet(drawing, layout, tuple(left), tuple(right)))
+    return found
+
+
+def drawing_of(mechanism: Mechanism, kind: str, scales: Scales, words: Words) -> Drawing:
+    """The material of one plan; of a scene that asks for none, where everything stands."""
+    positions = [target for target in mechanism.program.targets if target[0] == "position"]
+    return made(mechanism, kind, targets_of(mechanism, kind) or positions, scales, words)
+
+
+def layout_of(drawing: Drawing, mechanism: Field, plan: Field | None) -> Layout:
+    """The fields of a sheet, and how much of each line is drawn on them."""
+    fields = Layout(mechanism, plan or mechanism, {})
+    return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
+
+
+def drivers(drawing: Drawing, field: Field) -> list[Mark]:
+    """The angle or the way of each driver and its sense, without the number of one position."""
+    if drawing.kind != "velocity":
+        return []
+    board = Board(field.rect)
+    draw_drivers(board, drawing, field)
+    return list(board.marks)
+
+
+def figures(
+    set_up: Stage, sheets: Sequence[ScreenSheet], fixed: Sequence[Sequence[Mark]]
+) -> Iterator[str]:
+    """The fields as pictures, each under its name."""
+    fields = [(0, 0, sheets[0].left)]
+    fields += [(s, len(sheet.left), sheet.right) for s, sheet in enumerate(sheets) if sheet.right]
+    for number, ((field, name, _, _), (s, first, marks), below) in enumerate(
+        zip(set_up.captions, fields, fixed, strict=True)
+    ):
+        placed = [("", Timed(mark, 0, None)) for mark in below]
+        placed += [(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)]
+        yield f'<figure id="field-{number}"><figcaption id="name-{number}">{marked_up(name)}'
+        yield f"</figcaption>{field_picture(placed, field.rect, f'name-{number}')}</figure>"
+
+
+def controls(words: Words, moved: Moving, sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+    """What plays and moves it, hidden until the script is there, and what it tells."""
+    play = (
+        f'data-play="{escape(words("screen.play"))}" data-pause="{escape(words("screen.pause"))}"'
+    )
+    label = f"{escape(words('screen.driver'))} {marked_up(moved.driven.name)}"
+    yield f'<div id="bar" role="group" aria-label="{escape(words("animation.controls"))}" hidden>'
+    yield button("play", words("screen.play"), play)
+    yield f'<label for="at">{label}</label>'
+    yield '<input type="range" id="at"><output id="told" for="at"></output>'
+    yield f'<label for="speed">{escape(words("animation.speed"))}</label><select id="speed">'
+    for speed in SPEEDS:
+        chosen = " selected" if speed == 1 else ""
+        yield f'<option value="{speed:g}"{chosen}>{words.decimal(f"{speed:g}")}×</option>'
+    yield "</select>"
+    yield button("back", words("screen.back"))
+    yield '</div><dl id="values" hidden>'
+    for sheet in sheets:
+        for row in sorted(asked_rows(sheet.drawing)):
+            name, unit = row_words(row, sheet.drawing)
+            yield f'<div data-row="{escape(row)}"><dt>{marked_up(name)}</dt>'
+            yield f"<dd><span></span> {marked_up(unit)}</dd></div>"
+    yield f'</dl><p id="help" hidden>{escape(words("animation.help"))}</p>'
+
+
+def shortened(motion: Motion, moved: Moving, words: Words) -> Iterator[str]:
+    """Where the motion turns back before its dead points, and why."""
+    if not motion.shortened:
+        return
+    driven = moved.driven
+    unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
+    ends = dict(zip(("low", "high"), (motion.low, motion.high), strict=True))
+    ends |= dict(zip(("first", "last"), motion.reached, strict=True))
+    told = {name: words.significant(at / driven.metres, 4) + unit for name, at in ends.items()}
+    yield f'<p id="shown">{escape(words("animation.shortened", **told))}</p>'
+
+
+def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
+    """The symbol and the unit of a quantity that is asked."""
+    words, kind = drawing.words, drawing.kind
+    if row[0] in "ωε":
+        return symbol(row), words("table.omega" if row[0] == "ω" else "table.epsilon")
+    if row.startswith("slide "):
+        block = row.rpartition(" ")[2]
+        on = drawing.scene.links[block].slides[0].on
+        letter = "v" if kind == "velocity" else "a"
+        return f"*{letter}*_{{{markup(block)}/{markup(on)}}}", words(f"table.{kind}")
+    return symbol(row), words(f"table.{kind}")
+
+
+def record(
+    motion: Motion, moved: Moving, sheets: Sequence[ScreenSheet], words: Words
+) -> dict[str, object]:
+    """What the script has to know: what is shown of the motion, and how it is told."""
+    driven, sweep = moved.driven, motion.cycle.sweep
+    low, high = moved.reach.low, moved.reach.high
+    if not moved.reach.whole:
+        shift = driven.start - place_in(motion.cycle, motion.low, motion.high) / driven.metres
+        low = max(low, motion.low / driven.metres + shift)
+        high = min(high, motion.high / driven.metres + shift)
+    unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
+    return {
+        "low": low,
+        "high": high,
+        "start": min(max(driven.start, low), high),
+        "whole": moved.reach.whole,
+        "once": sweep.what == "time",
+        "unit": unit,
+        "mark": words("decimal_mark"),
+        "letters": [own for s, sheet in enumerate(sheets) for own in letters(sheet, s)],
+        "aside": [ASIDE, NEAR],
+    }
+
+
+def letters(sheet: ScreenSheet, s: int) -> Iterator[list[list[object]]]:
+    """The letters of each field that stand off from other points, as pictured.letter sets them.
+
+    Each has the ids of its text and of its point's circle, the middle of its ink as drawn, its
+    width, and the ids of the circles that it stands off from.
+    """
+    first, pole = 0, sheet.drawing.pole
+    for marks in (sheet.left, sheet.right):
+        circles = {
+            mark.name: f"m{s}-{first + k}"
+            for k, mark in enumerate(marks)
+            if isinstance(mark, Circle) and mark.cls.split()[0] in POINTS
+        }
+        found: list[list[object]] = []
+        for k, mark in enumerate(marks):
+            if isinstance(mark, Text) and mark.name in circles:
+                width, top, bottom = extent(mark.markup, mark.height)
+                middle = [mark.x + width / 2, mark.y + (top + bottom) / 2]
+                others = list(circles) if mark.name == pole else off(sheet, mark.name)
+                near = [circles[name] for name in others if name in circles]
+                found.append([f"m{s}-{first + k}", circles[mark.name], *middle, width, near])
+        yield found
+        first += len(marks)
+
+
+def off(sheet: ScreenSheet, name: str) -> list[str]:
+    """The points from which the letter of another stands off: of its links, or the plan's pole."""
+    scene = sheet.drawing.scene
+    if name in scene.frame.points:
+        return []
+    links = [link for link in scene.links.values() if name in link.points]
+    if not links:
+        return [sheet.drawing.pole]
+    return [other for link in links for other in link.points if other != name]
+
+
+def shape(set_up: Stage) -> str:
+    """How wide the mechanism stands beside the plans."""
+    left, _, right, _ = set_up.mechanism.rect
+    plans = list(set_up.plans.values())
+    if not plans:
+        return "#stage{--left:1fr;--right:0fr}"
+    across = plans[0].rect[2] - plans[0].rect[0]
+    return f"#stage{{--left:{right - left:g}fr;--right:{across:g}fr;--rows:{len(plans)}}}"

@@ -1,0 +1,89 @@
+"""Why a step is drawn as it is: the law of rigid bodies, guides and wheels behind each line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from string import Formatter
+
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.flattest import OWN
+from graphkin.paper.naming import names_in
+from graphkin.paper.standing import lettered
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.steps.program import Part, Plane, Step
+from graphkin.text import Words
+
+WHY = {
+    (Part.POSITION, "arcs-meet"): "why.arcs",
+    (Part.POSITION, "arc-cuts-line"): "why.arc",
+    (Part.POSITION, "swing-through"): "why.lever",
+    (Part.VELOCITY, "turned-velocity"): "why.turned",
+    (Part.VELOCITY, "square-to"): "why.square",
+    (Part.VELOCITY, "parallel-to"): "why.along",
+    (Part.VELOCITY, "similar-point"): "why.similar",
+    (Part.VELOCITY, "driven-slide"): "why.driven",
+    (Part.VELOCITY, "between"): "why.trials",
+    (Part.VELOCITY, "meet"): "why.meet",
+    (Part.CENTRE, "instant-centre"): "why.centre",
+    (Part.CENTRE, "kennedy-line"): "why.kennedy",
+    (Part.NORMAL, "turn-over"): "why.height",
+    (Part.NORMAL, "coriolis-base"): "why.triangles",
+    (Part.ACCELERATION, "centripetal"): "why.normal",
+    (Part.ACCELERATION, "lay-off"): "why.normal",
+    (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
+    (Part.ACCELERATION, "square-to"): "why.tangential",
+    (Part.ACCELERATION, "parallel-to"): "why.along_acceleration",
+    (Part.ACCELERATION, "lay-off-coriolis"): "why.coriolis",
+    (Part.ACCELERATION, "lay-back-coriolis"): "why.coriolis",
+    (Part.ACCELERATION, "similar-point"): "why.similar",
+    (Part.ACCELERATION, "driven-slide"): "why.driven",
+    (Part.ACCELERATION, "between"): "why.trials",
+    (Part.ACCELERATION, "meet"): "why.meet",
+    (Part.POLE, "acceleration-pole"): "why.pole",
+}
+"""The key of the reason for an action in a part of the work; others need none."""
+EACH = ("why.square", "why.along")
+"""The reasons that are given for each line, not only for the first of its kind."""
+LAST = "why.meet"
+"""The reason that is given at the end."""
+BY_HAND = {Plane.MECHANISM: "why.arcs"}
+"""The reason for a point of a plate that is found by two lines or arcs; in a plan they meet."""
+
+
+def reasons(drawing: Drawing, numbers: Iterable[int]) -> list[str]:
+    """The reasons for some steps as markup, in their order, none of them twice."""
+    parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
+    found: dict[str, str] = {}
+    for number in sorted(numbers):
+        step = drawing.trace.program.steps[number]
+        key, known = reason(drawing, step), fields(step)
+        if step.part in parts and key and all(known[gap] for gap in gaps(drawing.words, key)):
+            text = drawing.words(key, **known)
+            found.setdefault(text if key in EACH else key, text)
+    found |= {LAST: found.pop(LAST)} if LAST in found else {}
+    return list(found.values())
+
+
+def reason(drawing: Drawing, step: Step) -> str:
+    """The key of a step's reason; nothing where it needs none."""
+    if step.action is None:
+        return ""
+    if step.action.key == "similar-point" and step.by_hand in drawing.trace.values:
+        return BY_HAND.get(step.plane, LAST)
+    return WHY.get((step.part, step.action.key), "")
+
+
+def gaps(words: Words, key: str) -> Iterator[str]:
+    """The letters that a reason speaks of."""
+    return (name for _, name, _, _ in Formatter().parse(words.sentences[key]) if name)
+
+
+def fields(step: Step) -> dict[str, str]:
+    """The letters of a step as markup, each empty where the step has none."""
+    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "bar", "letter"), "")
+    says = {key: lettered(str(name)) for key, name in step.says.items() if name}
+    known |= names_in(says)
+    if "p" in says and "q" in says:
+        known["bar"] = bar(says["p"], says["q"])
+        known["letter"] = symbol(says["q"].lower())
+    return known | {"name": symbol(step.name) if step.name else ""}

@@ -1,0 +1,189 @@
+"""The construction of all sheets as one run of sentences, and what each mark hangs on."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.flattest import crossings_on
+from graphkin.paper.marks import Mark
+from graphkin.paper.sentence import Sentence
+from graphkin.paper.sentences import sentences
+from graphkin.paper.stages import stage_of, stages
+from graphkin.screen.reasons import reasons
+from graphkin.screen.sheets import ScreenSheet
+from graphkin.steps.crossings import Crossing
+from graphkin.steps.program import Part, Plane, Program, Step
+
+STOPS = (
+    Part.POSITION,
+    Part.VELOCITY,
+    Part.CENTRE,
+    Part.NORMAL,
+    Part.ACCELERATION,
+    Part.POLE,
+)
+"""The parts of the work at whose ends one may stop."""
+GUIDE = "guide "
+"""The beginning of the name of a mark that shows where a guide lies; its block follows."""
+DETAIL = "detail"
+"""The name of the small circle about what is enlarged beside it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """A sentence of the run: its sheet, its markup, why, the crossings of its lines.
+
+    ``ends`` are the parts of the work that it completes on its sheet.
+    """
+
+    sheet: int
+    markup: str
+    why: tuple[str, ...]
+    crossings: tuple[Crossing, ...]
+    ends: tuple[Part, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step."""
+
+    mark: Mark
+    at: int
+    step: int | None
+
+
+@dataclass(frozen=True)
+class Telling:
+    """The run of sentences over all sheets, and for each sheet its marks in their order.
+
+    ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;
+    ``sources`` the steps with marks that it is drawn from; ``sides`` the two points of the
+    mechanism to whose bar it is square or parallel; ``letters`` its name.
+    """
+
+    said: tuple[Said, ...]
+    timed: tuple[tuple[Timed, ...], ...]
+    at: Mapping[int, int]
+    sources: Mapping[int, tuple[int, ...]]
+    sides: Mapping[int, tuple[int, int]]
+    letters: Mapping[int, str]
+
+    def bounds(self, sheet: int) -> tuple[int, int]:
+        """The first and the last sentence of a sheet."""
+        own = [number for number, said in enumerate(self.said, 1) if said.sheet == sheet]
+        return own[0], own[-1]
+
+    def stops(self) -> Iterator[tuple[int, Part]]:
+        """The sentences that complete a part of the work, in their order."""
+        for number, said in enumerate(self.said, 1):
+            yield from ((number, part) for part in said.ends)
+
+
+def telling(sheets: Sequence[ScreenSheet]) -> Telling:
+    """The run of some sheets of one mechanism."""
+    said: list[Said] = []
+    timed: list[tuple[Timed, ...]] = []
+    at: dict[int, int] = {}
+    for place, sheet in enumerate(sheets):
+        own = sentences(sheet.drawing)
+        staged = stages(sheet.drawing, own)
+        timed.append(timed_marks(sheet, own, staged, len(said)))
+        for step, stage in staged.items():
+            if not at.get(step):
+                at[step] = len(said) + stage + 1 if stage >= 0 else 0
+        said += spoken(place, sheet.drawing, own, staged)
+    shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
+    ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
+    program = sheets[0].drawing.trace.program
+    pairs = {step: pair for step in shown if (pair := sides(program, step, shown))}
+    return Telling(
+        tuple(said),
+        tuple(timed),
+        {step: at.get(step, 0) for step in shown},
+        {step: sources(program, step, frozenset(shown), ran) for step in shown},
+        pairs,
+        {step: name for step in shown if (name := letter(program.steps[step]))},
+    )
+
+
+def spoken(
+    place: int, drawing: Drawing, own: Sequence[Sentence], staged: Mapping[int, int]
+) -> Iterator[Said]:
+    """The sentences of one sheet."""
+    steps = drawing.trace.program.steps
+    parts = [{steps[number].part for number in sentence.all_steps} for sentence in own]
+    last = {part: stage for stage, found in enumerate(parts) for part in found}
+    lines = crossings_on(drawing)
+    for stage, sentence in enumerate(own):
+        yield Said(
+            place,
+            sentence.markup,
+            tuple(reasons(drawing, (step for step, at in staged.items() if at == stage))),
+            tuple(crossing for crossing in lines if staged.get(crossing.number) == stage),
+            tuple(part for part in STOPS if last.get(part) == stage),
+        )
+
+
+def timed_marks(
+    sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int], before: int
+) -> tuple[Timed, ...]:
+    """The marks of a sheet with the sentences that draw them."""
+    found = []
+    for mark in (*sheet.left, *sheet.right):
+        stage = stage_of(sheet.drawing, mark, staged, own)
+        stage = len(own) - 1 if mark.name == DETAIL else stage
+        found.append(
+            Timed(mark, before + stage + 1 if stage >= 0 else 0, step_of(sheet.drawing, mark))
+        )
+    return tuple(found)
+
+
+def step_of(drawing: Drawing, mark: Mark) -> int | None:
+    """The step that a mark shows; that of its point or guide where the mark is not of a step."""
+    if mark.step is not None:
+        return mark.step
+    targets = drawing.trace.program.targets
+    if mark.name.startswith(GUIDE):
+        return targets.get(("guide", mark.name.removeprefix(GUIDE)))
+    return targets.get(("position", mark.name))
+
+
+def sources(
+    program: Program, number: int, shown: Collection[int], ran: Collection[int]
+) -> tuple[int, ...]:
+    """The steps with marks that a step is drawn from, through those that have none."""
+    found: set[int] = set()
+    seen = {number}
+    waiting = [number]
+    while waiting:
+        step = program.steps[waiting.pop()]
+        by_hand = () if step.by_hand is None else (step.by_hand,)
+        for behind in (*step.args, *by_hand):
+            if behind in seen or behind not in ran:
+                continue
+            seen.add(behind)
+            if behind in shown:
+                found.add(behind)
+            else:
+                waiting.append(behind)
+    return tuple(sorted(found))
+
+
+def sides(program: Program, number: int, shown: Collection[int]) -> tuple[int, int] | None:
+    """The two points of the mechanism that give a line of a plan its direction."""
+    step = program.steps[number]
+    if step.plane in (Plane.MECHANISM, Plane.NUMBERS):
+        return None
+    points = [
+        arg
+        for arg in step.args
+        if arg in shown and program.steps[arg].plane is Plane.MECHANISM and program.steps[arg].name
+    ]
+    return (points[0], points[1]) if len(points) == 2 else None
+
+
+def letter(step: Step) -> str:
+    """The letter of a step's point on the drawing; nothing for a line or an arrow."""
+    return "" if step.arrow or step.plane is Plane.NUMBERS else step.name

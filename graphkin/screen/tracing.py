@@ -1,0 +1,151 @@
+"""The construction of a page's sheets, traced once with the driver's place as its input."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from graphkin.mechanism import Mechanism
+from graphkin.screen.closings import (
+    Closing,
+    Course,
+    around,
+    closing,
+    drawn_value,
+    name_of,
+    solver,
+    tried,
+)
+from graphkin.screen.driven import INPUT, Driven, Reach, reach_of, window
+from graphkin.screen.shelf import Shelf
+from graphkin.steps.batch import made_ready, run_moving
+from graphkin.steps.graph import Graph
+from graphkin.steps.run import Trace
+from graphkin.steps.traced import Number
+from graphkin.steps.tracer import traced_kind
+
+SLACK = 1e-6
+"""Parts of the mechanism by which a bar's length may be off where it still closes."""
+
+
+@dataclass(frozen=True)
+class Tracing:
+    """The traced steps of a mechanism: what a sheet has traced, the next ones take over.
+
+    ``margins`` are the sines of all crossings, ``closings`` what closes groups of higher class.
+    """
+
+    mechanism: Mechanism
+    driven: Driven
+    graph: Graph = field(default_factory=Graph)
+    done: dict[int, Any] = field(default_factory=dict)
+    margins: dict[int, Any] = field(default_factory=dict)
+    closings: list[Closing] = field(default_factory=list)
+
+    @cached_property
+    def x(self) -> Number:
+        """The driver's place, in the unit of the driver."""
+        return Number(self.graph, self.graph.input(INPUT))
+
+    @cached_property
+    def shelf(self) -> Shelf:
+        """The outputs."""
+        return Shelf(self.graph, {INPUT: self.driven.start})
+
+    @property
+    def inputs(self) -> dict[str, int]:
+        """The places of the inputs: the driver, then what closes groups."""
+        names = [INPUT, *(each.name for each in self.closings)]
+        return {name: place for place, name in enumerate(names)}
+
+    def traced(self, drawn: Trace) -> Trace:
+        """The steps that were run for a sheet, traced. Raises UntraceableError."""
+        program, values = drawn.program, self.mechanism.scene.values
+        scaled = dict(self.mechanism.trial_rates)
+        if program.seconds is not None and program.seconds in drawn.values:
+            scaled[program.seconds] = drawn.values[program.seconds]
+        own = {after for number in scaled for after in program.descendants(number)}
+        shared = {n: value for n, value in self.done.items() if n not in own}
+        overrides = scaled | self.closers(drawn) | shared
+        overrides |= self.driven.overrides(program, self.x)
+        overrides = {n: value for n, value in overrides.items() if n in drawn.values}
+        needed = sorted(drawn.values)
+        ready = made_ready(program, needed, values, needed, frozenset(overrides))
+        trace = run_moving(ready, values, traced_kind(), margins=True, overrides=overrides)
+        self.done.update(trace.values)
+        self.margins.update(trace.margins)
+        self.add_closings(drawn, trace)
+        return trace
+
+    # --- groups of higher class ----------------------------------------------------------------
+
+    def closers(self, drawn: Trace) -> dict[int, Any]:
+        """The steps that close groups, with a traced trial in their place."""
+        found = {}
+        for number, closer in closing_steps(drawn):
+            name, value = name_of(number), drawn.values[number]
+            self.shelf.inputs[name] = drawn_value(closer, value)
+            found[number] = tried(name, self.graph, closer, value)
+        return found
+
+    def add_closings(self, drawn: Trace, trace: Trace) -> None:
+        """What closes the groups that no sheet before has, traced on what is known of them."""
+        steps = trace.program.steps
+        for number, closer in closing_steps(drawn):
+            name = name_of(number)
+            if any(each.name == name for each in self.closings):
+                continue
+            known = [trace.values[arg] for arg in steps[number].args]
+            each = closing(name, self.shelf, closer, known, drawn.values[number])
+            self.closings.append(each)
+            parts = (later for later in trace.values if number in steps[later].args)
+            self.margins.update({n: each.sine for n in parts if steps[n].extra == (0,)})
+
+    # --- how far it goes -----------------------------------------------------------------------
+
+    def closed(self, trace: Trace, size: float) -> list[int]:
+        """The outputs that are finite where the mechanism closes: the places of all its points, and
+        a root of what is left of the room for each bar's length, which idle links may not keep."""
+        places = {
+            of: self.shelf.lifted(trace.values[number])
+            for (quantity, of), number in trace.program.targets.items()
+            if quantity == "position" and number in trace.values
+        }
+        found: set[int] = set()
+        for point in places.values():
+            if self.moves(point):
+                first = self.shelf.point(point)
+                found |= {first, first + 1}
+        for link in self.mechanism.scene.links.values():
+            points = [places[name] for name in link.points if name in places]
+            for point in points[1:]:
+                length = abs(point - points[0])
+                if self.moves(length):
+                    off = abs(length - float(self.shelf.now(length)))
+                    found.add(self.shelf.number((SLACK * size - off).do("sqrt")))
+        return sorted(found)
+
+    def moves(self, value: Number) -> bool:
+        """Whether a number or point is no constant."""
+        nodes = (value.node, value.imag.node)
+        return any(self.graph.constant(node) is None for node in nodes)
+
+    def reached(self, closed: Sequence[int], size: float) -> tuple[Reach, Course] | None:
+        """The range, and what closes groups on the way through it; None where nothing moves."""
+        if not self.closings:
+            outputs = [self.shelf.outputs[i] for i in closed]
+            reach = reach_of(self.driven, self.graph, outputs)
+            return None if reach is None else (reach, Course())
+        solve = solver(self.graph, INPUT, self.closings, size)
+        turning, start = self.driven.what == "turn", self.driven.start
+        return around(solve, self.closings, start, window(self.driven), turning=turning)
+
+
+def closing_steps(trace: Trace) -> Iterator[tuple[int, Any]]:
+    """The steps that close groups of higher class, in order, each with what closes it."""
+    for number in sorted(trace.values):
+        action = trace.program.steps[number].action
+        if action is not None and action.key == "close":
+            yield number, action.value

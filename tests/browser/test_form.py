@@ -1,0 +1,332 @@
+"""The form of a lab in a real browser: what is filled in, saved and handed in is marked in full."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Mapping
+from math import isnan
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.cli import app
+from graphkin.grading.numbers import read_answer
+from graphkin.lab.model import Item
+from graphkin.screen.form import Identity, form_fragment, script, style
+from graphkin.screen.skeleton import offline_page
+from graphkin.text import words
+from tests.browser.opening import Opened
+from tests.cli.conftest import Run, run  # noqa: F401
+from tests.grading.students import marker_of
+
+ROSTER = 'Nr.;Matricol;Nume;Grupa\n7;0042;Ștefănescu Ana;A\n9;0043;"O\'Neil, Jr. Pat";A\n'
+LABS = ("pump", "slotted-lever")
+FIELD = "#answer-{}"
+
+
+@pytest.fixture(scope="module", params=LABS)
+def any_folder(request, tmp_path_factory) -> Path:
+    """A class folder of two students with their task pages, one for each lab."""
+    return class_folder(request.param, tmp_path_factory.mktemp(request.param))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    """The class folder of the pump."""
+    return class_folder("pump", tmp_path_factory.mktemp("pump"))
+
+
+def class_folder(name: str, place: Path) -> Path:
+    """A class folder made as a lecturer makes it."""
+    (place / "class.csv").write_text(ROSTER, encoding="utf-8")
+    made = place / name
+    for args in (
+        ("variants", name, place / "class.csv", "-o", made),
+        ("print", made, "--view", "task", "--format", "html", "--lang", "ro", "--jobs", "1"),
+    ):
+        result = CliRunner().invoke(app, [str(arg) for arg in args])
+        assert result.exit_code == 0, result.output
+    return made
+
+
+def page_of(folder: Path, who: str = "0042") -> Path:
+    """The page of a student."""
+    return folder / "print" / "task" / f"{who}-task.html"
+
+
+def key_of(folder: Path) -> Mapping[str, float]:
+    """The right values of student number 7, by field."""
+    return marker_of(folder.name, 7).standard.key
+
+
+def written(value: float) -> str:
+    """A value as a student writes it, with a comma."""
+    return f"{value:.5g}".replace(".", ",")
+
+
+def fill(page: Any, key: Mapping[str, float]) -> None:
+    """Fill in the key."""
+    for field in page.locator("form.answers [name]").all():
+        name, value = field.get_attribute("name"), 0.0
+        value = key[name]
+        if isnan(value):
+            continue
+        if name.endswith("_sense"):
+            field.select_option(index=1 if value > 0 else 2)
+        else:
+            field.fill(written(value))
+
+
+def save(page: Any, into: Path) -> Path:
+    """Press the button; the file that comes."""
+    with page.expect_download() as coming:
+        page.get_by_role("button", name="Salvează").click()
+    path = into / coming.value.suggested_filename
+    coming.value.save_as(path)
+    return path
+
+
+def cells(path: Path, separator: str) -> dict[str, str]:
+    """The rows of a saved file."""
+    lines = path.read_bytes().decode("utf-8").splitlines()
+    return dict(csv.reader(lines, delimiter=separator))
+
+
+def test_the_key_filled_in_saved_and_graded_earns_every_point(
+    opened: Opened,
+    any_folder: Path,
+    run: Run,  # noqa: F811
+    tmp_path: Path,
+):
+    page = opened(page_of(any_folder))
+    fill(page, key_of(any_folder))
+    answers = tmp_path / "answers"
+    answers.mkdir()
+    path = save(page, answers)
+    assert path.name == "0042-answers.csv"
+    assert path.read_bytes().startswith(b"field;value\r\nid;0042\r\n")
+    result = run("grade", any_folder, answers, "-o", tmp_path / "report", "--format", "none")
+    assert result.exit_code == 0, result.output
+    with (tmp_path / "report" / "marks.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["id"]: row for row in csv.DictReader(file)}
+    assert rows["0042"]["percent"] in ("100", "100.0", "100.00"), rows["0042"]
+
+
+def test_it_can_be_filled_in_and_saved_by_keys_alone(opened: Opened, any_folder: Path):
+    page = opened(page_of(any_folder))
+    names = [f.get_attribute("name") for f in page.locator("form.answers [name]").all()]
+    key, seen = key_of(any_folder), []
+    for _ in range(500):
+        page.keyboard.press("Tab")
+        name = page.evaluate("document.activeElement.name || ''")
+        if name:
+            seen.append(name)
+            if name.endswith("_sense"):
+                page.keyboard.press("ArrowDown")
+            else:
+                page.keyboard.type(written(key[name]) if not isnan(key[name]) else "1")
+        elif page.evaluate("document.activeElement.className") == "save":
+            break
+    assert seen == names
+    with page.expect_download() as coming:
+        page.keyboard.press("Enter")
+    found = cells(coming.value.path(), ";")
+    assert list(found) == ["field", "id", *names]
+    for name in names:
+        if name.endswith("_sense"):
+            assert found[name] in ("ccw", "forward")
+        else:
+            assert found[name] == (written(key[name]) if not isnan(key[name]) else "1")
+
+
+def test_a_reload_loses_nothing_and_another_page_knows_nothing_of_it(
+    opened: Opened,
+    folder: Path,
+):
+    page = opened(page_of(folder))
+    fields = page.locator("form.answers [name]")
+    first = fields.first.get_attribute("name")
+    page.fill(FIELD.format(first), "12,5 kg")
+    sense = page.locator("form.answers select").first
+    sense.select_option(index=2)
+    chosen = sense.input_value()
+    page.reload()
+    assert page.input_value(FIELD.format(first)) == "12,5 kg"
+    assert page.locator("form.answers select").first.input_value() == chosen
+    assert page.get_attribute(FIELD.format(first), "aria-invalid") == "true"
+    page.goto(page_of(folder, "0043").as_uri())
+    assert {field.input_value() for field in page.locator("form.answers [name]").all()} == {""}
+
+
+def test_a_saved_file_is_opened_to_go_on(
+    opened: Opened,
+    folder: Path,
+    tmp_path: Path,
+):
+    page = opened(page_of(folder))
+    fill(page, key_of(folder))
+    path = save(page, tmp_path)
+    before = [field.input_value() for field in page.locator("form.answers [name]").all()]
+    page.on("dialog", lambda dialog: dialog.accept())
+    page.get_by_role("button", name="Golește").click()
+    assert {f.input_value() for f in page.locator("form.answers [name]").all()} == {""}
+    page.set_input_files("input.file", path)
+    status = page.get_by_role("status")
+    status.filter(has_text=path.name).wait_for()
+    assert [f.input_value() for f in page.locator("form.answers [name]").all()] == before
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("field,value\nid,0043\nomega_2,1\n", "0043"),
+        ("id;omega_2\n0042;1\n", "nu este un fișier"),
+        ("", "nu este un fișier"),
+        ("field;value\nid;0042\nomega_9;1\n", "nu este un fișier"),
+    ],
+)
+def test_a_file_that_is_not_of_this_form_changes_nothing(
+    opened: Opened,
+    folder: Path,
+    tmp_path: Path,
+    text: str,
+    said: str,
+):
+    page = opened(page_of(folder))
+    first = page.locator("form.answers input[name]").first
+    first.fill("3")
+    (tmp_path / "other.csv").write_text(text, encoding="utf-8")
+    page.set_input_files("input.file", tmp_path / "other.csv")
+    page.get_by_role("status").filter(has_text=said).wait_for()
+    assert first.input_value() == "3"
+
+
+PLAIN = """
+3 -3 +3 −3 3,5 3.5 ,5 .5 5, 1e3 1E-3 1,5·10^3 1.5*10^-3 1.234,5 1'000 12a abc -- 3_000 3mm 3cm
+0,1m 2in 3m/s 3(m/s) 3m·s^-1 3ms⁻¹ 3m/s² 3m/s^2 3rad/s 3s^-1 3s⁻² 30rpm 3°/s 30rot/min 3deg/s
+1e999 1e308 3kg =1+1 @x 1e400 ٣ Infinity NaN 0x10 ½ , . + e5 3e5e5
+"""
+SPACED = ["3\u00a0mm", "3 mm", " 3 ", "3 m / s", "1 000", "3 x 10 ^ 2", "3 m/s ²"]
+TEXTS = [*PLAIN.split(), *SPACED, "7" * 61, "a" * 40]
+SAID = {"number": "no_number", "unit": "no_unit", "large": "too_large"}
+UNITS = {"v_D_mm": "mm", "v_D": "m/s", "a_D": "m/s²", "omega_2": "rad/s", "epsilon_2": "rad/s²"}
+
+
+def bare_page(items: list[Item], identity: Identity, language: str = "en") -> str:
+    """A page with nothing but a form."""
+    body = form_fragment(items, {}, (), words(language), identity)
+    return offline_page("Form", language, f"<main>{body}</main>", [style()], [script()])
+
+
+@pytest.fixture(scope="module")
+def bare(tmp_path_factory) -> Path:
+    """A form with a field of each unit."""
+    items = [Item(name, "value", f"*{name[0]}*", unit, "x", "D") for name, unit in UNITS.items()]
+    path = tmp_path_factory.mktemp("bare") / "form.html"
+    path.write_text(bare_page(items, Identity("bare", "bare")), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("name", UNITS)
+def test_numbers_are_read_as_grading_reads_them(opened: Opened, bare: Path, name: str):
+    item = Item(name, "value", "", UNITS[name], "x", "D")
+    page = opened(bare)
+    found, expected = {}, {}
+    for text in TEXTS:
+        page.fill(FIELD.format(name), text)
+        page.dispatch_event(FIELD.format(name), "change")
+        found[text] = page.inner_text(f"{FIELD.format(name)}-wrong")
+        problem = read_answer(text, item).problem
+        sentence = words("en").sentences[f"answers.{SAID[problem]}"] if problem else ""
+        expected[text] = sentence
+    assert {text: bool(said) for text, said in found.items()} == {
+        text: bool(said) for text, said in expected.items()
+    }
+    for text, sentence in expected.items():
+        if not sentence:
+            continue
+        tail = re.split(r"\{\w+\}", sentence)[1]
+        assert tail in found[text], (text, sentence)
+
+
+def test_what_a_spreadsheet_would_run_is_saved_as_text(opened: Opened, bare: Path):
+    page = opened(bare)
+    page.fill("#answers-id", "=0042")
+    page.fill("#answer-v_D", '=HYPERLINK("http://x")')
+    page.fill("#answer-a_D", "-5 m/s²")
+    with page.expect_download() as coming:
+        page.get_by_role("button", name="Save the").click()
+    assert re.fullmatch(r"[\w.-]+\.csv", coming.value.suggested_filename)
+    rows = cells(coming.value.path(), ",")
+    assert rows["id"] == "'=0042"
+    assert rows["v_D"] == '\'=HYPERLINK("http://x")'
+    assert rows["a_D"] == "-5 m/s²"
+
+
+def test_without_an_id_nothing_is_saved_and_the_field_is_shown(opened: Opened, bare: Path):
+    page = opened(bare)
+    page.get_by_role("button", name="Save the").click()
+    assert page.evaluate("document.activeElement.id") == "answers-id"
+    assert page.inner_text("#answers-id-wrong") == words("en")("answers.no_id")
+
+
+HOSTILE = '"><script>document.title="taken"</script><b onclick="x">&{id}'
+
+
+def test_names_and_ids_are_text(opened: Opened, tmp_path: Path):
+    path = tmp_path / "hostile.html"
+    item = Item("v_D", "value", "*v*", "m/s", "velocity", "D")
+    whose = Identity("stem", HOSTILE, HOSTILE, HOSTILE)
+    path.write_text(bare_page([item], whose), encoding="utf-8")
+    page = opened(path)
+    assert page.title() == "Form"
+    assert HOSTILE in page.inner_text("p.owner")
+    assert page.locator("b, main script").count() == 0
+    with page.expect_download() as coming:
+        page.get_by_role("button", name="Save the").click()
+    rows = cells(coming.value.path(), ",")
+    assert rows["id"] == HOSTILE
+
+
+@pytest.mark.parametrize("look", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 390])
+def test_the_task_page_is_accessible(
+    opened: Opened,
+    folder: Path,
+    look: str,
+    width: int,
+):
+    from axe_playwright_python.sync_playwright import Axe
+
+    page = opened(page_of(folder), color_scheme=look, viewport={"width": width, "height": 900})
+    field = page.locator("form.answers input[name]").first
+    field.fill("12 kg")
+    field.dispatch_event("change")
+    found = Axe().run(page).response["violations"]
+    assert not found, [(each["id"], [n["html"][:120] for n in each["nodes"]]) for each in found]
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_without_a_script_it_says_so_and_shows_no_button(opened: Opened, folder: Path):
+    page = opened(page_of(folder), java_script_enabled=False)
+    assert "JavaScript" in page.inner_text("form.answers noscript")
+    assert not page.locator("form.answers button").first.is_visible()
+
+
+def test_a_browser_that_keeps_nothing_says_so_and_still_saves(
+    opened: Opened,
+    folder: Path,
+    tmp_path: Path,
+):
+    page = opened(page_of(folder))
+    page.add_init_script(
+        "Object.defineProperty(window, 'localStorage', { get() { throw new Error('kept'); } })"
+    )
+    page.reload()
+    assert page.get_by_role("status").inner_text() == words("ro")("answers.lost")
+    page.locator("form.answers input[name]").first.fill("3,5")
+    path = save(page, tmp_path)
+    assert "3,5" in cells(path, ";").values()

@@ -1,0 +1,370 @@
+"""The step page in a real browser: steps, keys, addresses, driver, print, and without a script."""
+
+from __future__ import annotations
+
+import re
+from cmath import rect
+from functools import cache
+from math import degrees as degrees_of
+from math import radians
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphkin.arithmetic import FLOAT
+from graphkin.mechanism import Mechanism, load
+from graphkin.paper.drawing import Drawing
+from graphkin.scene.read import read_text
+from graphkin.screen.page import step_page, task_page
+from graphkin.screen.sheets import screen_sheets
+from graphkin.screen.telling import telling
+from graphkin.steps.crossings import crossings
+from graphkin.steps.run import Trace, run
+from graphkin.text import words
+from tests.browser.opening import Opened
+from tests.paper.sheet_tools import SCENES, mechanism_named
+from tests.screen.test_page import NASTY
+
+DESKTOP = {"viewport": {"width": 1440, "height": 900}}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "device_scale_factor": 2}
+SHAPES = {"desktop": DESKTOP, "phone": PHONE, "dark": DESKTOP | {"color_scheme": "dark"}}
+STEPS = "document.querySelectorAll('#steps li').length"
+STATE = """() => {
+  const step = Number(document.getElementById('step').value);
+  const seen = mark => mark.checkVisibility({ visibilityProperty: true });
+  const sheets = [...document.querySelectorAll('.sheet')];
+  const all = '.sheet:not([hidden]) svg [data-at]:not([visibility])';
+  const marks = [...document.querySelectorAll(all)];
+  const current = [...document.querySelectorAll('#steps [aria-current=step]')];
+  return {
+    count: document.getElementById('count').textContent,
+    wrong: marks.filter(mark => seen(mark) !== (mark.dataset.at <= step)).map(mark => mark.id),
+    sheets: sheets.flatMap((sheet, i) => sheet.hidden ? [] : [i]),
+    current: current.map(link => link.dataset.number),
+    sentence: document.getElementById('sentence').textContent,
+    listed: document.querySelector(`#step-${step} .say`).textContent,
+  };
+}"""
+UNSEEN = """[...document.querySelectorAll('svg [data-at]:not([visibility])')]
+  .filter(mark => !mark.checkVisibility({ visibilityProperty: true })).length"""
+OUT_OF_SIGHT = """() => {
+  const parts = document.querySelectorAll('#sentence, #next, #step, .sheet:not([hidden]) .view');
+  const boxes = [...parts].map(part => [part.id || part.className, part.getBoundingClientRect()]);
+  const wide = document.documentElement.scrollWidth > innerWidth ? ['too wide'] : [];
+  const lost = boxes.filter(([, box]) => box.top < 0 || box.bottom > innerHeight + 1);
+  return lost.map(([name]) => name).concat(wide);
+}"""
+CIRCLES = """view => [...view.querySelectorAll('circle:is(.pin,.point,.pole)[data-of]')]
+  .filter(circle => !circle.hasAttribute('visibility'))
+  .map(circle => [circle.dataset.of, circle.getAttribute('cx'), circle.getAttribute('cy')])
+  .map(row => row.map(Number))"""
+FEW = ("pump", "slotted-lever", "oldham", "gears-ring", "rapid-return")
+
+
+@cache
+def mechanism_of(name: str) -> Mechanism:
+    """A mechanism by its name."""
+    return mechanism_named(name) if name in SCENES else load(name)
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory) -> Path:
+    """A folder with the pages of some scenes."""
+    folder = tmp_path_factory.mktemp("pages")
+    for name in FEW:
+        page = step_page(mechanism_of(name), "en")
+        (folder / f"{name}.html").write_text(page, encoding="utf-8")
+        task = task_page(mechanism_of(name), "en")
+        (folder / f"{name}-task.html").write_text(task, encoding="utf-8")
+    nasty = Mechanism(read_text(NASTY, "nasty", None, {}))
+    (folder / "nasty.html").write_text(step_page(nasty), encoding="utf-8")
+    return folder
+
+
+def step_of(page: Any) -> int:
+    """The step that is shown."""
+    return int(page.locator("#count").inner_text().split()[1])
+
+
+def marked(page: Any, look: str) -> set[str]:
+    """The names of the points whose marks are marked, as new or as old."""
+    chosen = ".now" if look == "new" else "[data-of]:not(.rest):not(.now)"
+    found = page.locator(f".sheet:not([hidden]) svg circle{chosen}").all()
+    return {mark.get_attribute("data-name") for mark in found}
+
+
+# --- steps ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_each_step_shows_what_was_drawn_until_then(opened: Opened, pages: Path, name):
+    page = opened(pages / f"{name}.html", **DESKTOP)
+    said = telling(screen_sheets(mechanism_of(name), "en")).said
+    for step in range(1, len(said) + 1):
+        found = page.evaluate(STATE)
+        assert found["count"] == f"Step {step} of {len(said)}"
+        assert found["wrong"] == []
+        assert found["sheets"] == [said[step - 1].sheet]
+        assert found["current"] == [str(step)]
+        assert found["sentence"] == found["listed"]
+        page.keyboard.press("ArrowRight")
+    assert page.locator("#next").is_disabled()
+
+
+def test_what_b_is_drawn_from_is_marked_and_named(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.locator("#steps a[data-number='6']").click()
+    assert marked(page, "new") == {"b"}
+    assert marked(page, "old") == {"a", "o", "A", "B", "O2"}
+    assert page.locator("#from").inner_text() == "A (1), B (2), O2 (2), a (5), o (5)"
+    assert page.locator(".halo .side").count() == 2
+    page.locator("#from a", has_text="B").click()
+    assert step_of(page) == 2
+
+
+def test_the_flattest_crossing_of_a_step_is_told(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.locator("#steps a[data-number='7']").click()
+    told = page.locator("#crossing").inner_text()
+    assert re.fullmatch(r"c: the lines cross at \d+°, 1 mm of pencil becomes up to [\d.]+ mm", told)
+    page.locator("#steps a[data-number='5']").click()
+    assert page.locator("#crossing").inner_text() == ""
+
+
+def test_a_click_on_a_mark_goes_to_the_step_that_draws_it(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.keyboard.press("2")
+    assert step_of(page) == 8
+    page.locator("#sheet-0 text[data-name='b']").click()
+    assert step_of(page) == 6
+
+
+def test_pointing_at_a_mark_shows_what_it_alone_is_drawn_from(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.keyboard.press("2")
+    page.locator("#sheet-0 text[data-name='a']").hover()
+    assert "o (5)" in page.locator("#from").inner_text()
+    assert "b (6)" not in page.locator("#from").inner_text()
+    page.locator("h1").hover()
+    assert "c (7)" in page.locator("#from").inner_text()
+
+
+# --- keys and addresses --------------------------------------------------------------------------
+
+
+def test_keys_go_through_the_steps(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    last = page.evaluate(STEPS)
+    found = []
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "Home", "2", "6"):
+        page.keyboard.press(key)
+        found.append(step_of(page))
+    assert found == [2, 3, 2, last, last, 1, 8, 19]
+
+
+def test_every_control_is_reached_by_tab_and_has_a_name(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.keyboard.press("End")
+    found = {}
+    for _ in range(60):
+        page.keyboard.press("Tab")
+        focus = "({id, textContent, ariaLabel}) => [id, ariaLabel || textContent.trim()]"
+        name, told = page.evaluate(f"({focus})(document.activeElement)")
+        found[name] = told or page.evaluate("document.activeElement.labels?.[0]?.textContent")
+    wanted = {"previous", "play", "step", "follow", "driver"}
+    assert wanted <= found.keys()
+    assert all(found[name] for name in wanted)
+    assert page.locator("#stops button").count() == 6
+
+
+def test_on_the_sliders_the_arrow_keys_are_their_own(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.locator("#step").focus()
+    page.keyboard.press("ArrowRight")
+    assert step_of(page) == 2
+    page.locator("#driver").focus()
+    before = page.locator("#driven").inner_text()
+    page.keyboard.press("ArrowRight")
+    assert step_of(page) == 2
+    assert page.locator("#driven").inner_text() != before
+
+
+def test_space_plays_to_the_end_and_stops_there(opened: Opened, pages: Path):
+    page = opened(pages / "slotted-lever.html", **DESKTOP)
+    page.clock.install()
+    page.reload()
+    page.keyboard.press(" ")
+    assert page.locator("#play").get_attribute("aria-label") == words("en")("screen.pause")
+    page.clock.run_for(13_000)
+    assert step_of(page) > 1
+    page.keyboard.press(" ")
+    stood = step_of(page)
+    page.clock.run_for(60_000)
+    assert step_of(page) == stood
+    page.locator("#play").click()
+    page.clock.run_for(600_000)
+    assert step_of(page) == page.evaluate(STEPS)
+    assert page.locator("#play").get_attribute("aria-label") == words("en")("screen.play")
+
+
+def test_an_address_leads_to_its_step_and_place(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    address = (pages / "pump.html").as_uri()
+    page.goto(f"{address}#step=7&x=80")
+    assert step_of(page) == 7
+    assert page.locator("#driven").inner_text() == "80.0°"
+    page.keyboard.press("ArrowRight")
+    page.wait_for_url("**#step=8&x=80")
+    page.locator("#back").click()
+    page.wait_for_url("**#step=8")
+    for wrong in ("step=999", "step=banana&x=nothing", "step=-3", "nonsense"):
+        page.goto(f"{address}#{wrong}")
+        assert 1 <= step_of(page) <= page.evaluate(STEPS)
+
+
+# --- the driver ----------------------------------------------------------------------------------
+
+
+def moved(drawing: Drawing, mechanism: Mechanism, degrees: float) -> Trace:
+    """A drawing's steps with the crank turned to an angle."""
+    program, drawn = mechanism.program, drawing.trace.values
+    (drive,) = program.drives
+    overrides: dict[int, Any] = {drive.position: rect(1, radians(degrees))}
+    if drive.angle is not None:
+        overrides[drive.angle] = radians(degrees)
+    overrides |= {program.seconds: drawn[program.seconds]} if program.seconds in drawn else {}
+    needed = sorted(drawn)
+    return run(program, needed, mechanism.scene.values, FLOAT, overrides=overrides)
+
+
+@pytest.mark.parametrize("degrees", [20.0, 80.0, 121.5])
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "oldham"])
+def test_points_move_to_where_python_draws_them(opened: Opened, pages: Path, name, degrees):
+    page, mechanism = opened(pages / f"{name}.html", **DESKTOP), mechanism_of(name)
+    page.goto(f"{(pages / name).as_uri()}.html#step=99&x={degrees}")
+    compared = 0
+    for place, sheet in enumerate(screen_sheets(mechanism, "en")):
+        values = moved(sheet.drawing, mechanism, degrees).values
+        for side, field in enumerate((sheet.layout.mechanism, sheet.layout.plan)):
+            view = page.locator(f"#sheet-{place} .view").nth(side)
+            for step, x, y in view.evaluate(CIRCLES):
+                if isinstance(values.get(step), complex):
+                    assert (x, y) == pytest.approx(field(values[step]), abs=0.01), step
+                    compared += 1
+    assert compared > 10
+
+
+def test_tables_margins_and_line_follow_the_driver(opened: Opened, pages: Path):
+    page, mechanism = opened(pages / "pump.html", **DESKTOP), load("pump")
+    before = page.locator("[data-row='v_D'] td").all_inner_texts()
+    page.goto(f"{(pages / 'pump.html').as_uri()}#step=6&x=80")
+    sheet = screen_sheets(mechanism, "en")[0]
+    trace = moved(sheet.drawing, mechanism, 80.0)
+    speed = abs(trace.value("velocity", "D"))
+    spoken = words("en")
+    _, length, size = page.locator("[data-row='v_D'] td").all_inner_texts()
+    assert length == spoken.fixed(1000 * speed / sheet.drawing.scales.kv, 2)
+    assert size == spoken.significant(speed)
+    assert before[2] != size
+    assert f"vD = {size} m/s" in page.locator("#values").inner_text()
+    (b,) = (found for found in crossings(trace) if found.name == "b")
+    told = f"b: the lines cross at {degrees_of(b.angle):.0f}°, 1 mm of pencil becomes up to"
+    assert page.locator("#crossing").inner_text() == f"{told} {b.factor:.1f} mm"
+    for link in "234":
+        omega = trace.value("omega", link)
+        sense = spoken("page.anticlockwise" if omega > 0 else "page.clockwise")
+        row = page.locator(f"[data-row='ω{link}'] td")
+        assert row.all_inner_texts() == [spoken.significant(abs(omega)), sense]
+    page.locator("#back").click()
+    assert page.locator("[data-row='v_D'] td").all_inner_texts() == before
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_every_row_of_the_tables_has_its_value(opened: Opened, pages: Path, name):
+    page = opened(pages / f"{name}.html", **DESKTOP)
+    shown = page.evaluate("[...document.querySelectorAll('[data-row]')].map(r => r.dataset.row)")
+    known = page.evaluate("Object.keys(graphkinMotion.values(graphkinMotion.start))")
+    assert set(shown) <= set(known)
+    kept = page.locator("#results").inner_text()
+    page.evaluate("document.getElementById('driver').dispatchEvent(new Event('input'))")
+    assert page.locator("#results").inner_text() == kept
+
+
+def test_where_lines_do_not_cross_nothing_is_read_off(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.goto(f"{(pages / 'pump.html').as_uri()}#step=6&x=9999")
+    assert page.locator("#place").inner_text() == words("en")("screen.dead")
+    assert not page.locator("#values").is_visible()
+    page.locator("#back").click()
+    assert page.locator("#place").inner_text() == ""
+    assert page.locator("#values").is_visible()
+
+
+# --- every reader --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "pump-task", "nasty"])
+def test_axe_finds_nothing_against_the_page(opened: Opened, pages: Path, name, shape):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe is missing")
+    page = opened(pages / f"{name}.html", **SHAPES[shape])
+    page.keyboard.press("2")
+    page.wait_for_timeout(400)  # until the marks have appeared
+    found = axe.Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+
+
+@pytest.mark.parametrize("name", FEW)
+@pytest.mark.parametrize("shape", ["desktop", "phone"])
+def test_drawing_sentence_and_keys_are_in_sight_together(opened: Opened, pages: Path, name, shape):
+    page = opened(pages / f"{name}.html", **SHAPES[shape])
+    for step in range(1, page.evaluate(STEPS) + 1):
+        assert page.evaluate(OUT_OF_SIGHT) == [], step
+        page.keyboard.press("ArrowRight")
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_letters_of_a_step_can_be_read_on_a_phone(opened: Opened, pages: Path, name):
+    page = opened(pages / f"{name}.html", **PHONE)
+    small = """[...document.querySelectorAll('.sheet:not([hidden]) text.now:not(.caption)')]
+      .map(text => [text.textContent, text.querySelector('tspan') ?? text])
+      .map(([name, run]) => [name, run.getAttribute('font-size') * run.getScreenCTM().a])"""
+    for _ in range(page.evaluate(STEPS) - 1):
+        tiny = [told for told in page.evaluate(small) if told[1] < 7]
+        assert not tiny, (step_of(page), tiny)
+        page.keyboard.press("ArrowRight")
+
+
+def test_without_a_script_it_is_the_finished_drawing_with_its_list(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP, java_script_enabled=False)
+    assert page.locator(".sheet").count() == 2
+    assert all(sheet.is_visible() for sheet in page.locator(".sheet").all())
+    assert page.locator("#steps li").count() == 20
+    assert page.locator("#dock, button, input").count() == 0
+    assert all(mark.is_visible() for mark in page.locator("circle.point").all())
+
+
+@pytest.mark.parametrize("step", ["1", "13"])
+def test_on_paper_it_is_the_same_wherever_it_stood(opened: Opened, pages: Path, step):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.goto(f"{(pages / 'pump.html').as_uri()}#step={step}")
+    page.emulate_media(media="print")
+    assert all(sheet.is_visible() for sheet in page.locator(".sheet").all())
+    assert not page.locator("#dock").is_visible()
+    assert page.evaluate(UNSEEN) == 0
+    assert page.locator("#steps li").count() == 20
+
+
+def test_marks_do_not_appear_slowly_for_those_who_want_no_motion(opened: Opened, pages: Path):
+    name = "getComputedStyle(document.querySelector('.halo')).animationName"
+    assert opened(pages / "pump.html").evaluate(name) == "appear"
+    assert opened(pages / "pump.html", reduced_motion="reduce").evaluate(name) == "none"
+
+
+def test_hostile_names_do_nothing(opened: Opened, pages: Path):
+    page = opened(pages / "nasty.html", **DESKTOP)
+    page.on("dialog", lambda dialog: pytest.fail("a name was run"))
+    page.keyboard.press("End")
+    assert "alert(1)" in page.locator("h1").inner_text()
+    assert page.locator("header script, main script").count() == 0

@@ -1,0 +1,209 @@
+"""The page of a cycle in a real browser: it plays, follows keys, and shows what Python does."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from graphkin.mechanism import load
+from graphkin.motion import cycle
+from graphkin.screen.frames import Stage, stage
+from graphkin.screen.moments import Motion, motion
+from graphkin.screen.player import player_page
+from graphkin.text import words
+from tests.browser.opening import Opened
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+NAMES = ("pump", "slotted-lever", "oldham", "trammel", "gears-ring", "roller", "five-bar")
+STILL = {"reduced_motion": "reduce"}
+NEAR = 0.01
+"""Millimetres by which a mark of the page may be off."""
+
+
+@lru_cache
+def shown(name: str) -> tuple[Motion, Stage]:
+    """A motion and its stage."""
+    path = SCENES / f"{name}.toml"
+    mechanism = load(str(path)) if path.is_file() else load(name, n=7)
+    found = motion(cycle(mechanism), words("en"), 24)
+    return found, stage(found, words("en"), beside=True)
+
+
+@pytest.fixture
+def page_of(tmp_path: Path, opened: Opened) -> Any:
+    """Open the page of a scene: page_of("pump", reduced_motion="reduce")."""
+
+    def told(name: str, **options: Any) -> Any:
+        path = tmp_path / f"{name}.html"
+        path.write_text(player_page(shown(name)[0], words("en")), encoding="utf-8")
+        return opened(path, **options)
+
+    return told
+
+
+def put(page: Any, x: float) -> float:
+    """Move the slider; where the driver then is."""
+    page.evaluate(
+        "x => { const at = document.getElementById('at'); at.step = 'any'; at.value = x;"
+        " at.dispatchEvent(new Event('input')); }",
+        x,
+    )
+    return float(page.input_value("#at"))
+
+
+CIRCLES = """() => Object.fromEntries([...document.querySelectorAll('svg circle[id]')]
+  .filter(mark => !mark.getAttribute('visibility'))
+  .map(mark => [mark.dataset.name + ' ' + mark.closest('figure').id,
+    [Number(mark.getAttribute('cx')), Number(mark.getAttribute('cy'))]]))"""
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_page_stands_where_python_stands(page_of, name):
+    """Pins, and the points of both plans, against the batch of the cycle at the same place."""
+    found, set_up = shown(name)
+    page = page_of(name, **STILL)
+    sweep = found.cycle.sweep
+    metres = {"m": 1.0, "cm": 0.01, "mm": 0.001}[found.cycle.scene.units["length"]]
+    unit = metres if sweep.what in ("slide", "roll") else 1.0
+    low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
+    if not found.cycle.path.whole:
+        assert low * unit == pytest.approx(found.low, abs=1e-6 * abs(found.high - found.low) + 1e-9)
+    compared = 0
+    for part in (0.03, 0.3, 0.5, 0.77, 0.97):
+        at = put(page, low + part * (high - low)) * unit
+        rows = found.cycle.along([at])
+        assert len(rows.at) == 1
+        circles = page.evaluate(CIRCLES)
+        fields = [("field-0", "position", set_up.mechanism)]
+        for number, (kind, field) in enumerate(set_up.plans.items(), 1):
+            fields.append((f"field-{number}", kind, field))
+        for figure, what, field in fields:
+            for point, moves in rows.solution.points.items():
+                tail = {"position": "", "velocity": "", "acceleration": "′"}[what]
+                letter = point if what == "position" else point.lower() + tail
+                mark = circles.get(f"{letter} {figure}")
+                value = getattr(moves, what)
+                image = what == "position" or (len(point) == 1 and point != "O")
+                if mark is None or value is None or not image:
+                    continue  # the images of some points have other letters: the pole is o
+                x, y = field(complex(np.ravel(value)[0]))
+                assert abs(mark[0] - x) < NEAR, (name, at, letter, figure)
+                assert abs(mark[1] - y) < NEAR, (name, at, letter, figure)
+                compared += 1
+    assert compared >= 10
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_points_stay_in_their_fields_all_the_way(page_of, name):
+    page = page_of(name, **STILL)
+    low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
+    for part in np.linspace(0, 1, 25):
+        put(page, low + part * (high - low))
+        outside = page.evaluate(
+            """() => [...document.querySelectorAll('svg circle[id]')].filter(mark => {
+              if (mark.getAttribute('visibility')) return false;
+              const box = mark.ownerSVGElement.viewBox.baseVal;
+              const x = Number(mark.getAttribute('cx')) - box.x;
+              const y = Number(mark.getAttribute('cy')) - box.y;
+              return !(x > 0 && y > 0 && x < box.width && y < box.height);
+            }).map(mark => mark.outerHTML)"""
+        )
+        assert not outside
+
+
+def moved(page: Any) -> float:
+    """How far the slider goes in some pictures."""
+    before = float(page.input_value("#at"))
+    page.evaluate(
+        "() => new Promise(done => { let n = 0;"
+        " const wait = () => (++n > 20 ? done() : requestAnimationFrame(wait)); wait(); })"
+    )
+    return abs(float(page.input_value("#at")) - before)
+
+
+def test_it_plays_by_itself_and_stops_when_told(page_of):
+    page = page_of("pump")
+    assert moved(page) > 0
+    page.get_by_role("button", name="Pause").click()
+    assert moved(page) == 0
+    page.get_by_role("button", name="Play").click()
+    assert moved(page) > 0
+
+
+def test_who_wants_less_motion_gets_it_only_when_asked(page_of):
+    page = page_of("pump", **STILL)
+    assert moved(page) == 0
+    assert float(page.input_value("#at")) == pytest.approx(44, abs=0.3)
+    page.get_by_role("button", name="Play").click()
+    assert moved(page) > 0
+
+
+def test_keys_play_move_and_go_back(page_of):
+    page = page_of("pump", **STILL)
+    start = page.inner_text("#told")
+    assert start == "44.0°"
+    page.keyboard.press("ArrowRight")
+    after = page.inner_text("#told")
+    assert float(after[:-1]) > 44
+    page.keyboard.press("Space")
+    assert moved(page) > 0
+    page.keyboard.press("Space")
+    assert moved(page) == 0
+    page.keyboard.press("Home")
+    assert page.inner_text("#told") == start
+    page.focus("#speed")
+    page.keyboard.press("ArrowDown")
+    assert page.input_value("#speed") == "2"
+    assert page.inner_text("#told") == start
+
+
+def test_what_is_asked_is_told_at_each_place(page_of):
+    found, _ = shown("pump")
+    page = page_of("pump", **STILL)
+    at = put(page, 100)
+    rows = found.cycle.along([at])
+    told = page.evaluate(
+        "() => Object.fromEntries([...document.querySelectorAll('[data-row]:not([hidden])')]"
+        ".map(row => [row.dataset.row, Number(row.querySelector('span').textContent"
+        ".replace('−', '-'))]))"
+    )
+    expected = {
+        "v_D": abs(rows.solution.points["D"].velocity[0]),
+        "a_D": abs(rows.solution.points["D"].acceleration[0]),
+        **{f"ω{link}": rows.solution.links[link].omega[0] for link in "234"},
+        **{f"ε{link}": rows.solution.links[link].epsilon[0] for link in "234"},
+    }
+    assert told.keys() == expected.keys()
+    for name, value in expected.items():
+        assert told[name] == pytest.approx(value, rel=1e-3)
+
+
+@pytest.mark.parametrize("look", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 390])
+def test_the_page_is_accessible(page_of, look, width):
+    from axe_playwright_python.sync_playwright import Axe
+
+    shape = {"width": width, "height": 844}
+    page = page_of("slotted-lever", color_scheme=look, viewport=shape, **STILL)
+    found = Axe().run(page).response["violations"]
+    assert not found, [(each["id"], [n["html"][:120] for n in each["nodes"]]) for each in found]
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_it_says_where_it_turns_back_and_why(page_of):
+    found, _ = shown("pump")
+    said = page_of("pump", **STILL).inner_text("#shown")
+    for end in (found.low, found.high, *found.reached):
+        assert words("en").significant(end, 4) + "°" in said
+    assert page_of("slotted-lever", **STILL).locator("#shown").count() == 0
+
+
+def test_without_a_script_it_is_a_plain_drawing(page_of):
+    page = page_of("pump", java_script_enabled=False)
+    assert page.locator("figure svg").count() == 3
+    assert page.locator("figure svg circle").first.is_visible()
+    assert not page.locator("#bar").is_visible()

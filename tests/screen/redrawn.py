@@ -1,0 +1,111 @@
+"""The fields of a sheet drawn anew by Python at another place of the driver, at the same scales.
+
+The construction runs step by step on floats there; nothing of it is shared with a page but the
+steps themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import hypot, inf, radians
+from typing import Any
+
+import numpy as np
+
+from graphkin.arithmetic import FLOAT
+from graphkin.mechanism import Mechanism
+from graphkin.motion.sweep import names, sweep_of
+from graphkin.paper.layout import Layout, spans
+from graphkin.paper.marks import Arc, Circle, Line, Mark, Text
+from graphkin.paper.sheet import left_board, right_board
+from graphkin.scene.model import Closure
+from graphkin.screen.driven import Driven
+from graphkin.screen.sheets import ScreenSheet
+from graphkin.steps.program import Program
+from graphkin.steps.run import StepFailed, run
+
+CLOSURES = range(1, 9)
+"""The closures of a group of class III that are tried."""
+Fields = tuple[list[Mark], list[Mark]]
+
+
+def redrawn(
+    mechanism: Mechanism, driven: Driven, sheet: ScreenSheet, x: float, program: Program
+) -> Fields:
+    """The marks of both fields of a sheet, but for labels, at a place of the driver."""
+    scene, drawn = mechanism.scene, sheet.drawing.trace.values
+    sweep = sweep_of(scene)
+    place = x * driven.metres
+    values = sweep.values(np.array([place]))
+    overrides: dict[int, Any] = dict(mechanism.trial_rates)
+    for n, (driver, drive) in enumerate(zip(scene.drivers, program.drives, strict=True), 1):
+        if names(n)[0] not in values:
+            continue
+        at, speed, push = (float(np.ravel(values[name])[0]) for name in names(n))
+        overrides |= {drive.speed: speed, drive.acceleration: push}
+        overrides[drive.position] = FLOAT.direction(at) if driver.kind == "turn" else at
+        if drive.angle is not None:
+            overrides[drive.angle] = radians(at)
+    if program.seconds is not None and program.seconds in drawn:
+        overrides[program.seconds] = drawn[program.seconds]
+    overrides = {n: value for n, value in overrides.items() if n in drawn}
+    trace = run(program, sorted(drawn), scene.values, FLOAT, overrides=overrides)
+    here = replace(sheet.drawing, scene=sweep.with_branches(scene.branches, place), trace=trace)
+    fields = Layout(sheet.layout.mechanism, sheet.layout.plan, {})
+    layout = Layout(fields.mechanism, fields.plan, spans(here, fields))
+    boards = left_board(here, layout, "key"), right_board(here, layout, "key")
+    left, right = ([m for m in board.marks if not isinstance(m, Text)] for board in boards)
+    return left, right
+
+
+def redrawn_near(
+    mechanism: Mechanism,
+    driven: Driven,
+    sheet: ScreenSheet,
+    x: float,
+    pins: Mapping[str, Sequence[float]],
+) -> Fields:
+    """The same in the closure of a group of class III whose pins stand nearest to given ones."""
+    scene, found = mechanism.scene, []
+    numbered = [name for name, branch in scene.branches.items() if isinstance(branch, Closure)]
+    if not numbered:
+        return redrawn(mechanism, driven, sheet, x, sheet.drawing.trace.program)
+    for number in CLOSURES:
+        branches = {**scene.branches, numbered[0]: Closure(number)}
+        program = Mechanism(replace(scene, branches=branches)).program
+        try:
+            found.append(redrawn(mechanism, driven, sheet, x, program))
+        except StepFailed:
+            continue
+    return min(found, key=lambda fields: farthest(fields[0], pins), default=([], []))
+
+
+def farthest(left: Sequence[Mark], pins: Mapping[str, Sequence[float]]) -> float:
+    """How far the pins of a field stand from given ones, at most."""
+    here = {m.name: m for m in left if isinstance(m, Circle) and m.cls == "pin"}
+    return max((hypot(m.cx - pins[n][0], m.cy - pins[n][1]) for n, m in here.items()), default=inf)
+
+
+def numbers(mark: Mark) -> list[float]:
+    """What places a mark: the ends of lines, corners, middles, of an arc both ends and its size."""
+    if isinstance(mark, Line):
+        return [mark.x1, mark.y1, mark.x2, mark.y2]
+    if isinstance(mark, Circle):
+        return [mark.cx, mark.cy]
+    if isinstance(mark, Arc):
+        return [*mark.at(mark.start), mark.r, mark.r, *mark.at(mark.end)]
+    assert not isinstance(mark, Text)
+    return [number for point in mark.points for number in point]
+
+
+def kind_of(mark: Mark) -> tuple[str, str, str, int | None]:
+    """What tells a mark from others of its sheet, where it may stand."""
+    return type(mark).__name__, mark.cls, mark.name, mark.step
+
+
+def apart(one: Sequence[float], other: Sequence[float]) -> float:
+    """How far two marks of a kind lie apart, in mm; infinite where one has more corners."""
+    if len(one) != len(other):
+        return inf
+    return max(abs(a - b) for a, b in zip(one, other, strict=True))

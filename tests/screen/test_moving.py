@@ -1,0 +1,242 @@
+"""Marks follow the driver: where they are drawn, and where Python draws them elsewhere."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from functools import cache
+from math import acos, degrees, hypot, isclose
+from typing import Any
+
+import pytest
+
+from graphkin.mechanism import Mechanism, load
+from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text
+from graphkin.screen.moving import Moving, moving, still
+from graphkin.screen.sheets import ScreenSheet, screen_sheets
+from tests.mechanisms import mechanism_of
+from tests.paper.sheet_tools import SCENES, mechanism_named
+from tests.screen.laid import laid
+from tests.screen.redrawn import apart, kind_of, numbers, redrawn_near
+
+LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
+EVERY = (*LABS, *(name for name in SCENES if name not in LABS))
+LIMIT = 0.01
+"""Millimetres within which a page draws as Python does."""
+SHIFTED = ("ground", "gear", "gear-disc", "fixed-pivot", "slot", "plate", "detail", "square-mark")
+SHIFTED += ("weld", "drive")
+"""Marks that are not drawn alike elsewhere: strokes and teeth stay with what bears them, a pivot
+does not grow where a block covers it, a plate's corners may be counted from another one, a corner
+is filled and a dimension stands on the side where it was drawn."""
+OTHERWISE = {
+    ("four-bar-change-point", "ray"): "a link that only shifts: rounding says which end is far",
+    ("mobility-cam", "guide-bar"): "the bar stays as far as its arm, also where that is far off",
+    ("excavator-absolute", "sense"): "the arrow of a sense stays when a law of time turns back",
+    ("excavator-relative", "sense"): "the arrow of a sense stays when a law of time turns back",
+    ("jumper", "sense"): "the arrow of a sense stays when a law of time turns back",
+    ("rod-and-wheel", ""): "the construction has other steps in a closure of another number",
+}
+"""What is not compared, and why: marks of a class, or a whole scene."""
+CARRIED = ("arrowhead", "block", "slider")
+"""The broken lines that a body or a vector carries along."""
+PLACES = (0.07, 0.21, 0.38, 0.55, 0.72, 0.94)
+"""The places looked at, in parts of the range."""
+
+
+@cache
+def named(name: str) -> Mechanism:
+    """A shipped mechanism or an example."""
+    return load(name) if name in LABS else mechanism_named(name)
+
+
+@cache
+def page_of(name: str) -> tuple[list[ScreenSheet], Moving]:
+    """The sheets of a mechanism, and what moves them."""
+    sheets = screen_sheets(named(name))
+    found = moving(named(name), sheets)
+    assert found is not None
+    return sheets, found
+
+
+def fields(sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, Mark, int, int]]:
+    """Every mark with its id, its sheet, and 0 in the mechanism's field or 1 in the plan's."""
+    for s, sheet in enumerate(sheets):
+        for k, mark in enumerate((*sheet.left, *sheet.right)):
+            yield f"m{s}-{k}", mark, s, int(k >= len(sheet.left))
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_every_mark_lies_where_it_is_drawn(name):
+    """Each binding gives the drawn coordinates back, and hides nothing that is drawn."""
+    sheets, found = page_of(name)
+    here = laid(found, found.data["start"])
+    assert here is not None
+    kinds = {record[0]: record[1] for record in found.data["marks"]}
+    for mark_id, mark, _, _ in fields(sheets):
+        if mark_id not in here or kinds[mark_id] in "oi":
+            continue
+        at = here[mark_id]
+        if at is None and isinstance(mark, Line) and is_nothing(numbers(mark)):
+            continue
+        assert at is not None, (mark_id, mark)
+        drawn = [0.0, 0.0] if isinstance(mark, Text) else numbers(mark)
+        assert apart(at, drawn) < 1e-5, (mark_id, mark)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_what_moves_in_the_mechanism_is_bound(name):
+    """Only what tells a number of the drawn position, or lies off its field, is left behind."""
+    sheets, found = page_of(name)
+    left = {record[0] for record in found.data["marks"] if record[1] == "o"}
+    for mark_id, mark, s, _ in fields(sheets):
+        if mark_id in left:
+            values = sheets[s].drawing.trace.program.steps
+            far = mark.step is not None and values[mark.step].part.value in ("centre", "pole")
+            told = mark.name.startswith(("phi", "s ", "note", "locus"))
+            detail = mark.cls == "detail"
+            assert far or told or detail, mark
+
+
+def is_nothing(at: Sequence[float]) -> bool:
+    """Whether a line has no length."""
+    return len(at) == 4 and hypot(at[2] - at[0], at[3] - at[1]) < 1e-6
+
+
+def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
+    """What a page draws otherwise than Python at a place of the driver."""
+    (sheets, found), mechanism = page_of(name), named(name)
+    left = {*SHIFTED, *(cls for scene, cls in OTHERWISE if scene == name)}
+    here = defaultdict(list)
+    drawn: dict[Any, int] = defaultdict(int)
+    places = {mark_id: (mark, s, side) for mark_id, mark, s, side in fields(sheets)}
+    for mark_id, mark, s, side in fields(sheets):
+        first = mark.cls.split()[0]
+        if isinstance(mark, Text) or first in ("label", "number", "leader", *left):
+            continue
+        drawn[s, side, *kind_of(mark)] += 1
+        at = marks.get(mark_id, numbers(mark))
+        if at is not None and at != []:
+            here[s, side, *kind_of(mark)].append(at)
+    for mark_id, (before, _, cls) in found.data["more"].items():
+        mark, s, side = places[before]
+        kind = "Line" if cls.split()[0] == "construction" else "Polyline"
+        key = (s, side, kind, cls, *kind_of(mark)[2:])
+        drawn[key] += 1
+        if marks[mark_id] is not None:
+            here[key].append(marks[mark_id])
+    for s, sheet in enumerate(sheets):
+        pins = {
+            mark.name: marks.get(f"m{s}-{k}") or numbers(mark)
+            for k, mark in enumerate(sheet.left)
+            if isinstance(mark, Circle) and mark.cls == "pin"
+        }
+        for side, there in enumerate(redrawn_near(mechanism, found.driven, sheet, x, pins)):
+            wanted = defaultdict(list)
+            for mark in there:
+                if mark.cls.split()[0] not in left:
+                    wanted[s, side, *kind_of(mark)].append(numbers(mark))
+            mine = {key: at for key, at in here.items() if key[:2] == (s, side)}
+            yield from differences(mine, wanted, drawn, x)
+
+
+def differences(
+    mine: dict[Any, list[Any]], wanted: dict[Any, list[Any]], drawn: dict[Any, int], x: float
+) -> Iterator[str]:
+    """Marks of one that no mark of the other lies at; those that were not drawn cannot follow."""
+    for key in {*mine, *wanted}:
+        if is_broken(key):
+            continue
+        a, b = mine.get(key, []), wanted.get(key, [])
+        for at in (each for each in a if not is_nothing(each)):
+            if min((apart(at, other) for other in b), default=9.0) > LIMIT:
+                yield f"at {x:g} {key}: {at} is not drawn by Python, which has {b}"
+        if drawn[key] >= len(b):
+            for at in (each for each in b if not is_nothing(each)):
+                if min((apart(at, other) for other in a), default=9.0) > LIMIT:
+                    yield f"at {x:g} {key}: {at} is not on the page, which has {a}"
+
+
+def is_broken(key: tuple[Any, ...]) -> bool:
+    """Curves as broken lines are cut elsewhere; arrows to what is far and of a dimension stay."""
+    kind, cls, name = key[2:5]
+    arrow = cls.startswith("arrowhead")
+    far = arrow and name[:1] in "IJW" and not name.startswith("W_")
+    return (kind == "Polyline" and not cls.startswith(CARRIED)) or far or name.startswith("s ")
+
+
+@pytest.mark.parametrize("name", [name for name in EVERY if (name, "") not in OTHERWISE])
+def test_marks_follow_as_python_draws_them(name):
+    """Every line, circle, arc and vector within 0.01 mm of a fresh drawing at the same scales."""
+    _, found = page_of(name)
+    for share in PLACES:
+        x = found.reach.low + share * (found.reach.high - found.reach.low)
+        marks = laid(found, x)
+        assert marks is not None
+        assert not list(compared(name, x, dict(marks)))
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_a_page_stays_small(name):
+    """What moves a page has less than 150 kB, and nothing in it ends a script."""
+    source = page_of(name)[1].source
+    assert len(source.encode()) < 150_000
+    assert "</" not in source and "<!--" not in source and "http" not in source
+
+
+def test_nothing_stands_still_that_can_move():
+    """Every example moves, groups of class III among them."""
+    assert {still(named(name)) for name in EVERY} == {None}
+
+
+FOUR_BAR = """
+[frame]
+O = [0, 0]
+Q = [{d}, 0]
+[links.1]
+O-A = {a}
+[links.2]
+A-B = {b}
+[links.3]
+Q-B = {c}
+[[drivers]]
+turn = 1
+angle = {angle}
+speed = 10
+[branches]
+B = "left of A-Q"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+"""
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "c", "d", "angle"), [(4, 3, 2, 4, 30), (3, 2, 2.5, 3, 50), (5, 3, 1, 4, 30)]
+)
+def test_a_rocker_goes_as_far_as_coupler_and_follower_reach(a, b, c, d, angle):
+    """Where these lie in line, A stands b + c from Q: the law of cosines tells its angle."""
+    mechanism = mechanism_of(FOUR_BAR.format(a=a, b=b, c=c, d=d, angle=angle))
+    found = moving(mechanism, screen_sheets(mechanism))
+    assert found is not None and not found.reach.whole
+    farthest = degrees(acos((a * a + d * d - (b + c) ** 2) / (2 * a * d)))
+    assert isclose(found.reach.high, farthest, abs_tol=1e-6)
+    nearest = degrees(acos((a * a + d * d - (b - c) ** 2) / (2 * a * d)))
+    assert isclose(found.reach.low, nearest, abs_tol=1e-6)
+
+
+def test_a_free_crank_goes_all_the_way_round():
+    """The shortest bar of a Grashof chain turns fully: a range of one turn that holds the start."""
+    mechanism = mechanism_of(FOUR_BAR.format(a=1, b=4, c=3, d=3.5, angle=400))
+    found = moving(mechanism, screen_sheets(mechanism))
+    assert found is not None and found.reach.whole
+    assert (found.reach.low, found.reach.high) == (360.0, 720.0)
+
+
+def test_a_plate_is_hidden_nowhere():
+    """A polygon of a body shows at every place, for it is carried along."""
+    sheets, found = page_of("pump")
+    plates = [i for i, m, _, _ in fields(sheets) if isinstance(m, Polyline) and m.cls == "plate"]
+    low, high = found.reach.low, found.reach.high
+    for share in PLACES:
+        marks = laid(found, low + share * (high - low))
+        assert marks is not None and all(marks[plate] for plate in plates)

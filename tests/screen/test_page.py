@@ -1,0 +1,331 @@
+"""The step page: one safe file, in which every mark appears after what it is drawn from."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from functools import cache
+from hashlib import sha256
+from html import unescape
+
+import pytest
+
+from graphkin.mechanism import Mechanism, load
+from graphkin.paper.marks import Circle, Text, reach
+from graphkin.paper.richtext import plain
+from graphkin.paper.sentences import sentences
+from graphkin.paper.stages import behind
+from graphkin.paper.tables import turning_rows, vector_rows
+from graphkin.scene.read import read_text
+from graphkin.screen.page import step_page, task_page
+from graphkin.screen.sheets import ScreenSheet, screen_sheets
+from graphkin.screen.skeleton import data_block, offline_page
+from graphkin.screen.telling import Telling, telling
+from graphkin.text import LANGUAGES, words
+from tests.paper.sheet_tools import SCENES, mechanism_named
+
+LABS = ("pump", "offset-slider-crank", "slotted-lever")
+FEW = (*LABS, "oldham", "gears-ring", "rapid-return", "centrodes-cardan", "eight-link-1")
+"""Scenes of different kinds: dyads, slots, gears, trial plans, centrodes, many links."""
+TAG = re.compile(r"<[a-z][^>]*>")
+ALLOWED = 400_000
+"""Most letters of a page."""
+
+HOSTILE = "</title><script>alert(1)</script>\"'&"
+NASTY = f"""graphkin = 1
+title = '''{HOSTILE}'''
+notes = {{ en = '''{HOSTILE} *_^{{''' }}
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = {{ on = 0, through = "O", angle = 0 }}
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+[sheet]
+language = "en"
+owner = '''{HOSTILE}'''
+"""
+
+
+@cache
+def mechanism_of(name: str) -> Mechanism:
+    """A mechanism by its name."""
+    return mechanism_named(name) if name in SCENES else load(name)
+
+
+@cache
+def sheets_of(name: str) -> list[ScreenSheet]:
+    """The sheets of a mechanism."""
+    return screen_sheets(mechanism_of(name), "en")
+
+
+@cache
+def told_of(name: str) -> Telling:
+    """The run of a mechanism."""
+    return telling(sheets_of(name))
+
+
+@cache
+def page_of(name: str, language: str = "en") -> str:
+    """The page of a mechanism."""
+    return step_page(mechanism_of(name), language)
+
+
+def seen(page: str) -> str:
+    """The words of a page, without scripts, styles and tags."""
+    page = re.sub(r"<(script|style)\b.*?</\1>", " ", page, flags=re.DOTALL)
+    return unescape(re.sub(r"<[^>]*>", "", page))
+
+
+# --- the run of sentences ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_what_a_step_is_drawn_from_stands_before_it(name):
+    told = told_of(name)
+    late = {
+        step: source
+        for step, sources in told.sources.items()
+        for source in sources
+        if told.at[source] > told.at[step] > 0
+    }
+    assert not late
+    assert sum(map(len, told.sources.values())) > len(told.sources)
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_the_sources_of_a_step_are_all_that_it_hangs_on_by_one_stroke(name):
+    told, program = told_of(name), sheets_of(name)[0].drawing.trace.program
+    for step, sources in told.sources.items():
+        before = behind(program, [step]) - {step}
+        assert set(sources) <= before
+        farther = behind(program, sources)
+        assert {one for one in before if one in told.at} <= farther
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_the_run_holds_every_sentence_of_every_sheet_once(name):
+    sheets, told = sheets_of(name), told_of(name)
+    said = [one.markup for sheet in sheets for one in sentences(sheet.drawing)]
+    assert [one.markup for one in told.said] == said
+    assert told.bounds(0)[0] == 1
+    assert told.bounds(len(sheets) - 1)[1] == len(said)
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_each_mark_appears_with_a_sentence_of_its_own_sheet_or_stands_before(name):
+    told = told_of(name)
+    for place, timed in enumerate(told.timed):
+        first, last = told.bounds(place)
+        assert all(mark.at == 0 or first <= mark.at <= last for mark in timed)
+        assert max(mark.at for mark in timed) == last
+
+
+def test_b_of_the_pump_is_drawn_from_what_its_sentence_names():
+    told = told_of("pump")
+    (b,) = (step for step, name in told.letters.items() if name == "b")
+    lines = told.sources[b]
+    named = {told.letters[step] for line in lines for step in told.sources[line]}
+    assert named == {"a", "o", "A", "B", "O2"}
+    sides = [{told.letters[point] for point in told.sides[line]} for line in lines]
+    assert sides == [{"A", "B"}, {"O2", "B"}]
+
+
+def test_the_reasons_of_b_are_those_of_rigid_bars():
+    said = telling(screen_sheets(load("pump"), "en")).said[5]
+    assert [plain(why) for why in said.why] == [
+        "AB keeps its length: against A, B can move only square to it",
+        "O2B keeps its length: against O2, B can move only square to it",
+        "each line alone holds b, so it lies where they meet",
+    ]
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_reasons_name_what_stands_in_their_sentence(name):
+    for said in told_of(name).said:
+        for why in said.why:
+            assert not re.search(r"[{}@]|None|\s[:,;.]|  ", plain(why)), why
+
+
+def test_an_acceleration_is_not_explained_by_velocities():
+    said = [one for one in told_of("slotted-lever").said if one.sheet == 1]
+    every = " ".join(plain(why) for one in said for why in one.why)
+    assert "keeps its length" not in every
+    assert "2ω·v" in every
+
+
+def test_the_pump_stops_at_the_ends_of_its_parts():
+    assert [(at, part.value) for at, part in told_of("pump").stops()] == [
+        (4, "position"),
+        (8, "velocity"),
+        (9, "centre"),
+        (14, "normal"),
+        (17, "acceleration"),
+        (19, "pole"),
+    ]
+
+
+# --- one safe file -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_every_mark_has_its_own_id_in_the_field_where_it_lies(name):
+    page, sheets = page_of(name), sheets_of(name)
+    ids = re.findall(r' id="([^"]+)"', page)
+    assert len(ids) == len(set(ids))
+    own = {found for found in ids if re.fullmatch(r"m\d+-\d+", found)}
+    captions = {f"m{s}-{k}" for s, sheet in enumerate(sheets) for k in (0, len(sheet.left))}
+    every = {
+        f"m{s}-{k}"
+        for s, sheet in enumerate(sheets)
+        for k in range(len(sheet.left) + len(sheet.right))
+    }
+    assert own == every - captions
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_a_mark_keeps_its_place_in_millimetres_of_the_page(name):
+    page = page_of(name)
+    for s, sheet in enumerate(sheets_of(name)):
+        for k, mark in enumerate((*sheet.left, *sheet.right)):
+            if isinstance(mark, Circle):
+                (tag,) = re.findall(rf'<circle id="m{s}-{k}"[^>]*>', page)
+                found = [float(re.search(rf' {at}="([^"]+)"', tag)[1]) for at in ("cx", "cy")]
+                assert found == pytest.approx([mark.cx, mark.cy], abs=1e-4)
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_each_field_shows_its_own_rectangle(name):
+    boxes = re.findall(r'<svg viewBox="([\d. -]+)" role="img"', page_of(name))
+    rects = [r for s in sheets_of(name) for r in (s.layout.mechanism.rect, s.layout.plan.rect)]
+    for box, (left, top, right, bottom) in zip(boxes, rects, strict=True):
+        found = [float(number) for number in box.split()]
+        assert found == pytest.approx([left, top, right - left, bottom - top], abs=1e-3)
+
+
+def hashes(texts: list[str]) -> set[str]:
+    """Texts as a policy names them."""
+    return {f"'sha256-{b64encode(sha256(t.encode()).digest()).decode()}'" for t in texts}
+
+
+def pages() -> list[str]:
+    """Pages of every sort."""
+    nasty = Mechanism(read_text(NASTY, "nasty", None, {}))
+    return [page_of("pump"), task_page(load("pump")), step_page(nasty), task_page(nasty)]
+
+
+@pytest.mark.parametrize("page", pages(), ids=["key", "task", "nasty", "nasty task"])
+def test_nothing_runs_but_what_the_policy_names(page):
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]+)"', page)
+    rules = dict(part.strip().split(" ", 1) for part in policy.split(";"))
+    assert rules["default-src"] == "'none'"
+    scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    styles = re.findall(r"<style>(.*?)</style>", page, re.DOTALL)
+    assert set(rules["script-src"].split()) == (hashes(scripts) or {"'none'"})
+    assert set(rules["style-src"].split()) == hashes(styles)
+    assert "unsafe" not in policy
+    tags = TAG.findall(re.sub(r"<(script|style)>.*?</\1>", "", page, flags=re.DOTALL))
+    assert not [tag for tag in tags if re.search(r"\s(on\w+|style)\s*=", tag)]
+    assert not [tag for tag in tags if re.search(r"""(src|href)\s*=\s*["']?(?!#)\w+:""", tag)]
+    assert not re.search(r"@import|url\((?!data:)", "".join(styles))
+
+
+@pytest.mark.parametrize("make", [step_page, task_page])
+def test_names_and_notes_are_only_text(make):
+    page = make(Mechanism(read_text(NASTY, "nasty", None, {})))
+    assert "alert(1)" in seen(page)
+    assert "<script>alert" not in page
+    assert page.count("</title>") == 1
+    assert f"<h1>{HOSTILE}</h1>" in unescape(page)
+
+
+def test_data_never_end_their_block():
+    block = data_block("run", {"a": "</script><!--&"})
+    assert block.count("<") == 2
+
+
+@pytest.mark.parametrize("bad", ["</SCRIPT>", "</style >", "<!--"])
+def test_a_script_that_would_end_early_is_refused(bad):
+    with pytest.raises(ValueError, match="would end"):
+        offline_page("t", "en", "", ["a{}"], [f"let x = '{bad}'"])
+
+
+# --- what it says --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", sorted(SCENES))
+def test_every_scene_has_a_page_of_moderate_size(name):
+    page = page_of(name)
+    assert len(page) < ALLOWED
+    assert page.count('class="sheet"') == len(sheets_of(name))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_page_speaks_one_language(language):
+    page, spoken = page_of("pump", language), words(language)
+    assert f'<html lang="{language}">' in page
+    text = seen(page)
+    own = {key for key in spoken.sentences if key.startswith("screen.")}
+    for key in own & {"screen.results", "screen.help", "screen.new", "screen.vectors"}:
+        assert spoken(key) in text
+    for other in set(LANGUAGES) - {language}:
+        assert words(other)("screen.help") not in text
+    assert not re.search(r"\{\w*\}|None|\bnan\b|[\ue000\ue001]", text)
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_the_tables_hold_what_the_sheets_hold(name):
+    text = seen(page_of(name))
+    for sheet in sheets_of(name):
+        rows = [*vector_rows(sheet.drawing, empty=False), *turning_rows(sheet.drawing, empty=False)]
+        for row in rows:
+            assert all(cell in text for cell in row.cells[2:3])
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_a_task_gives_nothing_of_the_key_away(name):
+    page = task_page(load(name), "en")
+    given = {mark.name for sheet in screen_sheets(load(name), "en", "task") for mark in sheet.left}
+    text = seen(page)
+    for sheet in sheets_of(name):
+        values = [row.cells[-2:] for row in vector_rows(sheet.drawing, empty=False)]
+        for number in {cell for cells in values for cell in cells if len(cell) > 3}:
+            assert number not in page
+        hidden = {mark.name for mark in sheet.left if isinstance(mark, Text)} - given
+        assert hidden
+        assert not [n for n in hidden if f'data-name="{n}"' in page]
+    assert "graphkinMotion" not in page
+    assert 'id="run"' not in page
+    assert 'data-of="' not in page
+    assert words("en")("page.asked") in text
+
+
+def test_black_ink_is_one_ink():
+    inks = set(re.findall(r"(?:stroke|fill):var\(--(\w+)\)", step_page(load("pump"), ink="black")))
+    assert not inks & {"blue", "red", "teal", "purple"}
+
+
+def test_lettering_stays_within_its_field():
+    for sheet in sheets_of("pump"):
+        left, top, right, bottom = sheet.layout.plan.rect
+        for mark in sheet.right[1:]:
+            if isinstance(mark, Text):
+                box = reach(mark)
+                assert left <= box[0] and box[2] <= right and top <= box[1] and box[3] <= bottom
+
+
+def test_the_same_scene_gives_the_same_page():
+    assert step_page(load("pump"), "en") == page_of("pump")
