@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.console import FAILED, complain
+from graphkin.console import FAILED, READING, complain
 from graphkin.options import Folder, force_option, leave, tell
 
 if TYPE_CHECKING:
@@ -87,12 +87,12 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
     from graphkin.lab.model import Formula
     from graphkin.lab.read import read_lab
     from graphkin.roster.read import read_roster
-    from graphkin.variants.assign import assigned
+    from graphkin.variants.assign import assigned, check_of
     from graphkin.variants.files import write_class
     from graphkin.variants.telling import class_lines
 
     lab = read_lab(name)
-    students = read_roster(roster, numbered=isinstance(lab.rule, Formula))
+    students = read_roster(roster, numbered=isinstance(lab.rule, Formula), check=check_of(lab))
     found = assigned(lab, students, roster.name)
     written = write_class(folder, lab, found, roster, force=force)
     tell(class_lines(lab, found))
@@ -110,11 +110,15 @@ def warn_of(found: list[Assigned]) -> None:
 
 
 def check_lab(name: str) -> None:
-    """What check says of a lab after its scene: a thousand variants tried."""
+    """What check says of a lab after its scene: a thousand variants tried.
+
+    Mistakes of the lab name its own files, no longer the scene that was called.
+    """
     from graphkin.lab.read import read_lab
     from graphkin.lab.telling import trial_lines
     from graphkin.lab.trying import tried
 
+    click.get_current_context().meta.pop(READING, None)
     trial = tried(read_lab(name))
     tell(["", *trial_lines(trial)])
     if trial.unasked:

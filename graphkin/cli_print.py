@@ -36,10 +36,11 @@ TENTHS = 10
 @click.option(
     "--format",
     "formats",
-    metavar="pdf,svg",
+    metavar="pdf,svg,html",
     default="pdf",
     show_default=True,
-    help="Kinds of file to write for each student; the files for the printer are PDF.",
+    help="Kinds of file to write for each student; the files for the printer are PDF. html: a page"
+    " for a browser, the task with a form that saves the answers.",
 )
 @click.option(
     "--jobs",
@@ -82,6 +83,7 @@ def print_sheets(
       graphkin print mechanics-331
       graphkin print mechanics-331 --view task,key,overlay --ink black
       graphkin print mechanics-331 --view steps --format pdf,svg --lang en
+      graphkin print mechanics-331 --view task --format html
     """
     from graphkin.printing.engine import CLUSTER, cores
     from graphkin.printing.manifest import read_edition
@@ -89,7 +91,9 @@ def print_sheets(
     from graphkin.printing.work import VIEWS
 
     chosen = named(context, "--view", views, VIEWS)
-    kinds = named(context, "--format", formats, ("pdf", "svg"))
+    kinds = named(context, "--format", formats, ("pdf", "svg", "html"))
+    if "html" in kinds and "overlay" in chosen:
+        raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):
         raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
     wishes = Wishes(chosen, kinds, lang, ink, force)

@@ -10,6 +10,7 @@ from graphkin import labs
 from graphkin.errors import Problem, SceneError
 from graphkin.lab.items import all_fields
 from graphkin.lab.model import NUMBER, Fair, Formula, Lab, Range, Ranges, Rubric
+from graphkin.lab.slip_names import NAMES as SLIPS
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
@@ -19,9 +20,8 @@ from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import optional, out_of_range, plain, rational
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read import check_version, read_scene
-from graphkin.scene.words import is_name
 
-LAB = labs.LAB
+LAB, SCENE = labs.LAB, "scene.toml"
 USUAL, LIMITS = Rubric(), Fair()
 MOST_TRIES = 10_000
 MOST_VALUES = 10**9
@@ -35,13 +35,21 @@ def read_lab(name: str | Path, called: str = "") -> Lab:
     SceneError with every problem of lab.toml, and those of its scene before them.
     """
     folder = find(name)
-    scene = Mechanism(read_scene(folder / "scene.toml"))
+    scene = read_scene_of(folder)
     try:
         text = decoded(read_bytes(folder / LAB))
         return lab_of(text, folder, scene, called or folder.absolute().name)
     except SceneError as error:
         places = (placed(problem) for problem in error.problems)
         raise SceneError(places) from error
+
+
+def read_scene_of(folder: Path) -> Mechanism:
+    """The mechanism of a lab's scene, whose mistakes name its file."""
+    try:
+        return Mechanism(read_scene(folder / SCENE))
+    except SceneError as error:
+        raise SceneError(placed(problem, SCENE) for problem in error.problems) from error
 
 
 def find(name: str | Path) -> Path:
@@ -66,9 +74,9 @@ def with_rules() -> list[str]:
     return [name for name in labs.names() if (labs.shelf() / name / LAB).is_file()]
 
 
-def placed(problem: Problem) -> Problem:
+def placed(problem: Problem, file: str = LAB) -> Problem:
     """A problem with its file before its place."""
-    place = f"{LAB}: {problem.place}" if problem.place else LAB
+    place = f"{file}: {problem.place}" if problem.place else file
     return Problem(place, problem.found, problem.expected, problem.hint)
 
 
@@ -130,7 +138,7 @@ def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
         return None
     strangers = sorted(read.uses() - {NUMBER})
     for name in strangers:
-        hint = nearest(name, [NUMBER])
+        hint = f"did you mean {NUMBER}?"
         findings.add(place, f"{shown(read.text)} uses {name}", f"only {NUMBER}", hint)
     return None if strangers else read
 
@@ -237,17 +245,18 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
     slips: dict[str, float] = {}
     inner = marking.table("slips")
     for name in inner.raw:
-        if is_name(name):
+        if name in SLIPS:
             slips[name] = number(inner, name, 0, 0, 1)
         else:
-            inner.findings.add(inner.at(name), "no name of a slip", "letters, digits and _")
+            hint = nearest(name, SLIPS)
+            inner.findings.add(inner.at(name), "no slip has this name", ", ".join(SLIPS), hint)
     given = {
         "follow": number(marking, "follow", USUAL.follow, 0, 1),
         "point": number(marking, "point", USUAL.point, 0, 10),
         "line": number(marking, "line", USUAL.line, 0, 10),
         "ruler": number(marking, "ruler", USUAL.ruler, 0, 10),
         "floor": number(marking, "floor", USUAL.floor, 0, 1),
-        "cap": number(marking, "cap", USUAL.cap, 0, 10),
+        "cap": number(marking, "cap", USUAL.cap, 0, 1),
     }
     if given["floor"] > given["cap"]:
         marking.findings.add(marking.at("floor"), f"{given['floor']:g} is above cap", "at most cap")

@@ -41,9 +41,9 @@ def cores() -> int:
     return os.cpu_count() or 1
 
 
-def chunks(items: Sequence[Given], workers: int) -> list[Sequence[Given]]:
+def chunks(items: Sequence[Given], workers: int, most: int = CHUNK) -> list[Sequence[Given]]:
     """The items in chunks for some workers, none larger than a worker takes at once."""
-    size = max(1, min(CHUNK, len(items) // (SHARES * workers)))
+    size = max(1, min(most, len(items) // (SHARES * workers)))
     return [items[i : i + size] for i in range(0, len(items), size)]
 
 

@@ -10,6 +10,7 @@ from graphkin.paper.areas import A4_AREA, A4_SIZE
 from graphkin.paper.frame import page_frame
 from graphkin.paper.marks import Line, Mark, Page, Text, box
 from graphkin.paper.richtext import escape, extent
+from graphkin.paper.symbolic import symbol
 from graphkin.printing.code import SIDE, square
 from graphkin.text import Words
 
@@ -32,20 +33,35 @@ def form(
     words: Words,
     header: tuple[str, str],
     owner: tuple[str, str],
+    pivot: str = "",
 ) -> tuple[Page, ...]:
     """The pages of a form: its fields in order, those in ``compute`` marked as to be reckoned.
 
     ``header`` is markup for the left and right of the head; ``owner`` the student's name and
-    opaque code. Points are shown where the rubric gives any.
+    opaque code; ``pivot`` the first fixed one, from which places are measured. Points are shown
+    where the rubric gives any.
     """
     if not items:
         return ()
+    said = advice(items, words, pivot)
     rows = [row(item, points, compute, words) for item in items]
     room = int((BOTTOM - TOP - HEAD) / ROW) - 1
     parts = [rows[i : i + room] for i in range(0, len(rows), room)]
     return tuple(
-        page_of(part, words, header, owner, f"{i}/{len(parts)}") for i, part in enumerate(parts, 1)
+        page_of(part, words, header, owner, f"{i}/{len(parts)}", said)
+        for i, part in enumerate(parts, 1)
     )
+
+
+def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
+    """How numbers, senses and places are to be written, as far as the form has them, as markup."""
+    kinds = {item.what for item in items}
+    said = [words("form.numbers")]
+    if "sense" in kinds:
+        said.append(words("form.senses"))
+    if "place" in kinds:
+        said.append(words("form.places", pivot=symbol(pivot)))
+    return tuple(said)
 
 
 def row(
@@ -53,10 +69,22 @@ def row(
 ) -> tuple[str, ...]:
     """The cells of a field: its symbol, its name, a hint where it is reckoned, unit and points."""
     what = f"{item.symbol}, {words('table.sense')}" if item.what == "sense" else item.symbol
-    hint = words("form.compute") if item.field in compute else ""
+    hint = why(item, words) if item.field in compute else ""
     worth = points.get(item.field)
     written = words.decimal(f"{float(worth):.4g}") if worth is not None else ""
     return what, escape(item.field), hint, item.unit, written
+
+
+def why(item: Item, words: Words) -> str:
+    """Why a field is computed instead of measured."""
+    return words("form.compute_place" if item.what == "place" else "form.compute")
+
+
+def quantity_of(item: Item) -> str:
+    """The symbol by which the calculation knows what a field is of: J₃ for its coordinates."""
+    if item.what != "place":
+        return item.symbol
+    return item.symbol.partition("(")[2].removesuffix(")")
 
 
 def page_of(
@@ -65,6 +93,7 @@ def page_of(
     header: tuple[str, str],
     owner: tuple[str, str],
     number: str,
+    said: Sequence[str],
 ) -> Page:
     """One A4 page."""
     name, code = owner
@@ -73,8 +102,8 @@ def page_of(
     height = next((h for h in (3.5, 2.5) if extent(escape(name), h)[0] <= BESIDE), SMALL)
     marks.append(Text(LEFT, TOP + 7, escape(name), "caption", height, name="owner"))
     marks.append(Text(LEFT, TOP + 13.5, escape(code), "caption", 3.5, name="code"))
-    for i, key in enumerate(("form.numbers", "form.senses")):
-        marks.append(Text(LEFT, TOP + 19 + 3.6 * i, words(key), "caption", SMALL))
+    for i, line in enumerate(said):
+        marks.append(Text(LEFT, TOP + 18 + 3.2 * i, line, "caption", SMALL))
     names = ("table.symbol", "form.field", "form.answer", "form.unit", "form.points")
     marks += table(TOP + HEAD, [tuple(words(key) for key in names), *rows])
     page = Page(*A4_SIZE, tuple(marks), f"{words('form.title')} – {code}", words.language)

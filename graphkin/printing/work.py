@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from threading import Lock
 
 from graphkin.errors import GraphkinError, Problem
 from graphkin.handout import Sheet, drawings_of, drawn, language_of, proved
+from graphkin.lab.asking import asked_of
 from graphkin.lab.items import items
-from graphkin.lab.model import Lab
+from graphkin.lab.model import Item, Lab
 from graphkin.mechanism import Mechanism
 from graphkin.paper.calculation import calculation
 from graphkin.paper.drawing import Drawing
@@ -18,7 +20,7 @@ from graphkin.paper.richtext import escape
 from graphkin.paper.settings import parameters
 from graphkin.paper.sheet import title_of
 from graphkin.paper.style import Ink
-from graphkin.printing.form import form
+from graphkin.printing.form import form, quantity_of, why
 from graphkin.printing.manifest import Variant
 from graphkin.printing.personal import Owner, owned, owned_pages, owner, signed
 from graphkin.scaling import shown
@@ -109,26 +111,55 @@ class Sheets:
             pages = drawn(owned(drawing, self.whose), view, f"{i}/{total}")
             yield Sheet(drawing.kind, tuple(signed(pages, view, self.whose)))
         if view in ("task", "key"):
-            pages = calculation(owned_pages(self.drawings, self.whose), view)
+            pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed())
             pages = tuple(signed(pages, view, self.whose))
             kind = FORM if view == "task" else "calculation"
             yield Sheet(kind, (*pages, *self.answers()) if view == "task" else pages)
+
+    def page(self, view: str, stem: str, ink: Ink) -> str:
+        """The page for a browser: the task with the form to be filled in, or the key by steps."""
+        from graphkin.screen import form
+        from graphkin.screen.page import Form, step_page, task_page
+
+        variant, lab, language = self.variant, self.lab, self.words.language
+        if view != "task":
+            return step_page(self.mechanism, language, ink)
+        name = ", ".join(part for part in (variant.name, variant.group) if part)
+        whose = form.Identity(stem, f"{lab.name} {variant.code}", variant.id, name)
+        fields, points = self.asked()
+        pivot = form.first_pivot(self.mechanism)
+        body = form.form_fragment(fields, points, variant.compute, self.words, whose, pivot)
+        answers = Form(body, form.style(), form.script())
+        return task_page(self.mechanism, language, ink, answers)
 
     def answers(self) -> tuple[Page, ...]:
         """The form for answers."""
         first: Drawing = self.drawings[0]
         settings = parameters(first.scene, self.words)
         title, name = "; ".join([escape(title_of(first)), *settings]), self.words("form.title")
+        fields, points = self.asked()
+        whose, pivot = (self.whose.name, self.whose.code), first.scene.frame.points[:1]
+        return form(fields, points, self.variant.compute, self.words, (title, name), whose, *pivot)
+
+    def asked(self) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
+        """The fields of the student's form, and what each is worth."""
+        form = items(self.mechanism, self.lab)
+        return asked_of(form, self.lab.rubric.points, self.variant.compute)
+
+    def computed(self) -> dict[str, str]:
+        """Why some quantities are computed instead of measured, by their symbols."""
         fields = items(self.mechanism, self.lab)
-        whose = (self.whose.name, self.whose.code)
-        points, compute = self.lab.rubric.points, self.variant.compute
-        return form(fields, points, compute, self.words, (title, name), whose)
+        compute = self.variant.compute
+        return {quantity_of(i): why(i, self.words) for i in fields if i.field in compute}
 
 
 def files_of(
     sheets: Sheets, stem: str, view: str, kind: str, ink: Ink
 ) -> Iterator[tuple[str, bytes]]:
-    """The files of a view in a format: a PDF of its drawings and one of its form; SVG drawings."""
+    """The files of a view in a format: a PDF of its drawings and one of its form; SVG; a page."""
+    if kind == "html":
+        yield f"{view}/{stem}-{view}.html", sheets.page(view, stem, ink).encode("utf-8")
+        return
     title = f"{sheets.whose.code}, {view}"
     if kind == "pdf":
         from graphkin.paper.pdf import write_pdf

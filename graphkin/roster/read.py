@@ -7,9 +7,10 @@ printed where they are given; every other column is kept as it is.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
+from graphkin.errors import Problem
 from graphkin.roster.model import Student
 from graphkin.roster.tables import Row, Sheet, Told, columns, read_sheet
 from graphkin.scene.findings import nearest, shown, visible
@@ -88,29 +89,35 @@ NAMES = {
 """What each column may be called, in English, Romanian and Italian."""
 NAMED = {"name", "first", "last"}
 """Columns that together are a name: in one list *nume* is all of it, in another the surname."""
+Check = Callable[[Student], Iterable[Problem]]
+"""Finds what is wrong with a student."""
 MOST_DIGITS = 9
 LONGEST_ID, LONGEST_NAME = 100, 200
 WHOLE = re.compile(r"[0-9]+")
 DECIMAL_ZERO = re.compile(r"([0-9]+)[.,]0+")
 
 
-def read_roster(path: str | Path, *, numbered: bool = False) -> list[Student]:
+def read_roster(
+    path: str | Path, *, numbered: bool = False, check: Check | None = None
+) -> list[Student]:
     """The students of a class list, in its order; RosterError with every problem, row by row.
 
-    ``numbered`` demands a number of each.
+    ``numbered`` demands a number of each; ``check`` says what else is wrong with one who has it.
     """
+    told = Told(Path(path).name)
     sheet = read_sheet(
-        Path(path), [name for what, every in NAMES.items() for name in (what, *every)]
+        Path(path), [name for what, every in NAMES.items() for name in (what, *every)], told
     )
-    told = Told(sheet.name)
     where = found_columns(sheet, told, numbered)
-    told.stop()
     students: list[Student] = []
     first: dict[str, Student] = {}
     for row in sheet.rows:
-        students.append(student(sheet, row, where, told, numbered))
-        refuse_twin(sheet, students[-1], first, head_of(sheet, where, "id"), told)
-    if not sheet.rows:
+        one = student(sheet, row, where, told, numbered)
+        students.append(one)
+        refuse_twin(sheet, one, first, head_of(sheet, where, "id"), told)
+        for problem in check(one) if check is not None and one.number is not None else ():
+            told.add(sheet.place(row), problem.found, problem.expected, problem.hint)
+    if not sheet.rows and not told.problems:
         told.add(sheet.name, "no student below the head", "a row for each student")
     told.stop()
     return students
@@ -127,7 +134,9 @@ def found_columns(sheet: Sheet, told: Told, numbered: bool) -> dict[str, int]:
     for what, others in wanted.items():
         if what not in where:
             heads = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12]) or "nothing"
-            hint = next((h for cell in sheet.head if (h := nearest(cell, [what]))), "")
+            hint = next(
+                (h for cell in sheet.head if (h := nearest(cell, [what, *NAMES[what]]))), ""
+            )
             why = "; the lab's formula needs the student's number" if what == "number" else ""
             told.add(
                 sheet.name,
@@ -156,7 +165,7 @@ def student(sheet: Sheet, row: Row, where: dict[str, int], told: Told, numbered:
                 f"{len(text)} characters",
                 f"at most {most}",
             )
-    if not cell("id"):
+    if not cell("id") and "id" in where:
         told.add(sheet.place(row, head_of(sheet, where, "id")), "is missing", "the student's id")
     return Student(
         row=row.line,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,6 +24,8 @@ MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
 MOST_TOLD = 100
 """Problems told at once."""
+ROW = re.compile(r", row (\d+)")
+"""How a problem names its row."""
 ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 """First bytes of an XLSX, which is a ZIP file, and of an XLS."""
 
@@ -64,23 +67,31 @@ class Told:
         """Note one problem; with too many, stop."""
         self.problems.append(Problem(place, found, expected, hint))
         if len(self.problems) >= MOST_TOLD:
-            self.problems.append(Problem(self.name, "and perhaps more problems"))
-            self.stop()
+            last = Problem(self.name, "and perhaps more problems")
+            raise RosterError([*sorted(self.problems, key=row_of), last])
 
     def stop(self) -> None:
-        """Raise RosterError when anything was found."""
+        """Raise RosterError when anything was found, in the order of the rows."""
         if self.problems:
-            raise RosterError(self.problems)
+            raise RosterError(sorted(self.problems, key=row_of))
 
 
-def read_sheet(path: Path, heads: Sequence[str] = ()) -> Sheet:
+def row_of(problem: Problem) -> int:
+    """The row that a problem names; nought for one of the whole table."""
+    found = ROW.search(problem.place)
+    return int(found[1]) if found else 0
+
+
+def read_sheet(path: Path, heads: Sequence[str] = (), told: Told | None = None) -> Sheet:
     """The table in a CSV or XLSX file; RosterError with every row that cannot be read.
 
     ``heads`` are names of columns that help to tell the separator. Cells are normalised (NFC).
+    Rows that cannot be read are left out and noted in ``told``, if there is one: the caller finds
+    the other problems, and then stops.
     """
     path = Path(path)
     data = bytes_of(path)
-    told = Told(path.name)
+    own, told = told is None, told or Told(path.name)
     if data.startswith(OLD_EXCEL):
         hint = "save it as .xlsx or as CSV UTF-8"
         raise RosterError(Problem(path.name, "is an old Excel file (.xls)", "CSV or XLSX", hint))
@@ -92,7 +103,10 @@ def read_sheet(path: Path, heads: Sequence[str] = ()) -> Sheet:
         text = text_of(data, path.name)
         separator = separator_of(text, heads)
         rows = list(csv_rows(text, separator, told))
-    return sheet_of(path.name, rows, separator, told)
+    sheet = sheet_of(path.name, rows, separator, told)
+    if own:
+        told.stop()
+    return sheet
 
 
 def bytes_of(path: Path) -> bytes:
@@ -202,7 +216,6 @@ def sheet_of(name: str, rows: Sequence[Row], separator: str, told: Told) -> Shee
         for i, cell in enumerate(cells):
             refuse_hidden(told, f'{name}, row {row.line}, column "{visible(head.cells[i])}"', cell)
         rows_found.append(Row(row.line, cells + ("",) * (width - len(cells))))
-    told.stop()
     return Sheet(name, head.cells[:width], tuple(rows_found), separator)
 
 

@@ -48,15 +48,20 @@ def opened(data: bytes, name: str) -> Any:
         found = "is an XLSX file, and openpyxl, which reads those, is not installed"
         raise RosterError(Problem(name, found, "the table saved as CSV UTF-8", hint)) from None
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as packed:
-            size = sum(part.file_size for part in packed.infolist())
-        if size > LARGEST:
-            raise RosterError(Problem(name, "is far larger unpacked", f"{LARGEST >> 20} MiB"))
+        refuse_bomb(data, name)
         return load_workbook(io.BytesIO(data), read_only=True, data_only=True)
     except RosterError:
         raise
     except Exception as error:
         raise unreadable(name) from error
+
+
+def refuse_bomb(data: bytes, name: str) -> None:
+    """Raise RosterError where a file is far larger unpacked; BadZipFile where it is no ZIP."""
+    with zipfile.ZipFile(io.BytesIO(data)) as packed:
+        size = sum(part.file_size for part in packed.infolist())
+    if size > LARGEST:
+        raise RosterError(Problem(name, "is far larger unpacked", f"{LARGEST >> 20} MiB"))
 
 
 def unreadable(name: str) -> RosterError:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from graphkin.errors import Problem, SceneError
 from graphkin.lab.fair import Fairness, Fault, judged
@@ -12,6 +13,7 @@ from graphkin.lab.rules import Settings, outside, settings
 from graphkin.mechanism import Mechanism
 from graphkin.roster.errors import RosterError
 from graphkin.roster.model import Student
+from graphkin.roster.read import Check
 from graphkin.scene.read import read_scene
 
 
@@ -63,22 +65,33 @@ def by_formula(
     lab: Lab, students: Sequence[Student], mechanism: Mechanism, roster: str
 ) -> list[Settings]:
     """The data that a formula gives; RosterError with the row of each number it does not suit."""
-    many: list[Settings] = []
-    problems: list[Problem] = []
-    for student in students:
-        place = f"{roster}, row {student.row}"
-        try:
-            given = settings(lab, student)
-        except SceneError as error:
-            problems += [Problem(place, p.found, p.expected, p.hint) for p in error.problems]
-            continue
-        many.append(given)
-        for problem in outside(mechanism.scene.parameters, given):
-            found = f"number {student.number} gives {problem.found}"
-            problems.append(Problem(place, found, problem.expected))
+    problems = [
+        Problem(f"{roster}, row {student.row}", p.found, p.expected, p.hint)
+        for student in students
+        for p in misfits(lab, mechanism, student)
+    ]
     if problems:
         raise RosterError(problems)
-    return many
+    return [settings(lab, student) for student in students]
+
+
+def check_of(lab: Lab) -> Check | None:
+    """What finds students whose number gives no data that the scene allows; none for ranges."""
+    if not isinstance(lab.rule, Formula):
+        return None
+    return partial(misfits, lab, Mechanism(read_scene(lab.scene)))
+
+
+def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
+    """What is wrong with the data that a formula gives a student: none, or what no scene allows."""
+    try:
+        given = settings(lab, student)
+    except SceneError as error:
+        return list(error.problems)
+    return [
+        Problem("", f"number {student.number} gives {problem.found}", problem.expected)
+        for problem in outside(mechanism.scene.parameters, given)
+    ]
 
 
 def by_ranges(

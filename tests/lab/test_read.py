@@ -6,7 +6,9 @@ import shutil
 from fractions import Fraction
 
 import pytest
+from click.testing import CliRunner
 
+from graphkin.cli import app
 from graphkin.errors import SceneError
 from graphkin.lab.items import all_fields, asked_fields, items
 from graphkin.lab.model import Fair, Formula, Range, Ranges, Rubric
@@ -118,8 +120,9 @@ WRONG = {
     RULE + "[marks]\nv_D = -1\n": "marks.v_D: -1; expected points",
     RULE + "[marks]\nv_D = true\n": "marks.v_D: true; expected a number",
     RULE + "[marking]\nfloor = 0.3\n": "marking.floor: 0.3 is above cap",
-    RULE + "[marking]\nslips = { x = 2 }\n": "marking.slips.x: 2; expected a number from 0 to 1",
-    RULE + "[marking]\nslips = { 'a b' = 1 }\n": "no name of a slip",
+    RULE
+    + "[marking]\nslips = { opposite = 2 }\n": "slips.opposite: 2; expected a number from 0 to 1",
+    RULE + "[marking]\nslips = { 'a b' = 1 }\n": "no slip has this name",
     RULE + "[text]\n": "text: unknown key",
 }
 
@@ -226,3 +229,33 @@ def test_names_that_look_alike_get_fields_of_their_own(tmp_path):
     path.write_text(text, encoding="utf-8")
     fields = asked_fields(load(path))
     assert (fields["v_A3"].of, fields["v_A3_2"].of) == ("A3", "A@3")
+
+
+@pytest.mark.parametrize("formula", ["n", "nubmer", "2*nr", "x + y"])
+def test_a_formula_of_anything_else_is_asked_whether_the_number_is_meant(mine, formula):
+    found = problems(mine(RULE.replace('"number"', f'"{formula}"')))
+    assert found
+    assert all(line.endswith("did you mean number?") for line in found)
+
+
+def test_mistakes_of_the_rule_name_its_file_and_no_other(mine):
+    """Also after check has read the scene, whose name stands before the scene's own mistakes."""
+    folder = mine(RULE.replace('"number"', '"n"'))
+    said = CliRunner().invoke(app, ["check", str(folder)])
+    (line,) = said.stderr.splitlines()
+    assert line.startswith("graphkin: lab.toml: variants.set.n: ")
+
+
+def test_mistakes_of_the_scene_name_the_scene(mine):
+    folder = mine(RULE)
+    scene = folder / "scene.toml"
+    text = scene.read_text(encoding="utf-8").replace("O1-A = 30", "O1-A = -30")
+    scene.write_text(text, encoding="utf-8")
+    (line,) = problems(folder)
+    assert line.startswith("scene.toml: links.1.O1-A: ")
+
+
+def test_a_slip_that_nobody_knows_earns_no_silent_nothing(mine):
+    (line,) = problems(mine(RULE + "[marking.slips]\nrpm_as_rads = 0.5\nnormal_missing = 0.3\n"))
+    assert line.startswith("lab.toml: marking.slips.rpm_as_rads: no slip has this name")
+    assert line.endswith("did you mean rpm_as_rad?")

@@ -100,7 +100,7 @@ def write_class(
             "group": "331 A",
             "code": code_of(place),
             "parameters": {"n": str(number)},
-            "compute": ["v_B_mm"] if place == 1 and lab == LAB else [],
+            "compute": ["v_B_mm", "v_B"] if place == 1 and lab == LAB else [],
         }
         for place, (id_, name, number) in enumerate(zip(ids, names, numbers, strict=True))
     ]

@@ -10,19 +10,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from graphkin.grading.standard import standard
 from graphkin.lab.items import items
+from graphkin.lab.model import Item
 from graphkin.paper import pdf
 from graphkin.paper.glyphs import measures
 from graphkin.paper.marks import Page, Text
 from graphkin.paper.richtext import plain
 from graphkin.printing.code import modules
-from graphkin.printing.form import form
+from graphkin.printing.form import form, quantity_of
 from graphkin.printing.manifest import Variant, read_edition
 from graphkin.printing.personal import fits, lost, owner, shortened, writable
 from graphkin.printing.work import VIEWS, Order, Sheets, Wanted
 from graphkin.printing.work import make as made
 from graphkin.text import LANGUAGES, words
-from tests.printing.conftest import write_class
+from tests.printing.conftest import LAB, SCENE, write_class
 
 
 @pytest.fixture(scope="module")
@@ -114,7 +116,7 @@ def test_every_task_sheet_and_form_of_this_lab_has_its_square(edition):
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_form_has_every_field_once_with_its_points(edition, language):
-    sheets = Sheets(order(edition, language), edition.variants[1])
+    sheets = Sheets(order(edition, language), edition.variants[0])
     (page,) = sheets.answers()
     said = texts(page)
     fields = items(sheets.mechanism, edition.lab)
@@ -122,8 +124,53 @@ def test_the_form_has_every_field_once_with_its_points(edition, language):
     for item in fields:
         assert said.count(item.field) == 1
     assert said.count("0.5" if language == "en" else "0,5") == 1
-    hints = [mark for mark in page.marks if isinstance(mark, Text) and mark.name == "hint"]
-    assert [plain(mark.markup) for mark in hints] == [words(language)("form.compute")]
+    assert not hints(page)
+
+
+def hints(page: Page) -> list[str]:
+    return [plain(m.markup) for m in page.marks if isinstance(m, Text) and m.name == "hint"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_segment_too_short_to_be_measured_leaves_one_row_with_all_the_points(edition, language):
+    """Form, blank calculation and key say alike that the velocity of B is computed."""
+    sheets = Sheets(order(edition, language), edition.variants[1])
+    (page,) = sheets.answers()
+    said = texts(page)
+    assert "v_B_mm" not in said
+    assert said.count("v_B") == 1
+    assert said.count("3") == 1
+    why = words(language)("form.compute")
+    assert hints(page) == [why]
+    for view in ("task", "key"):
+        lines = [line for page in pages(sheets, view) for line in texts(page) if why in line]
+        assert sum(line.startswith("vB = ") for line in lines) == 1
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
+    """In mm on paper from the first fixed pivot, to the right and up, which the form says."""
+    scene = SCENE.replace("O = [0, 0]", "O = [35, -20]") + "centres = [2]\n"
+    lab = LAB + "I_2_x_mm = 1\nI_2_y_mm = 1\n"
+    lifted = scene.replace("[0, 30]", "[35, 10]")
+    edition = read_edition(write_class(tmp_path / "a", ["1"], scene=lifted, lab=lab))
+    sheets = Sheets(order(edition, language), edition.variants[0])
+    found = standard(sheets.mechanism, items(sheets.mechanism, edition.lab), edition.lab.rubric)
+    decimal = words(language).fixed
+    place = "; ".join(decimal(found.key[f"I_2_{axis}_mm"], 2) for axis in "xy")
+    key = [line for page in pages(sheets, "key") for line in texts(page)]
+    (line,) = [line for line in key if line.startswith("I2 = ")]
+    assert line.startswith(f"I2 = ({place}) mm (")
+    (page,) = sheets.answers()
+    assert plain(words(language)("form.places", pivot="*O*")) in texts(page)
+
+
+def test_a_place_that_cannot_be_drawn_says_so_and_not_that_it_is_small(edition):
+    place = Item("J_3_x_mm", "place", "*x*(*J*_3)", "mm", "pole", "3")
+    (page,) = form([place], {}, ("J_3_x_mm",), words("en"), ("Title", "Answers"), ("A", "A"), "O1")
+    assert hints(page) == [words("en")("form.compute_place")]
+    assert quantity_of(place) == "*J*_3"
+    assert plain(words("en")("form.senses")) not in texts(page)
 
 
 def test_a_long_form_goes_on_on_further_pages(edition):

@@ -144,7 +144,8 @@ def test_kill_9_in_the_middle_and_the_next_run_ends_it(whole, make):
     silent = subprocess.DEVNULL
     with subprocess.Popen(command, env=surroundings, stdout=silent, stderr=silent) as process:
         journal = folder / "print" / JOURNAL
-        until(lambda: journal.exists() and journal.stat().st_size > 0)
+        until(lambda: process.poll() or (journal.exists() and journal.stat().st_size > 0))
+        assert process.poll() is None
         with pytest.raises(PageError, match=f"process {process.pid} on"):
             printed(folder)
         process.send_signal(signal.SIGKILL)
@@ -159,7 +160,7 @@ def test_kill_9_in_the_middle_and_the_next_run_ends_it(whole, make):
     assert tree(folder / "print") == whole
 
 
-def until(holds, seconds: float = 60.0) -> None:
+def until(holds, seconds: float = 300.0) -> None:
     """Wait until something holds."""
     end = time.monotonic() + seconds
     while not holds():

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
+from graphkin.errors import Problem
 from graphkin.roster.errors import RosterError
 from graphkin.roster.model import Student
 from graphkin.roster.read import NAMES, read_roster
@@ -303,3 +304,47 @@ def test_a_table_keeps_its_head_rows_and_separator(saved):
     sheet = read_sheet(saved("a;b\n1;2\n"), ["a"])
     assert (sheet.head, sheet.rows[0].cells, sheet.separator) == (("a", "b"), ("1", "2"), ";")
     assert sheet.place(sheet.rows[0], "b") == 'roster.csv, row 2, column "b"'
+
+
+def test_mistakes_of_all_sorts_are_told_at_once_in_the_order_of_the_rows(saved):
+    """A row too long, a number missing, none, an id twice, an id missing, a quote left open."""
+    rows = ["Nr;id;nume", "1;2;x;1", ";3;a", ",5;4;b", "5;6;c", "6;6;d", '7;;"e f"', '8;9;"open']
+    found = problems(saved("\n".join(rows)))
+    expected = [
+        "4 cells",
+        "is missing",
+        "is not a number",
+        "stands in row 5",
+        "is missing",
+        "quote",
+    ]
+    assert all(f"row {row}" in line for row, line in zip((2, 3, 4, 6, 7, 8), found, strict=True))
+    assert all(word in line for word, line in zip(expected, found, strict=True)), found
+
+
+def test_a_column_that_is_missing_hides_no_other_mistake(saved):
+    found = problems(saved("Numer;id\n1;2;x\n3;\n4;5\n"))
+    assert "no column number" in found[0]
+    assert found[0].endswith("did you mean numero?")
+    assert [line.split(":")[0] for line in found[1:]] == [
+        "roster.csv, row 2",
+        'roster.csv, row 3, column "id"',
+    ]
+
+
+def test_a_list_without_ids_is_told_once_not_for_each_row(saved):
+    assert len(problems(saved("nr\n1\n2\n3\n"))) == 1
+
+
+def test_what_else_is_wrong_with_a_student_stands_among_the_rest(saved):
+    def odd(student):
+        return [Problem("", "is odd")] if student.number % 2 else []
+
+    with pytest.raises(RosterError) as caught:
+        read_roster(saved("nr;id\n1;a\n2;\n3;c\nx;d\n"), numbered=True, check=odd)
+    assert [problem.place for problem in caught.value.problems] == [
+        "roster.csv, row 2",
+        'roster.csv, row 3, column "id"',
+        "roster.csv, row 4",
+        'roster.csv, row 5, column "nr"',
+    ]

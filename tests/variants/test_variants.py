@@ -336,3 +336,26 @@ def test_new_without_more_shows_how():
     result = run("new")
     assert result.exit_code == 0
     assert "graphkin new lab crank-lab" in result.stdout
+
+
+def test_a_number_that_the_scene_does_not_allow_is_told_beside_the_other_mistakes(tmp_path):
+    path = tmp_path / "class.csv"
+    path.write_text("number;id\n31;a\nx;b\n7;a\n", encoding="utf-8")
+    said = run("variants", "pump", path, "-o", tmp_path / "class")
+    assert said.exit_code == 2
+    lines = said.stderr.splitlines()
+    for row, word in ((2, "n = 31 is out of range"), (3, "not a number"), (4, "row 2 already")):
+        assert f"row {row}" in lines[row - 2]
+        assert word in lines[row - 2]
+    assert len(lines) == 3
+    assert not (tmp_path / "class").exists()
+
+
+def test_a_class_that_stands_already_is_told_in_one_line(tmp_path, roster):
+    folder = tmp_path / "class"
+    assert run("variants", "pump", roster, "-o", folder).exit_code == 1
+    said = run("variants", "pump", roster, "-o", folder)
+    (line,) = said.stderr.splitlines()
+    assert said.exit_code == 2
+    assert "variants.csv" in line
+    assert "--force" in line

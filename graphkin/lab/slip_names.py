@@ -1,0 +1,33 @@
+"""The names of known slips, by which a rubric gives them shares of the points."""
+
+NAMES = (
+    "rpm_as_rad",
+    "turns_as_rad",
+    "rad_as_rpm",
+    "degrees_as_radians",
+    "angle_clockwise",
+    "driver_reversed",
+    "driver_acceleration_missing",
+    "diameter_for_radius",
+    "radius_for_diameter",
+    "other_side",
+    "coriolis_missing",
+    "coriolis_reversed",
+    "normal_missing",
+    "normal_reversed",
+    "sense_reversed",
+    "wrong_scale",
+    "scale_missing",
+    "length_not_scaled",
+    "power_of_ten",
+    "drawn_in_full",
+    "swapped",
+    "normal_for_tangential",
+    "whole_for_tangential",
+    "absolute_for_relative",
+    "rate_in_degrees",
+    "rate_in_turns",
+    "axes_swapped",
+    "opposite",
+)
+"""All slips, in the order in which equally good ones are named."""
