@@ -70,13 +70,13 @@ def new_lab(name: str, folder: Path, force: bool) -> None:
     "--force", is_flag=True, help="Replace a class that stands there; it keeps its codes."
 )
 def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
-    """Give each student of a class data of their own, and tell how fair they are.
+    """Give each student of a class data of their own.
 
     LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. ROSTER is a class
     list, CSV or XLSX, whose first row names its columns in English, Romanian or Italian: an id for
     each student, the number where the lab's formula needs one, name and group if there are any.
 
-    Writes variants.csv, manifest.json, from which every sheet can be derived again, and a copy of
+    Tells how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be derived again, and a copy of
     the lab. Data by a formula that are unfair are told and written all the same, and the status is
     1; data from ranges are drawn again until they are fair.
 

@@ -160,16 +160,17 @@ def cycle(
     from graphkin.curves.files import picture_files
     from graphkin.motion import cycle as moved
     from graphkin.motion.sweep import bounds_in_si
-    from graphkin.paper.files import file_stem, write_all
+    from graphkin.paper.files import file_stem, refuse_existing, write_all
     from graphkin.report.cycle import agrees, cycle_lines
     from graphkin.report.cycle_table import cycle_table
     from graphkin.screen.animation import animation_files
 
     mechanism = mechanism_of(name, settings)
+    stem = file_stem(mechanism.scene.name, pairs_of(settings))
+    refuse_existing(folder, [folder / f"{stem}-cycle.csv"], force)
     first, last = bounds_in_si(mechanism.scene, driver, low, high)
     found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
     tell(cycle_lines(found))
-    stem = file_stem(mechanism.scene.name, pairs_of(settings))
     files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
     curves = [kind for kind in kinds if kind in CURVES]
     files |= picture_files(found, stem, curves) if curves else {}
@@ -196,9 +197,9 @@ def cycle(
 def accuracy(
     name: str, settings: tuple[str, ...], folder: Path, quick: bool, formats: str, force: bool
 ) -> None:
-    """Measure what accuracy costs in time: errors of every method against certified answers.
+    """Measure what accuracy costs in time.
 
-    Runs the same positions in doubles one by one and in batches, in single and extended precision,
+    Holds every method against certified answers. Runs the same positions in doubles one by one and in batches, in single and extended precision,
     in decimals of up to 120 digits, in balls that prove their radius, by Newton's method on the
     loop equations and by central differences, and foretells what a pencil makes of them. Writes
     a table (CSV) and three pictures: error against time; error towards a dead point; cost by what
@@ -213,16 +214,17 @@ def accuracy(
     from graphkin.accuracy.files import picture_files
     from graphkin.accuracy.stopwatch import QUICK, Effort
     from graphkin.accuracy.study import study
-    from graphkin.paper.files import file_stem, write_all
+    from graphkin.paper.files import file_stem, refuse_existing, write_all
     from graphkin.report.accuracy import accuracy_lines, accuracy_table
 
     mechanism = mechanism_of(name, settings)
+    stem = file_stem(mechanism.scene.name, pairs_of(settings))
+    refuse_existing(folder, [folder / f"{stem}-accuracy.csv"], force)
     effort = QUICK if quick else Effort()
     say = progress()
     found = study(mechanism, scales_if_any(mechanism), effort, say=say)
     say("")
     tell(accuracy_lines(found))
-    stem = file_stem(mechanism.scene.name, pairs_of(settings))
     files = {f"{stem}-accuracy.csv": accuracy_table(found).encode()}
     files |= picture_files(found, stem, kinds)
     tell(["", *(str(path) for path in write_all(folder, files, force))])

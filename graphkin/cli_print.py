@@ -68,7 +68,9 @@ def print_sheets(
     cluster: str,
     force: bool,
 ) -> None:
-    """Print the sheets of a class: DIR is what graphkin variants wrote.
+    """Print the sheets of a class.
+
+    DIR is what graphkin variants wrote.
 
     Writes into DIR/print a task sheet (A3) and a form (A4) for every student, and what else
     --view names; then one file of each view with all students in the order of the roster, for the

@@ -24,6 +24,8 @@ class Folder(click.Path):
         """The path of a folder."""
         if not str(value).strip():
             self.fail("the name of the folder is empty; . is the current one", param, ctx)
+        if Path(value).is_file():
+            self.fail(f"{value} is a file; name a folder", param, ctx)
         return super().convert(value, param, ctx)
 
 
