@@ -76,9 +76,9 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
     list, CSV or XLSX, whose first row names its columns in English, Romanian or Italian: an id for
     each student, the number where the lab's formula needs one, name and group if there are any.
 
-    Tells how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be derived again, and a copy of
-    the lab. Data by a formula that are unfair are told and written all the same, and the status is
-    1; data from ranges are drawn again until they are fair.
+    Tells how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be
+    derived again, and a copy of the lab. Data by a formula that are unfair are told and written all
+    the same, and the status is 1; data from ranges are drawn again until they are fair.
 
     \b
     Example:

@@ -199,11 +199,12 @@ def accuracy(
 ) -> None:
     """Measure what accuracy costs in time.
 
-    Holds every method against certified answers. Runs the same positions in doubles one by one and in batches, in single and extended precision,
-    in decimals of up to 120 digits, in balls that prove their radius, by Newton's method on the
-    loop equations and by central differences, and foretells what a pencil makes of them. Writes
-    a table (CSV) and three pictures: error against time; error towards a dead point; cost by what
-    is asked. It takes about half a minute; groups of class III and higher some minutes.
+    Holds every method against certified answers. Runs the same positions in doubles one by one and
+    in batches, in single and extended precision, in decimals of up to 120 digits, in balls that
+    prove their radius, by Newton's method on the loop equations and by central differences, and
+    foretells what a pencil makes of them. Writes a table (CSV) and three pictures: error against
+    time; error towards a dead point; cost by what is asked. It takes about half a minute; groups of
+    class III and higher some minutes.
 
     \b
     Examples:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphkin.console import READING
+from graphkin.errors import PageError, Problem
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
@@ -25,7 +26,8 @@ class Folder(click.Path):
         if not str(value).strip():
             self.fail("the name of the folder is empty; . is the current one", param, ctx)
         if Path(value).is_file():
-            self.fail(f"{value} is a file; name a folder", param, ctx)
+            hint = "name another folder with -o"
+            raise PageError(Problem(str(value), "is a file", "a folder", hint))
         return super().convert(value, param, ctx)
 
 

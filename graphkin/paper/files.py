@@ -21,6 +21,8 @@ LONGEST = 60
 """Characters of one part of a file name."""
 MOST_BYTES = 180
 """Bytes of the first part of a file name, so that the rest finds room in 255."""
+SHOWN = 3
+"""Files in the way that are named."""
 PDF_ONLY = "calculation"
 """The sheet that comes as PDF only, for it is several pages of text."""
 
@@ -83,15 +85,24 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
     if folder.exists() and not folder.is_dir():
         hint = "name another folder with -o"
         raise PageError(Problem(str(folder), "is a file", "a folder", hint))
-    problems = []
-    for target in targets:
-        if target.is_dir():
-            problems.append(Problem(str(target), "is a folder", "a place for a file"))
-        elif not force and os.path.lexists(target):
-            hint = "--force replaces it, -o names another folder"
-            problems.append(Problem(str(target), "exists already", "a new file", hint))
+    folders = [target for target in targets if target.is_dir()]
+    there = [t for t in targets if not force and os.path.lexists(t) and t not in folders]
+    problems = [in_the_way(there)] if there else []
+    problems += [Problem(str(t), "is a folder", "a place for a file") for t in folders]
     if problems:
         raise PageError(problems)
+
+
+def in_the_way(there: Sequence[Path]) -> Problem:
+    """The problem of files that exist: all of them in one line, the first by name."""
+    if len(there) == 1:
+        hint = "--force replaces it, -o names another folder"
+        return Problem(str(there[0]), "exists already", "a new file", hint)
+    more = len(there) - SHOWN
+    rest = f" and {more} more" if more > 0 else ""
+    names = ", ".join(map(str, there[:SHOWN])) + rest
+    hint = "--force replaces them, -o names another folder"
+    return Problem(names, "each exists already", "new files", hint)
 
 
 def put_in_place(targets: Mapping[Path, bytes]) -> None:

@@ -35,6 +35,18 @@ def test_every_file_in_the_way_is_told(tmp_path: Path) -> None:
     assert names(tmp_path) == ["a.txt", "c.txt"]
 
 
+def test_many_files_in_the_way_are_one_line(tmp_path: Path) -> None:
+    for number in range(63):
+        (tmp_path / f"{number}.txt").write_text("mine")
+    new = {f"{number}.txt": b"new" for number in range(63)}
+    with pytest.raises(PageError) as raised:
+        write_all(tmp_path, new, force=False)
+    (problem,) = raised.value.problems
+    assert problem.place.endswith(" and 60 more")
+    assert problem.found == "each exists already"
+    assert (tmp_path / "0.txt").read_text() == "mine"
+
+
 @pytest.mark.parametrize("broken", [1, 2, 3])
 def test_a_failing_rename_leaves_nothing_new(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: int

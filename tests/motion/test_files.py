@@ -89,7 +89,8 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
         assert words in result.stdout
     again = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg")
     assert again.exit_code == 2
-    assert "--force replaces them" in again.stderr
+    assert "--force replaces it" in again.stderr
+    assert not again.stdout
     forced = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--force")
     assert forced.exit_code == 0
 
