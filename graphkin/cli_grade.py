@@ -36,7 +36,8 @@ SHOWN = 10
 @click.option(
     "--lang",
     type=click.Choice(["ro", "en", "it"]),
-    help="Language of the feedback and the report; the scene's by default.",
+    help="Language of the report, and of the feedback to those for whom the class list names none"
+    " (language, limba, lingua); the scene's by default.",
 )
 @click.option(
     "--format",
@@ -52,7 +53,7 @@ SHOWN = 10
     metavar="FILE",
     multiple=True,
     type=click.Path(path_type=Path),
-    help="An export of your own from Moodle or Canvas (CSV), to be filled in. May be repeated.",
+    help="An export of your own from Moodle or Canvas (CSV or XLSX), to be filled in; repeatable.",
 )
 @click.option(
     "--column", metavar="NAME", help="The column of the gradebook for the points; the empty one."
@@ -77,12 +78,17 @@ def grade(
     jobs: int | None,
     force: bool,
 ) -> None:
-    """Mark the answers of a class: DIR is what graphkin variants wrote, ANSWERS a table.
+    """Mark the answers of a class.
+
+    DIR is what graphkin variants wrote, ANSWERS a table.
 
     ANSWERS is a CSV or XLSX file with a column id and one for each field of the form (v_D_mm,
     v_D, omega_3, omega_3_sense, …), a row for each student; or a folder with a file for each.
-    Decimal comma or point; a unit may be written; a sense is ccw or cw, in three languages, or
-    + or -. An empty cell is not answered; one that cannot be read is told, not marked as wrong.
+    Decimal comma or point; a unit may be written; a sense is + or -, ccw or cw, or said in English,
+    Romanian or Italian (în sens orar, anticlockwise); one that the sign of its own value
+    contradicts earns nothing. An empty cell is not answered, an empty row not handed in. A cell
+    that cannot be read is told: its points wait, and no gradebook gets the marks of that student
+    until it is mended and marked again.
 
     A value may be off by what a careful pencil makes of that student's own drawing (tolerances.csv
     says how much). What is wrong by the key is held against what follows from the student's own
@@ -104,16 +110,20 @@ def grade(
     from graphkin.grading.report import result_lines
 
     kinds = kinds_of(formats, context)
+    if len({path.name for path in gradebooks}) < len(gradebooks):
+        raise click.UsageError("--gradebook: two files of the same name", context)
     opened = open_class(folder)
-    given = read_answers(answers, opened.book.form, [t.student.id for t in opened.takers])
+    ids = {taker.student.id: taker.code for taker in opened.takers}
+    codes = {code: who for who, code in ids.items()}
+    given = read_answers(answers, opened.book.form, ids, codes)
     words = words_of(opened, lang)
     found = graded_class(opened.book, opened.takers, given.of, jobs or usual_jobs(opened))
     files = all_files(opened, found, given, words, kinds, report or folder / "report")
-    books = filled_books(gradebooks, column, found)
+    books = filled_books(gradebooks, column, found, words)
     written = put(report or folder / "report", {**files, **books}, force)
     for line in result_lines(found.result, words):
         click.echo(line)
-    notes(given)
+    notes(opened, given, words)
     click.echo("")
     for path in told_paths(written):
         click.echo(path)
@@ -161,24 +171,33 @@ def all_files(
     title = scene.titles.get(words.language, scene.title)
     before = report / MARKS
     earlier = before.read_bytes() if before.is_file() else b""
-    told = Told(title, words, given.unread)
+    told = Told(title, words, given.unread, scene.titles)
     return report_files(found, opened.edition.lab, told, kinds, earlier)
 
 
 def filled_books(
-    gradebooks: tuple[Path, ...], column: str | None, found: Class
+    gradebooks: tuple[Path, ...], column: str | None, found: Class, words: Words
 ) -> dict[str, bytes]:
     """The gradebooks with the points in them."""
-    from graphkin.grading.gradebook import filled, read_gradebook
+    from graphkin.grading.gradebook_xlsx import filled_gradebook
     from graphkin.grading.outputs import gradebook_name, points_by_id
+    from graphkin.grading.tables import number
 
     files: dict[str, bytes] = {}
+    ids = [each.taker.student.id for each in found.result.graded]
+    waiting = [each.taker.student.id for each in found.result.graded if each.pending]
     for path in gradebooks:
-        book = filled(read_gradebook(path), points_by_id(found), column)
+        book = filled_gradebook(path, points_by_id(found), column, ids)
         files[gradebook_name(path)] = book.data
-        click.echo(f'{path.name}: {book.count} points in column "{book.column}"')
-        for who in book.absent[:SHOWN]:
-            complain(f"{path.name}: {who} is not in it")
+        filled = words("class.filled", file=path.name, count=book.count, column=book.column)
+        click.echo(filled)
+        points = max((each.points for each in found.result.graded), default=None)
+        if book.worth is not None and book.worth != points:
+            amounts = {"worth": number(book.worth), "points": number(points or 0)}
+            amounts = {name: words.decimal(amount) for name, amount in amounts.items()}
+            complain(words("class.worth", file=path.name, column=book.column, **amounts))
+        for key, who in (("class.not_in", book.absent), ("class.waits", waiting)):
+            tell_some([words(key, file=path.name, who=each) for each in who], words)
     return files
 
 
@@ -201,16 +220,22 @@ def told_paths(written: list[Path]) -> list[str]:
     return [*lines, f"{pages[0].parent}: {len(pages)} pages"] if pages else lines
 
 
-def notes(given: Answers) -> None:
-    """What is told of the answers: cells that cannot be read, columns that are no fields."""
-    for every in (given.strangers, [f"no answers to {name}" for name in given.missing]):
-        tell_some(list(dict.fromkeys(every)))
-    tell_some([str(problem) for problem in given.unread])
+def notes(opened: ClassFolder, given: Answers, words: Words) -> None:
+    """What is told of the answers: columns that are no fields, languages that are none of the
+    pages', cells that cannot be read.
+    """
+    from graphkin.grading.report import language_lines, stranger_lines, unread_lines
+
+    names = [taker.student for taker in opened.takers]
+    tell_some(list(stranger_lines(given, words)), words)
+    tell_some(list(language_lines(opened.takers, words)), words)
+    tell_some(list(unread_lines(names, given.unread, words)), words)
 
 
-def tell_some(lines: list[str]) -> None:
+def tell_some(lines: list[str], words: Words) -> None:
     """Tell some notes, and how many more there are."""
+    lines = list(dict.fromkeys(lines))
     for line in lines[:SHOWN]:
         complain(line)
     if len(lines) > SHOWN:
-        complain(f"and {len(lines) - SHOWN} more of this kind; class.html has all of them")
+        complain(words("class.told_more", count=len(lines) - SHOWN))

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 
 from graphkin.errors import Problem
+from graphkin.grading.languages import HEADS as LANGUAGE
 from graphkin.grading.model import Answer
 from graphkin.grading.numbers import read_answer
 from graphkin.lab.model import Item
@@ -22,7 +24,38 @@ KINDS = (".csv", ".txt", ".tsv", ".xlsx")
 """Files of a folder that are read."""
 FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "valoare", "valore")
 """The heads of a file that holds one student's answers line by line."""
+NO_CODES: Mapping[str, str] = {}
 HEADS = {"id": NAMES["id"]}
+BESIDE = {what: NAMES[what] for what in NAMES if what != "id"} | {"language": LANGUAGE}
+"""Columns that a class list has as well, and that are none of the form's."""
+IDS = {folded(name) for name in ("id", *HEADS["id"])}
+OTHERS = {folded(name) for what, every in BESIDE.items() for name in (what, *every)}
+"""The same as they are compared."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """A cell that cannot be read: its file and row, whose it is, its field, what it says and why.
+
+    ``problem`` is that of its answer; ``unit`` that of its field.
+    """
+
+    file: str
+    row: int
+    who: str
+    field: str
+    text: str
+    problem: str
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Stranger:
+    """A column, or a row of one student's file, that is no field; ``near`` is the one meant."""
+
+    file: str
+    name: str
+    near: str = ""
 
 
 @dataclass
@@ -31,31 +64,35 @@ class Answers:
 
     of: dict[str, dict[str, Answer]] = field(default_factory=dict)
     places: dict[str, str] = field(default_factory=dict)
-    unread: list[Problem] = field(default_factory=list)
-    strangers: list[str] = field(default_factory=list)
+    unread: list[Unread] = field(default_factory=list)
+    strangers: list[Stranger] = field(default_factory=list)
     missing: list[str] = field(default_factory=list)
 
 
-def read_answers(path: Path, items: Sequence[Item], ids: Iterable[str]) -> Answers:
-    """The answers in a table, or in each file of a folder. Raises RosterError, all at once."""
+def read_answers(
+    path: Path, items: Sequence[Item], ids: Iterable[str], codes: Mapping[str, str] = NO_CODES
+) -> Answers:
+    """The answers in a table, or in each file of a folder. Raises RosterError, all at once.
+
+    ``codes`` are opaque names of sheets by which a student may sign as well, each with the id.
+    """
     known = {item.field: item for item in items}
     heads = ["id", *HEADS["id"], *known, *FIELD, *VALUE]
     files = sorted(p for p in path.iterdir() if p.suffix.lower() in KINDS) if path.is_dir() else []
     if path.is_dir() and not files:
         found = "a folder without any table"
         raise RosterError(Problem(str(path), found, f"files {', '.join(KINDS)}"))
-    answers = Answers()
-    told = Told(path.name)
-    seen: set[str] = set()
+    reading = Reading(known, {**codes, **{who: who for who in ids}}, Told(path.name))
     for file in files or [path]:
-        sheet = read_sheet(file, heads)
-        if is_form(sheet):
-            read_form(sheet, file.stem, known, set(ids), answers, told, seen)
-        else:
-            read_rows(sheet, known, set(ids), answers, told, seen)
-    told.stop()
-    answers.missing = [name for name in known if name not in seen]
-    return answers
+        try:
+            sheet = read_sheet(file, heads, None if files else reading.told)
+        except RosterError as error:
+            reading.told.problems += error.problems
+            continue
+        reading.form(sheet, file.stem) if is_form(sheet) else reading.rows(sheet)
+    reading.told.stop()
+    reading.answers.missing = [name for name in known if name not in reading.seen]
+    return reading.answers
 
 
 def is_form(sheet: Sheet) -> bool:
@@ -64,102 +101,94 @@ def is_form(sheet: Sheet) -> bool:
     return len(heads) >= 2 and heads[0] in map(folded, FIELD) and heads[1] in map(folded, VALUE)
 
 
-def read_rows(
-    sheet: Sheet,
-    known: Mapping[str, Item],
-    ids: set[str],
-    answers: Answers,
-    told: Told,
-    seen: set[str],
-) -> None:
-    """A table with a row for each student."""
-    where = columns(sheet, HEADS)
-    fields = {folded(name): name for name in known}
-    own = {i: fields[folded(cell)] for i, cell in enumerate(sheet.head) if folded(cell) in fields}
-    if "id" not in where:
-        head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
-        told.add(sheet.name, f"no column id; the head is {head}", 'a column named "id"')
-        return
-    if not own:
-        expected = f"columns such as {', '.join(list(known)[:4])}"
-        told.add(sheet.name, "no column is a field of the form", expected)
-        return
-    seen |= set(own.values())
-    answers.strangers += [
-        stranger(sheet, cell, known)
-        for i, cell in enumerate(sheet.head)
-        if i not in own and i != where["id"] and cell
-    ]
-    for row in sheet.rows:
-        who = row.cells[where["id"]]
-        if took(sheet, row, sheet.head[where["id"]], who, ids, answers, told):
-            answers.of[who] = {
-                name: read_cell(sheet.place(row, name), row.cells[i], known[name], answers)
-                for i, name in own.items()
-            }
+@dataclass
+class Reading:
+    """Tables being read: the fields that are ``known``, the ids by all that students sign with,
+    what was found, and which fields were ``seen``.
+    """
 
+    known: Mapping[str, Item]
+    ids: Mapping[str, str]
+    told: Told
+    answers: Answers = field(default_factory=Answers)
+    seen: set[str] = field(default_factory=set)
 
-def stranger(sheet: Sheet, cell: str, known: Mapping[str, Item]) -> str:
-    """A column that is no field, with the field that may be meant."""
-    near = nearest(cell, list(known))
-    return f'{sheet.name}: column "{visible(cell)}" is no field of the form' + (
-        f"; {near}" if near else ""
-    )
+    def __post_init__(self) -> None:
+        """The fields by their names as they are compared."""
+        self.fields = {folded(name): name for name in self.known}
 
+    def rows(self, sheet: Sheet) -> None:
+        """A table with a row for each student."""
+        where = columns(sheet, HEADS | BESIDE)
+        named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
+        own = {i: name for i, name in named if name is not None}
+        if "id" not in where:
+            head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
+            found = f"no column id; the head is {head}"
+            self.told.add(sheet.name, found, 'a column named "id"')
+            return
+        if not own:
+            expected = f"columns such as {', '.join(list(self.known)[:4])}"
+            self.told.add(sheet.name, "no column is a field of the form", expected)
+            return
+        self.seen |= set(own.values())
+        for i, cell in enumerate(sheet.head):
+            if i not in own and i not in where.values() and cell:
+                self.stranger(sheet, cell)
+        for row in sheet.rows:
+            who = self.signed(sheet, row, sheet.head[where["id"]], row.cells[where["id"]])
+            if who is not None:
+                cells = {name: self.cell(sheet, row, i, who, name) for i, name in own.items()}
+                self.answers.of[who] = cells
 
-def took(
-    sheet: Sheet, row: Row, head: str, who: str, ids: set[str], answers: Answers, told: Told
-) -> bool:
-    """Whether a row is of a student of the class who has none yet; else it is noted."""
-    place = sheet.place(row, head)
-    if not who:
-        told.add(place, "is missing", "the student's id")
-    elif who not in ids:
-        told.add(
-            place, f'"{visible(who)}" is no student of this class', "", nearest(who, list(ids))
-        )
-    elif who in answers.of:
-        told.add(place, f'"{visible(who)}" has answers already, in {answers.places[who]}', "one")
-    else:
-        answers.places[who] = sheet.place(row)
-        return True
-    return False
+    def form(self, sheet: Sheet, stem: str) -> None:
+        """One student's answers, a field in each row; the id is in a row of its own, or the name
+        of the file.
+        """
+        stated = [row for row in sheet.rows if folded(row.cells[0]) in IDS]
+        sign = stated[0].cells[1] if stated else stem
+        who = self.signed(sheet, stated[0] if stated else Row(1, ()), "id", sign)
+        if who is None:
+            return
+        self.answers.of[who] = {}
+        for row in sheet.rows:
+            name = self.fields.get(folded(row.cells[0]))
+            if name is None:
+                if folded(row.cells[0]) not in IDS | OTHERS:
+                    self.stranger(sheet, row.cells[0])
+                continue
+            if name in self.answers.of[who]:
+                self.told.add(sheet.place(row), f"{name} is answered twice", "once")
+            self.seen.add(name)
+            self.answers.of[who][name] = self.cell(sheet, row, 1, who, name)
 
+    def signed(self, sheet: Sheet, row: Row, head: str, sign: str) -> str | None:
+        """The student of the class who signs a row and has no answers yet; None, noted, if none."""
+        place = sheet.place(row, head)
+        who = self.ids.get(sign)
+        if not sign:
+            self.told.add(place, "is missing", "the student's id")
+        elif who is None:
+            found = f'"{visible(sign)}" is no student of this class'
+            self.told.add(place, found, "", nearest(sign, sorted(set(self.ids.values()))))
+        elif who in self.answers.of:
+            found = f'"{visible(sign)}" has answers already, in {self.answers.places[who]}'
+            self.told.add(place, found, "one")
+        else:
+            self.answers.places[who] = sheet.place(row)
+            return who
+        return None
 
-def read_form(
-    sheet: Sheet,
-    stem: str,
-    known: Mapping[str, Item],
-    ids: set[str],
-    answers: Answers,
-    told: Told,
-    seen: set[str],
-) -> None:
-    """One student's answers, a field in each row; the id is in a row of its own, or the name."""
-    fields = {folded(name): name for name in known}
-    names = {folded(name) for name in ("id", *HEADS["id"])}
-    stated = [row for row in sheet.rows if folded(row.cells[0]) in names]
-    who = stated[0].cells[1] if stated else stem
-    first = stated[0] if stated else Row(1, ())
-    if not took(sheet, first, "id", who, ids, answers, told):
-        return
-    answers.of[who] = {}
-    for row in sheet.rows:
-        name = fields.get(folded(row.cells[0]))
-        if name is None:
-            if row not in stated:
-                answers.strangers.append(stranger(sheet, row.cells[0], known))
-            continue
-        if name in answers.of[who]:
-            told.add(sheet.place(row), f"{name} is answered twice", "once")
-        seen.add(name)
-        place = f"{sheet.name}, row {row.line}"
-        answers.of[who][name] = read_cell(place, row.cells[1], known[name], answers)
+    def stranger(self, sheet: Sheet, cell: str) -> None:
+        """Note what is no field, with the field that may be meant."""
+        near = get_close_matches(cell[:60], list(self.known), n=1)
+        self.answers.strangers.append(Stranger(sheet.name, visible(cell), near[0] if near else ""))
 
-
-def read_cell(place: str, text: str, item: Item, answers: Answers) -> Answer:
-    """One cell; one that cannot be read is noted."""
-    answer = read_answer(text, item)
-    if answer.problem:
-        answers.unread.append(Problem(place, answer.problem))
-    return answer
+    def cell(self, sheet: Sheet, row: Row, column: int, who: str, name: str) -> Answer:
+        """One cell; one that cannot be read is noted."""
+        item = self.known[name]
+        answer = read_answer(row.cells[column], item)
+        if answer.problem:
+            why = (answer.text, answer.problem, item.unit)
+            self.answers.unread.append(Unread(sheet.name, row.line, who, name, *why))
+        return answer

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 from graphkin.grading.evidence import copies, wrong_variants
+from graphkin.grading.many import standards
 from graphkin.grading.marking import Marker
 from graphkin.grading.model import Answer, Graded, Result, Taker
 from graphkin.grading.standard import Expectation, standard
@@ -34,11 +35,28 @@ class Book:
     @cached_property
     def form(self) -> tuple[Item, ...]:
         """The fields of the form, the same for all."""
-        return items(self.mechanism({}), self.lab)
+        return items(self.usual, self.lab)
 
     def mechanism(self, settings: Mapping[str, str]) -> Mechanism:
         """The mechanism of a variant."""
         return Mechanism(read_text(self.scene, self.lab.name, settings=dict(settings)))
+
+    @cached_property
+    def usual(self) -> Mechanism:
+        """The mechanism as the scene says, without settings."""
+        return self.mechanism({})
+
+    def prepare(self, takers: Iterable[Taker]) -> None:
+        """Work out together what marks some students, at most as many variants as are held."""
+        wanted = {variant(t.settings, t.compute): (t.settings, t.compute) for t in takers}
+        new = {name: each for name, each in wanted.items() if name not in self.markers}
+        if len(new) < 2:
+            return
+        for name in list(self.markers)[: max(0, len(self.markers) + len(new) - KEPT)]:
+            del self.markers[name]
+        many = list(new.values())
+        found = standards(self.usual, self.scene, self.form, self.lab.rubric, many)
+        self.markers |= {name: Marker(each) for name, each in zip(new, found, strict=True)}
 
     def marker(self, settings: Mapping[str, str], computed: tuple[str, ...] = ()) -> Marker:
         """What marks the answers to a variant, some of whose fields are computed."""
@@ -85,7 +103,7 @@ def graded_class(
     jobs: int = 1,
 ) -> Class:
     """The marks of a whole class, by the ids of its students, with what only a class can tell."""
-    every = [(taker, answers.get(taker.student.id)) for taker in takers]
+    every = [(taker, handed_in(answers.get(taker.student.id))) for taker in takers]
     order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
     marked = spread(book, [every[i] for i in order], jobs)
     found = [each for _, each in sorted(zip(order, marked, strict=True), key=lambda pair: pair[0])]
@@ -99,6 +117,13 @@ def graded_class(
     return Class(result, tuple(expected))
 
 
+def handed_in(answers: Given | None) -> Given | None:
+    """The answers of a student; none where every field is blank, for then nothing was handed in."""
+    if answers is None or all(answer.is_blank for answer in answers.values()):
+        return None
+    return answers
+
+
 def spread(
     book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int
 ) -> list[tuple[Graded, Expectation]]:
@@ -108,7 +133,7 @@ def spread(
     work = partial(mark_all, replace(book, markers={}, expected={}))
     found: list[tuple[Graded, Expectation]] = []
     with engine(jobs) as (pool, workers):
-        parts = chunks(every, workers)
+        parts = chunks(every, workers, KEPT)
         for part in pool.map(work, parts) if pool is not None else map(work, parts):
             found += part
     return found
@@ -117,8 +142,13 @@ def spread(
 def mark_all(
     book: Book, every: Sequence[tuple[Taker, Given | None]]
 ) -> list[tuple[Graded, Expectation]]:
-    """The marks of some students."""
-    return [book.mark(*each) for each in every]
+    """The marks of some students, as many at a time as their variants are held together."""
+    found: list[tuple[Graded, Expectation]] = []
+    for start in range(0, len(every), KEPT):
+        part = every[start : start + KEPT]
+        book.prepare(taker for taker, _ in part)
+        found += [book.mark(*each) for each in part]
+    return found
 
 
 def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:

@@ -2,22 +2,27 @@
 
 Most wrong answers lie near the right one, some far off: in logarithms they are spread as Cauchy's
 curve, half of them within a factor of two. An answer that a slip's value hits within its tolerance
-is so much likelier by the slip as its tolerance is narrow beside that. The odds of a slip are its
-share among mistakes, times this for each answer that it hits, less for each wrong or right answer
-that it should have changed otherwise. Places are spread likewise, in millimetres.
+is so much likelier by the slip as its tolerance is narrow beside that; what is reckoned from an own
+segment is held against that segment. The odds of a slip are its share among mistakes, times this
+for each answer that it hits, less for each wrong or right answer that it should have changed
+otherwise. The more wrong answers no slip explains, the likelier a single hit is chance: so much
+better it must be to be named. Places are spread likewise, in millimetres.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import exp, inf, log, pi, sqrt
 
 from graphkin.grading.follow import ROUNDED, drawing_error
 from graphkin.grading.model import Answer
-from graphkin.grading.slips import NAMES, Slip
+from graphkin.grading.numbers import rounding
+from graphkin.grading.slips import UNITS_TAKEN, Slip
 from graphkin.grading.standard import Standard
+from graphkin.lab.slip_names import NAMES
 from graphkin.pencil.pencil import STRAIGHT
+from graphkin.steps.program import Plane
 
 HALF = log(2.0)
 """Half of all wrong answers lie within this of the right one, in natural logarithms."""
@@ -25,14 +30,22 @@ ASTRAY = 10.0
 """Half of all wrong places lie within so many mm of the right one, along either axis."""
 SHARE = 1 / 20
 """The share of each slip among mistakes."""
+RARER = {"power_of_ten": 1 / 3, "wrong_scale": 1 / 2}
+"""Slips that can be made in several ways: the part of a share that each way has."""
+PARTLY = 1 / 2
+"""The same for a unit that is taken wrong in some fields only."""
 MISSED = 0.4
 """How much a wrong answer speaks against a slip of the construction that does not hit it."""
 UNTOUCHED = 0.15
 """How much a right answer does that it should have made wrong."""
 RECKONED = 2 * ROUNDED
 """Share by which what was reckoned from an own segment may be off."""
+WIDEST = 0.9
+"""No slip is told more roughly than this, in parts of what it tells."""
+ELSEWISE = 0.3
+"""How often a value is reckoned from something else than the segment that was handed in."""
 LIKELY = 1.5
-"""Odds from which a slip is named."""
+"""Odds from which a slip is named where nothing else is wrong."""
 SENSE = 6.0
 """How much likelier a reversed sense is where a slip reverses it: else it seldom is wrong."""
 
@@ -54,13 +67,32 @@ def diagnosed(
     right: tuple[str, ...],
 ) -> dict[str, Found]:
     """For each wrong field the likeliest slip that explains it, if one does better than chance."""
+    tried = [judged(standard, slip, answers, wrong, right) for slip in every]
+    tried += own_scales(standard, answers, wrong, right)
     best: dict[str, Found] = {}
-    for slip in every:
-        found = judged(standard, slip, answers, wrong, right)
+    for found in tried:
         for field in found.fields if found.odds >= LIKELY else ():
             if field not in best or rank(found) > rank(best[field]):
                 best[field] = found
-    return best
+    return without_chance(standard, best, wrong)
+
+
+def without_chance(
+    standard: Standard, best: Mapping[str, Found], wrong: tuple[str, ...]
+) -> dict[str, Found]:
+    """What is left of the slips when those go whose hits chance explains as well."""
+    numbers = [field for field in wrong if standard.by_field[field].item.what != "sense"]
+    kept = dict(best)
+    while True:
+        lost = sum(field not in kept for field in numbers)
+        weak = [
+            field
+            for field, found in kept.items()
+            if found.odds < LIKELY * (1 + lost) and found.slip.name != "sense_reversed"
+        ]
+        if not weak:
+            return kept
+        kept = {field: found for field, found in kept.items() if field not in weak}
 
 
 def rank(found: Found) -> tuple[float, int]:
@@ -77,7 +109,7 @@ def judged(
 ) -> Found:
     """What a slip explains, and how well."""
     hit: list[str] = []
-    odds = SHARE
+    odds = share(slip)
     if slip.name == "sense_reversed":
         fields = tuple(field for field in wrong if field in slip.values)
         return Found(slip, fields, LIKELY if fields else 0.0)
@@ -97,6 +129,13 @@ def judged(
     return Found(slip, tuple(hit), min(odds, inf))
 
 
+def share(slip: Slip) -> float:
+    """How often a slip is made, among mistakes."""
+    if slip.name in UNITS_TAKEN and not slip.whole:
+        return SHARE * PARTLY
+    return SHARE * RARER.get(slip.name, 1.0)
+
+
 def likelihood(standard: Standard, slip: Slip, field: str, answers: Mapping[str, Answer]) -> float:
     """How much likelier an answer is by a slip than by chance; nought where it is not hit."""
     told, answer = slip.values[field], float(answers[field].value or 0.0)
@@ -108,14 +147,23 @@ def likelihood(standard: Standard, slip: Slip, field: str, answers: Mapping[str,
         astray = (told - standard.key[field]) / ASTRAY
         scattered = 1 / (pi * ASTRAY * (1 + astray * astray))
         return hit_density(answer - told, allowed) / scattered
-    size = abs(told)
-    own = 1.0 if slip.whole else own_length(standard, field, answers)
-    if own != 1.0:
-        size, allowed = size * own, RECKONED * size * own
-    off = abs(abs(answer) - size)
+    size, right = abs(told), abs(standard.key[field])
+    drawn = hit_ratio(abs(answer), size, allowed, right)
+    own = own_length(standard, field, answers)
+    if not own:
+        return drawn
+    near = RECKONED + rounding(answers[field])
+    if abs(abs(answer) - own * right) <= near * own * right:
+        return float(drawn > 0)
+    size *= own / told_length(standard, slip, field)
+    return max(hit_ratio(abs(answer), size, near * size, right), ELSEWISE * drawn)
+
+
+def hit_ratio(answer: float, size: float, allowed: float, right: float) -> float:
+    """How much denser answers lie at one that is meant to be a size than by chance."""
     if size <= allowed:
         return 0.0
-    return hit_density(off, allowed) * size / by_chance(size, abs(standard.key[field]))
+    return hit_density(answer - size, allowed) * size / by_chance(size, right)
 
 
 def hit_density(off: float, allowed: float) -> float:
@@ -127,11 +175,21 @@ def hit_density(off: float, allowed: float) -> float:
 
 
 def own_length(standard: Standard, field: str, answers: Mapping[str, Answer]) -> float:
-    """How many times as long as ours the own segment is, from which a vector was reckoned."""
+    """How many times as long as ours the own segment is from which a vector was reckoned; nought
+    where none was handed in.
+    """
     segment = answers.get(f"{field}_mm")
     if segment is None or not segment.value:
+        return 0.0
+    return abs(segment.value) / abs(standard.key[f"{field}_mm"])
+
+
+def told_length(standard: Standard, slip: Slip, field: str) -> float:
+    """How many times as long as ours a segment is by a slip of the construction."""
+    name = f"{field}_mm"
+    if not slip.whole or not slip.values.get(name):
         return 1.0
-    return abs(segment.value) / standard.key[f"{field}_mm"]
+    return abs(slip.values[name]) / abs(standard.key[name])
 
 
 def by_chance(size: float, right: float) -> float:
@@ -148,4 +206,58 @@ def slip_error(standard: Standard, slip: Slip, field: str, told: float) -> float
     if item.what == "place":
         return standard.tolerance[field].value
     part = standard.tolerance[field].value / right if right else ROUNDED
-    return abs(told) * min(part, standard.rubric.cap)
+    return abs(told) * min(part, WIDEST)
+
+
+# --- a scale of one's own -----------------------------------------------------------------------
+
+
+def own_scales(
+    standard: Standard,
+    answers: Mapping[str, Answer],
+    wrong: tuple[str, ...],
+    right: tuple[str, ...],
+) -> Iterator[Found]:
+    """Scales that nobody foresaw: several values off by the same factor, accelerations perhaps by
+    its square. A value beside its own segment, which is right, gives the factor and speaks for
+    nothing; others must hit.
+    """
+    values = [field for field in wrong if is_scaled(standard, field, right)]
+    for first in values if len(values) > 1 else ():
+        factor = factor_of(standard, first, answers)
+        if not factor:
+            continue
+        others = tuple(field for field in values if field != first)
+        for power in (1, 2) if is_velocity(standard, first) else (1,):
+            told = {f: scaled_by(standard, f, factor, power) for f in values}
+            found = judged(standard, Slip("wrong_scale", False, told), answers, others, ())
+            if found.fields:
+                yield Found(found.slip, (first, *found.fields), found.odds)
+
+
+def is_scaled(standard: Standard, field: str, right: tuple[str, ...]) -> bool:
+    """Whether a field is a value that may have been read with a wrong scale off a right segment."""
+    segment = f"{field}_mm"
+    drawn = segment not in standard.key or segment in right
+    return standard.by_field[field].item.what == "value" and drawn and standard.key[field] != 0
+
+
+def factor_of(standard: Standard, field: str, answers: Mapping[str, Answer]) -> float:
+    """How many times too large a value is beside the own segment; nought where it just follows from
+    that, or none was handed in.
+    """
+    own = own_length(standard, field, answers)
+    if not own:
+        return 0.0
+    factor = abs(float(answers[field].value or 0.0)) / (own * abs(standard.key[field]))
+    return 0.0 if abs(factor - 1) <= RECKONED + rounding(answers[field]) else factor
+
+
+def is_velocity(standard: Standard, field: str) -> bool:
+    """Whether a value is read off the velocity plan."""
+    return standard.by_field[field].plane is Plane.VELOCITIES
+
+
+def scaled_by(standard: Standard, field: str, factor: float, power: int) -> float:
+    """A value as many times too large; that of an acceleration by a power of the factor."""
+    return abs(standard.key[field]) * factor ** (1 if is_velocity(standard, field) else power)

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from html import escape as escaped
 
 from graphkin.grading.html import feedback_table, marked_up, page
-from graphkin.grading.model import Graded
-from graphkin.grading.rows import COLUMNS, HEADS, Row, known_sign, points_words, rows, safe
+from graphkin.grading.model import Graded, Status
+from graphkin.grading.rows import (
+    COLUMNS,
+    HEADS,
+    Row,
+    is_decided,
+    known_sign,
+    points_words,
+    rows,
+    safe,
+)
 from graphkin.lab.model import Rubric
 from graphkin.paper.areas import A4_AREA, A4_SIZE
 from graphkin.paper.frame import page_frame
@@ -18,7 +27,7 @@ from graphkin.text import Words
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
-WIDTHS = (32.0, 34.0, 30.0, 28.0, 24.0, 24.0)
+WIDTHS = (28.0, 34.0, 29.0, 32.0, 24.0, 25.0)
 """Widths of the columns, in mm."""
 LETTER, SMALL = 2.5, 1.8
 LEADING, ROOM = 4.2, 2.6
@@ -27,24 +36,40 @@ INDENT = 4.0
 
 
 def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> str:
-    """The page of one student for a browser."""
+    """The page of one student for a browser; who handed in nothing is not told what was right."""
     student = graded.taker.student
-    heads = {key: words(key) for key in HEADS.values()}
     body = [f"<h1>{escaped(words('feedback.title'))}</h1>", f"<p>{escaped(title)}<br>"]
     body.append(f"{escaped(' – '.join(filter(None, (student.name or student.id, student.group))))}")
     body.append(f"<br>{escaped(settings_words(graded, words))}</p>")
-    body.append(f'<p class="total">{escaped(total(graded, words))}</p>')
-    if not graded.present:
-        body.append(f"<p>{escaped(words('feedback.absent'))}</p>")
-    body += feedback_table(rows(graded, words), heads)
-    body.append(f'<p class="small">{marked_up(how(rubric, words))}</p>')
+    if graded.present:
+        body.append(f'<p class="total">{marked_up(total(graded, words))}</p>')
+    body += [f"<p>{marked_up(note)}</p>" for note in notes(graded, words)]
+    if graded.present:
+        body += feedback_table(rows(graded, words), words)
+        body.append(f'<p class="small">{marked_up(how(rubric, words))}</p>')
     return page(f"{title} – {student.name or student.id}", words.language, body)
 
 
 def total(graded: Graded, words: Words) -> str:
-    """The sum of the points in words."""
-    earned, points = (points_words(each, words) for each in (graded.earned, graded.points))
+    """The sum of the points in words; what still waits is left out of both."""
+    earned, points = (
+        points_words(each, words) for each in (graded.earned, graded.points - graded.pending)
+    )
     return words("feedback.total", earned=earned, points=points)
+
+
+def notes(graded: Graded, words: Words) -> list[str]:
+    """What is said of the whole form: that there is none, or what waits for a decision."""
+    if not graded.present:
+        return [words("feedback.absent")]
+    waiting = [mark.item for mark in graded.marks if mark.points and not is_decided(mark)]
+    if not waiting:
+        return []
+    fields = ", ".join(
+        f"{item.symbol} ({words('table.sense')})" if item.what == "sense" else item.symbol
+        for item in waiting
+    )
+    return [words("feedback.pending", pending=points_words(graded.pending, words), fields=fields)]
 
 
 def settings_words(graded: Graded, words: Words) -> str:
@@ -64,9 +89,32 @@ def how(rubric: Rubric, words: Words) -> str:
 # --- on paper -----------------------------------------------------------------------------------
 
 
+@dataclass(frozen=True, slots=True)
+class Spacing:
+    """Distances of a page, in mm: from a field's cells to its reason, and the room below it.
+
+    ``is_brief`` leaves out the reason of what is right, which its points tell.
+    """
+
+    line: float
+    room: float
+    is_brief: bool = False
+
+
+SPACINGS = (
+    Spacing(3.4, 2.6),
+    Spacing(3.1, 1.9),
+    Spacing(3.4, 2.6, is_brief=True),
+    Spacing(3.1, 1.7, is_brief=True),
+)
+"""From wide to narrow: the first that fits one page is taken, else the first."""
+
+
 def feedback_pages(graded: Graded, title: str, rubric: Rubric, words: Words) -> tuple[Page, ...]:
-    """The pages of one student on A4."""
-    bodies = list(paged(blocks(graded, rubric, words)))
+    """The pages of one student on A4, one wherever that can be."""
+    tried = (list(paged(blocks(graded, rubric, words, spacing))) for spacing in SPACINGS)
+    bodies = next((found for found in tried if len(found) == 1), None)
+    bodies = bodies or list(paged(blocks(graded, rubric, words, SPACINGS[0])))
     name = name_of(graded)
     return tuple(
         Page(
@@ -101,27 +149,22 @@ Block = tuple[float, list[Mark]]
 """The height of something that stays together, and its marks from a height of nought."""
 
 
-def blocks(graded: Graded, rubric: Rubric, words: Words) -> Iterator[Block]:
+def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> Iterator[Block]:
     """What stands on the pages, from top to bottom."""
     yield text_block(name_of(graded), 3.5)
     settings = escape(settings_words(graded, words))
     if settings:
         yield text_block(settings, LETTER)
-    yield text_block(words("feedback.total", **totals(graded, words)), 3.5)
+    if graded.present:
+        yield text_block(total(graded, words), 3.5)
+    for note in notes(graded, words):
+        yield text_block(note, LETTER)
     if not graded.present:
-        yield text_block(words("feedback.absent"), LETTER)
+        return
     yield head_block(words)
     for row in rows(graded, words):
-        yield row_block(row)
+        yield row_block(row, spacing)
     yield text_block(how(rubric, words), SMALL)
-
-
-def totals(graded: Graded, words: Words) -> dict[str, str]:
-    """The fields of the sum of the points."""
-    return {
-        "earned": points_words(graded.earned, words),
-        "points": points_words(graded.points, words),
-    }
 
 
 def text_block(markup: str, height: float) -> Block:
@@ -141,16 +184,18 @@ def head_block(words: Words) -> Block:
     return LEADING + ROOM + 0.8, marks
 
 
-def row_block(row: Row) -> Block:
+def row_block(row: Row, spacing: Spacing) -> Block:
     """A field: its cells, and below them why."""
     marks: list[Mark] = columns(row.cells, LEADING)
-    why = flowed(words_of(row.why), " ", RIGHT - LEFT - INDENT, SMALL)
+    tells = not (spacing.is_brief and row.status is Status.RIGHT)
+    why = flowed(words_of(row.why), " ", RIGHT - LEFT - INDENT, SMALL) if tells else []
     y = LEADING
     for line in why:
-        y += 3.4
+        y += spacing.line
         marks.append(Text(LEFT + INDENT, y, line, "caption", SMALL))
-    marks.append(Line(LEFT, y + 1.6, RIGHT, y + 1.6, "panel"))
-    return y + ROOM, marks
+    below = min(1.6, spacing.room - 0.6)
+    marks.append(Line(LEFT, y + below, RIGHT, y + below, "panel"))
+    return y + spacing.room, marks
 
 
 def columns(texts: Sequence[str], y: float) -> list[Mark]:

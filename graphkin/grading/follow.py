@@ -217,8 +217,7 @@ def normals_of(standard: Standard, rate: int, own: float) -> dict[int, Any]:
 
 def descendants(standard: Standard, overrides: Mapping[int, Any]) -> frozenset[int]:
     """The steps that hang on some steps."""
-    program = standard.mechanism.program
-    return frozenset().union(*(program.descendants(number) for number in overrides))
+    return frozenset().union(*(standard.layout.below(number) for number in overrides))
 
 
 def drawing_error(standard: Standard, field: str, value: float) -> float:

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import Protocol
 
 from graphkin.errors import GraphkinError, Problem
 from graphkin.roster.tables import SEPARATORS, bytes_of, folded
@@ -20,6 +21,7 @@ POSSIBLE = "Points Possible"
 """What Canvas writes, after four blanks, in the row below its head."""
 COMMA = re.compile(r"[0-9]+,[0-9]+")
 POINT = re.compile(r"[0-9]+\.[0-9]+")
+DECIMAL = re.compile(r"[0-9]+(?:\.[0-9]+)?", re.ASCII)
 BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 
 
@@ -47,22 +49,49 @@ class Gradebook:
     bom: bytes
 
 
+class Table(Protocol):
+    """What any gradebook has, however it is written: the name of its file, and its cells."""
+
+    @property
+    def name(self) -> str:
+        """The name of its file."""
+
+    @property
+    def rows(self) -> tuple[tuple[Cell, ...], ...]:
+        """Its cells, row by row, the head first."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where marks go: a column and its head, the student of each line, who of the class is not in.
+
+    Lines count from nought, the head's. ``worth`` is what the gradebook holds the column worth.
+    """
+
+    column: int
+    head: str
+    lines: Mapping[int, str]
+    absent: tuple[str, ...]
+    worth: Fraction | None = None
+
+
 @dataclass(frozen=True)
 class Filled:
-    """A gradebook with marks in it: its bytes, how many, and who of the class is not in it."""
+    """A gradebook with marks in it: its bytes, how many, and who of the class is not in it.
+
+    ``worth`` is what it holds the column worth, where it says so, as Canvas does.
+    """
 
     data: bytes
     column: str
     count: int
     absent: tuple[str, ...]
+    worth: Fraction | None = None
 
 
 def read_gradebook(path: Path) -> Gradebook:
     """An export as it stands. Raises GradebookError where it is no table."""
     data = bytes_of(path)
-    if data.startswith(b"PK\x03\x04"):
-        hint = "export it as CSV, or save it as CSV UTF-8"
-        raise GradebookError(Problem(path.name, "is a spreadsheet file", "a CSV file", hint))
     bom = next((mark for mark in BOMS if data.startswith(mark)), b"")
     coding = BOMS.get(bom, "utf-8").removesuffix("-sig")
     try:
@@ -120,28 +149,22 @@ def cell(raw: str) -> Cell:
     return Cell(raw, bare)
 
 
-def filled(book: Gradebook, marks: Mapping[str, Fraction], column: str | None = None) -> Filled:
+def filled(
+    book: Gradebook,
+    marks: Mapping[str, Fraction],
+    column: str | None = None,
+    ids: Collection[str] = (),
+) -> Filled:
     """The gradebook with the marks in a column, students found by whatever column has their ids.
 
-    Raises GradebookError where that cannot be told.
+    ``ids`` are those of the class who get no mark. Raises GradebookError where that cannot be told.
     """
-    head = [each.text for each in book.rows[0]]
-    where = id_column(book, marks)
-    target = mark_column(book, head, column)
-    comma = writes_comma(book, target)
+    found = places(book, marks, column, ids)
+    comma = writes_comma(book, found.column)
     rows = list(book.rows)
-    met: set[str] = set()
-    twice: list[Problem] = []
-    for line, row in enumerate(book.rows[1:], 1):
-        who = key_of(row, where, marks)
-        if who is None or is_possible(row):
-            continue
-        if who in met:
-            twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
-        met.add(who)
-        rows[line] = with_mark(row, target, mark_text(marks[who], comma), book.separator)
-    if twice:
-        raise GradebookError(twice)
+    for line, who in found.lines.items():
+        text = mark_text(marks[who], comma)
+        rows[line] = with_mark(rows[line], found.column, text, book.separator)
     text = "".join(
         book.separator.join(each.raw for each in row) + end
         for row, end in zip(rows, book.ends, strict=True)
@@ -149,11 +172,39 @@ def filled(book: Gradebook, marks: Mapping[str, Fraction], column: str | None = 
     data = book.bom + text.encode(
         book.coding, "surrogateescape" if book.coding == "cp1250" else "strict"
     )
+    return Filled(data, found.head, len(found.lines), found.absent, found.worth)
+
+
+def places(
+    book: Table, marks: Mapping[str, Fraction], column: str | None, ids: Collection[str] = ()
+) -> Places:
+    """Where the marks go. Raises GradebookError where that cannot be told."""
+    where = id_column(book, {*marks, *ids})
+    target = mark_column(book, [each.text for each in book.rows[0]], column)
+    lines: dict[int, str] = {}
+    twice: list[Problem] = []
+    for line, row in enumerate(book.rows[1:], 1):
+        who = key_of(row, where, marks)
+        if who is None or is_possible(row):
+            continue
+        if who in lines.values():
+            twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
+        lines[line] = who
+    if twice:
+        raise GradebookError(twice)
+    met = set(lines.values())
     absent = tuple(who for who in marks if who not in met)
-    return Filled(data, head[target], len(met), absent)
+    return Places(target, book.rows[0][target].text, lines, absent, worth_of(book, target))
 
 
-def key_of(row: Sequence[Cell], where: int, marks: Mapping[str, Fraction]) -> str | None:
+def worth_of(book: Table, column: int) -> Fraction | None:
+    """The points that Canvas holds a column worth; None where nothing says so."""
+    row = next((row for row in book.rows[1:4] if is_possible(row)), ())
+    text = row[column].text.replace(",", ".") if column < len(row) else ""
+    return Fraction(text) if DECIMAL.fullmatch(text) else None
+
+
+def key_of(row: Sequence[Cell], where: int, marks: Collection[str]) -> str | None:
     """The student of a row; None for one of another class."""
     text = row[where].text if where < len(row) else ""
     return text if text in marks else None
@@ -164,7 +215,7 @@ def is_possible(row: Sequence[Cell]) -> bool:
     return any(each.text == POSSIBLE for each in row[:1])
 
 
-def id_column(book: Gradebook, marks: Mapping[str, Fraction]) -> int:
+def id_column(book: Table, marks: Collection[str]) -> int:
     """The column in which most cells are ids of the class, in whatever language it is named."""
     width = len(book.rows[0])
     counts = [sum(key_of(row, i, marks) is not None for row in book.rows[1:]) for i in range(width)]
@@ -175,11 +226,12 @@ def id_column(book: Gradebook, marks: Mapping[str, Fraction]) -> int:
     return best
 
 
-def mark_column(book: Gradebook, head: Sequence[str], column: str | None) -> int:
+def mark_column(book: Table, head: Sequence[str], column: str | None) -> int:
     """The column for the marks: the one that is named, else the only empty one but feedback."""
     if column is not None:
         found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
         found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
+        found = [i for i in found if not is_comment(head[i])] or found
     else:
         found = [i for i in range(len(head)) if is_open(book, i)]
     if len(found) != 1:
@@ -188,20 +240,25 @@ def mark_column(book: Gradebook, head: Sequence[str], column: str | None) -> int
             if column
             else (f"{len(found)} columns are empty")
         )
-        names = ", ".join(f'"{text}"' for text in head)
+        names = ", ".join(f'"{text}"' for text in head if text)
         raise GradebookError(
             Problem(book.name, words, f"one of {names}", "name the column with --column")
         )
     return found[0]
 
 
-def is_open(book: Gradebook, column: int) -> bool:
+def is_open(book: Table, column: int) -> bool:
     """Whether no student has a mark in a column, and it is none for comments."""
-    name = book.rows[0][column].text.casefold()
-    if name.startswith(("feedback", "commenti", "comentarii")):
+    name = book.rows[0][column].text
+    if not name or is_comment(name):
         return False
     rows = [row for row in book.rows[1:] if not is_possible(row)]
     return all(column >= len(row) or row[column].text in ("", "-") for row in rows)
+
+
+def is_comment(head: str) -> bool:
+    """Whether a column is one for comments."""
+    return head.casefold().startswith(("feedback", "comment", "commenti", "comentarii"))
 
 
 def writes_comma(book: Gradebook, target: int) -> bool:

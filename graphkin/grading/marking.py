@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from math import hypot, isnan
 
+from graphkin.grading.construction_slips import constructions
 from graphkin.grading.diagnosis import Found, diagnosed
+from graphkin.grading.field_slips import of_fields
 from graphkin.grading.follow import Following, followings
 from graphkin.grading.model import BLANK, Answer, Graded, Mark, Status, Taker
-from graphkin.grading.slips import Slip, slips
+from graphkin.grading.slips import Slip
 from graphkin.grading.standard import Standard
+from graphkin.lab.asking import worth
 from graphkin.lab.model import Item
 
 NONE = Fraction()
@@ -28,13 +32,14 @@ class Marker:
     def slips(self) -> tuple[Slip, ...]:
         """Every slip that changes a field."""
         if self.known is None:
-            self.known = slips(self.standard)
+            self.known = (*constructions(self.standard), *of_fields(self.standard))
         return self.known
 
     def mark(self, taker: Taker, answers: Mapping[str, Answer], present: bool = True) -> Graded:
         """The mark of each field of a student's form."""
         given = with_senses(self.standard, answers)
-        read = [field for field in self.standard.key if given[field].is_read]
+        torn = {field for field in self.standard.key if is_torn(self.standard, field, given)}
+        read = [f for f in self.standard.key if given[f].is_read and f not in torn]
         right = tuple(field for field in read if is_right(self.standard, field, given))
         wrong = tuple(field for field in read if field not in right)
         followed = self.followed(given, wrong)
@@ -46,7 +51,7 @@ class Marker:
             mark = self.first_mark(item, given[item.field], right, worth)
             if item.field in wrong:
                 mark = self.lesser(mark, followed.get(item.field), slipped.get(item.field), spent)
-            marks.append(mark)
+            marks.append(replace(mark, torn=item.field in torn))
         return Graded(taker, tuple(marks), present)
 
     def followed(
@@ -92,16 +97,7 @@ class Marker:
     def points(self, item: Item, computed: tuple[str, ...]) -> Fraction:
         """What a field is worth: a segment too short to be measured leaves its points to the value
         that is computed."""
-        worth, segment = self.standard.rubric.points, f"{item.field}_mm"
-        points = worth.get(item.field, NONE)
-        if item.field in computed and self.is_valued(item):
-            return NONE
-        return points + (worth.get(segment, NONE) if segment in computed else NONE)
-
-    def is_valued(self, item: Item) -> bool:
-        """Whether a segment has a field for its value too, worth points."""
-        value = item.field.removesuffix("_mm")
-        return item.what == "segment" and bool(self.standard.rubric.points.get(value))
+        return worth(item, self.standard.rubric.points, computed) or NONE
 
     def first_mark(
         self, item: Item, answer: Answer, right: tuple[str, ...], points: Fraction
@@ -140,30 +136,13 @@ class Marker:
                 slip_share = max(slip_share, rubric.follow)
         follow_share = rubric.follow if follows is not None else 0.0
         if follows is not None and follow_share >= slip_share:
-            name = found.slip.name if found is not None else ""
-            return changed(mark, Status.FOLLOWS, follow_share, follows.source, name, found)
-        if found is not None:
+            earned = mark.points * Fraction(str(follow_share))
+            mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=follows.source)
+        elif found is not None:
             spent.add(found.slip.name)
-            return changed(mark, Status.SLIP, slip_share, "", found.slip.name, found)
-        return mark
-
-
-def changed(
-    mark: Mark, status: Status, share: float, source: str, slip: str, found: Found | None
-) -> Mark:
-    """A mark with the share of its points that a wrong answer earns."""
-    return Mark(
-        mark.item,
-        mark.answer,
-        status,
-        mark.points,
-        mark.points * Fraction(str(share)),
-        mark.expected,
-        mark.tolerance,
-        source,
-        slip,
-        found.odds if found is not None else 0.0,
-    )
+            earned = mark.points * Fraction(str(slip_share))
+            mark = replace(mark, status=Status.SLIP, earned=earned)
+        return mark if found is None else replace(mark, slip=found.slip.name, odds=found.odds)
 
 
 def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, Answer]:
@@ -172,8 +151,21 @@ def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, 
     for field, answer in given.items():
         value = given.get(field.removesuffix(SENSE), BLANK)
         if field.endswith(SENSE) and answer.is_blank and value.signed and value.value:
-            given[field] = Answer(value.text, 1.0 if value.value > 0 else -1.0, signed=True)
+            sign = 1.0 if value.value > 0 else -1.0
+            given[field] = Answer("+" if sign > 0 else "-", sign, signed=True)
     return given
+
+
+def is_torn(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:
+    """Whether a sense says the contrary of the sign that is written before its own value.
+
+    Nobody can tell which of the two is meant, so the sense earns nothing; the value counts by its
+    size. Where no drawing tells the sense, none is asked.
+    """
+    if not field.endswith(SENSE) or sense_is_open(standard, field):
+        return False
+    sense, value = answers[field].value, answers.get(field.removesuffix(SENSE), BLANK)
+    return bool(sense and value.signed and value.value and sense * value.value < 0)
 
 
 def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:

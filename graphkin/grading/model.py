@@ -16,7 +16,8 @@ class Answer:
     """One cell of an answer table: its ``text`` and the number that it states, in the field's unit.
 
     A sense is +1 or -1, counter-clockwise or along the guide positive. ``signed`` tells that a
-    sign was written; ``problem`` says why a cell cannot be read, which is not the same as wrong.
+    sign was written; ``problem`` why a cell cannot be read (number, unit, large, turning, sliding),
+    which is not the same as wrong.
     """
 
     text: str
@@ -55,7 +56,8 @@ class Mark:
 
     ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
     field's unit; ``source`` is the field from whose own value the answer follows, ``slip`` the
-    name of the mistake that gives it, ``odds`` how much better that explains it than chance.
+    name of the mistake that gives it, ``odds`` how much better that explains it than chance;
+    ``torn`` tells of a sense that the sign of its own value contradicts.
     """
 
     item: Item
@@ -68,6 +70,7 @@ class Mark:
     source: str = ""
     slip: str = ""
     odds: float = 0.0
+    torn: bool = False
 
     @property
     def off(self) -> float | None:
@@ -84,13 +87,14 @@ class Taker:
     """A student who takes part: the parameters of the own variant, exact and as written.
 
     ``compute`` are fields too small to be measured, which were to be computed; ``code`` is the
-    opaque name on the sheets.
+    opaque name on the sheets, ``language`` what the class list says of the student's.
     """
 
     student: Student
     settings: Mapping[str, str]
     code: str = ""
     compute: tuple[str, ...] = ()
+    language: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +114,18 @@ class Graded:
     def points(self) -> Fraction:
         """The most that could be earned."""
         return sum((mark.points for mark in self.marks), Fraction())
+
+    @property
+    def pending(self) -> Fraction:
+        """The points of answers that cannot be read, which a person has still to decide."""
+        waiting = (mark.points for mark in self.marks if mark.status is Status.UNREADABLE)
+        return sum(waiting, Fraction())
+
+    @property
+    def share(self) -> Fraction | None:
+        """What was earned, in parts of the points that are decided; None without any."""
+        decided = self.points - self.pending
+        return self.earned / decided if self.present and decided else None
 
     def mark(self, name: str) -> Mark:
         """The mark of a field."""

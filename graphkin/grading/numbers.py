@@ -6,6 +6,7 @@ import re
 from math import isfinite, pi
 
 from graphkin.grading.model import BLANK, Answer
+from graphkin.grading.senses import sense_of
 from graphkin.lab.model import Item
 
 NUMBER = re.compile(
@@ -35,14 +36,8 @@ UNITS: dict[str, dict[str, float]] = {
     "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
 }
 """What units stand for in the unit of the field."""
-SENSES = {
-    +1: "+ +1 1 ccw counter-clockwise counterclockwise anticlockwise anti-clockwise left forward"
-    " trigonometric antiorar antiorario levogiro antiorara inainte sinistrorso avanti away ↺",
-    -1: "- -1 −1 − cw clockwise right backward orar orario destrogiro orara inapoi indietro"
-    " towards antitrigonometric ↻",
-}
-"""Words for a sense, without diacritics: counter-clockwise and along a guide are positive."""
-SENSE_OF = {word: sign for sign, words in SENSES.items() for word in words.split()}
+TURNING = ("omega", "epsilon")
+"""The quantities whose sense is that of a turning; others slide along a guide."""
 
 
 def read_answer(text: str, item: Item) -> Answer:
@@ -51,20 +46,16 @@ def read_answer(text: str, item: Item) -> Answer:
     if not stripped:
         return BLANK
     if item.what == "sense":
-        return read_sense(text, stripped)
+        return read_sense(text, stripped, item.quantity)
     return read_number(text, stripped, item.unit)
 
 
-def read_sense(text: str, stripped: str) -> Answer:
+def read_sense(text: str, stripped: str, quantity: str) -> Answer:
     """A sense by sign or by word, in any of the languages."""
-    import unicodedata
-
-    spread = unicodedata.normalize("NFD", stripped.casefold())
-    word = "".join(sign for sign in spread if not unicodedata.combining(sign))
-    word = re.sub(r"\s*-\s*|\s+", "-", word) if len(word) > 1 else word
-    known = SENSE_OF.get(word, SENSE_OF.get(word.replace("-", "")))
+    turning = quantity in TURNING
+    known = sense_of(stripped, turning=turning) if len(stripped) <= LONGEST else None
     if known is None:
-        return Answer(text, problem=f'"{shown(stripped)}" is no sense: ccw, cw, + or -')
+        return Answer(text, problem="turning" if turning else "sliding")
     return Answer(text, float(known), signed=True)
 
 
@@ -72,22 +63,29 @@ def read_number(text: str, stripped: str, unit: str) -> Answer:
     """A number with a decimal point or comma, and its unit where one is written."""
     found = NUMBER.match(stripped) if len(stripped) <= LONGEST else None
     if found is None:
-        return Answer(text, problem=f'"{shown(stripped)}" is not a number')
+        return Answer(text, problem="number")
     written = plain_unit(stripped[found.end() :])
     known = UNITS.get(unit, {unit: 1.0})
     factor = 1.0 if not written else known.get(written)
     if factor is None:
-        units = ", ".join(known) or "none"
-        if written[0] in ".,_'" or written[0].isdigit():
-            return Answer(text, problem=f'"{shown(stripped)}" is not a number')
-        what = f'"{shown(written)}" is not a unit of this field: {units}'
-        return Answer(text, problem=what)
+        broken = written[0] in ".,_'" or written[0].isdigit()
+        return Answer(text, problem="number" if broken else "unit")
     digits = found["digits"].replace(",", ".")
     value = float(f"{digits}e{found['power'] or 0}") * factor
     if not isfinite(value):
-        return Answer(text, problem=f'"{shown(stripped)}" is too large for a number')
+        return Answer(text, problem="large")
     sign = found["sign"]
     return Answer(text, value if sign in ("", "+") else -value, signed=bool(sign))
+
+
+def rounding(answer: Answer) -> float:
+    """How far a number may be rounded, in parts of it: half a unit of its last digit."""
+    found = NUMBER.match(answer.text.strip())
+    if found is None:
+        return 0.0
+    digits = found["digits"].replace(",", ".")
+    size, places = float(digits), len(digits.partition(".")[2])
+    return 0.5 * 10.0**-places / size if size else 0.0
 
 
 def plain_unit(text: str) -> str:

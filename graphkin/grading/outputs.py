@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
-from graphkin.errors import Problem
+from graphkin.grading.answers import Unread
 from graphkin.grading.book import Class
 from graphkin.grading.feedback import feedback_html, feedback_pages
+from graphkin.grading.languages import language_in
 from graphkin.grading.model import Graded
 from graphkin.grading.report import class_report
 from graphkin.grading.tables import differences, differences_table, marks_table, tolerances_table
 from graphkin.lab.model import Lab
 from graphkin.paper.pdf import write_pdf
 from graphkin.printing.names import stems
-from graphkin.text import Words
+from graphkin.text import Words, words
 
 MARKS, TOLERANCES, REPORT, CHANGES = (
     "marks.csv",
@@ -30,11 +31,23 @@ FEEDBACK = "feedback"
 
 @dataclass(frozen=True)
 class Told:
-    """What is told with the marks: the lab's title, its language, cells that cannot be read."""
+    """What is told with the marks: the lab's title, the language of the report and of whoever has
+    none of the own, cells that cannot be read; the title in other languages.
+    """
 
     title: str
     words: Words
-    unread: Sequence[Problem] = ()
+    unread: Sequence[Unread] = ()
+    titles: Mapping[str, str] = field(default_factory=dict)
+
+    def words_for(self, graded: Graded) -> Words:
+        """The words of a student's own language."""
+        own = language_in(graded.taker.language)
+        return words(own) if own else self.words
+
+    def title_in(self, language: str) -> str:
+        """The lab's title in a language."""
+        return self.titles.get(language, self.title)
 
 
 def report_files(
@@ -61,11 +74,13 @@ def feedback_files(
     names = stems(students, [each.taker.code for each in graded])
     files: dict[str, bytes] = {}
     for each, name in zip(graded, names, strict=True):
+        spoken = told.words_for(each)
+        title = told.title_in(spoken.language)
         if "html" in formats:
-            text = feedback_html(each, told.title, lab.rubric, told.words)
+            text = feedback_html(each, title, lab.rubric, spoken)
             files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
         if "pdf" in formats:
-            pages = feedback_pages(each, told.title, lab.rubric, told.words)
+            pages = feedback_pages(each, title, lab.rubric, spoken)
             files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
     return files
 
@@ -76,5 +91,9 @@ def gradebook_name(path: Path) -> str:
 
 
 def points_by_id(found: Class) -> dict[str, Fraction]:
-    """The points of those who handed in, for a gradebook."""
-    return {each.taker.student.id: each.earned for each in found.result.graded if each.present}
+    """The points of those who handed in and for whom nothing waits, for a gradebook."""
+    return {
+        each.taker.student.id: each.earned
+        for each in found.result.graded
+        if each.present and not each.pending
+    }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from graphkin.curves.style import INK, look, written
@@ -29,8 +30,10 @@ BARS = 10
 """Classes of points, in percent."""
 MOST = 12
 """Slips that are shown."""
-SHORT = 64
-"""Signs of a slip's sentence under its bar."""
+ACROSS = 92
+"""Signs of a line of a slip's sentence above its bar."""
+BAR, LINE, APART, INCH = 0.5, 0.55, 0.4, 0.27
+"""Heights of a bar, a line of text and the gap below a bar, and what one of height is in inches."""
 
 
 def pictures(graded: Sequence[Graded], words: Words, kind: str) -> dict[str, bytes]:
@@ -94,7 +97,7 @@ def worth(graded: Graded) -> list[Mark]:
 
 def distribution(graded: Sequence[Graded], words: Words) -> Figure:
     """How many students reached how many points, in percent."""
-    shares = [float(100 * each.earned / each.points) if each.points else 0.0 for each in graded]
+    shares = [float(100 * each.share) for each in graded if each.share is not None]
     drawn, ax = figure(2.6)
     edges = [i * 100 / BARS for i in range(BARS + 1)]
     ax.hist(shares, bins=edges, color="#1f5fa8", edgecolor="white", linewidth=0.8)
@@ -122,17 +125,28 @@ def slip_counts(graded: Sequence[Graded]) -> list[tuple[str, int, int]]:
 def frequent(graded: Sequence[Graded], words: Words) -> Figure:
     """How many students made each slip."""
     counts = slip_counts(graded)[:MOST]
-    drawn, ax = figure(0.9 + 0.4 * len(counts))
-    ax.barh(range(len(counts)), [c[2] for c in counts], height=0.5, color="#e0b04c")
-    for i, (name, _, students) in enumerate(counts):
-        text = plain(words(SLIPS[name]))
-        text = text if len(text) <= SHORT else text[: SHORT - 1] + "…"
-        ax.text(0, i - 0.34, text, fontsize=7.5, va="bottom", color=INK)
-        ax.text(students, i, f" {students}", va="center", fontsize=8)
+    texts = [wrap(plain(words(SLIPS[name])), ACROSS) for name, _, _ in counts]
+    places, height = stacked([len(lines) for lines in texts])
+    drawn, ax = figure(0.7 + INCH * height)
+    ax.barh(places, [c[2] for c in counts], height=BAR, color="#e0b04c")
+    for y, lines, (_, _, students) in zip(places, texts, counts, strict=True):
+        ax.text(0, y - 0.6 * BAR, "\n".join(lines), fontsize=7.5, va="bottom", color=INK)
+        ax.text(students, y, f" {students}", va="center", fontsize=8)
     ax.set_yticks([])
-    ax.set_ylim(len(counts) - 0.5, -0.8)
+    ax.set_ylim(height, 0)
     ax.set_xlim(0, max(c[2] for c in counts) * 1.08)
     ax.xaxis.get_major_locator().set_params(integer=True)
     ax.set_xlabel(words("class.count_axis"))
     ax.grid(axis="y", visible=False)
     return drawn
+
+
+def stacked(lines: Sequence[int]) -> tuple[list[float], float]:
+    """The middle of each bar below its lines of text, from the top, and the height of all."""
+    places: list[float] = []
+    y = 0.0
+    for count in lines:
+        y += count * LINE + BAR
+        places.append(y - BAR / 2 + 0.1)
+        y += APART
+    return places, y

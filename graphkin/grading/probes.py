@@ -53,7 +53,7 @@ class Probe:
         size = abs(size - found[self.steps[0]]) if self.vector else size
         return size / mm if self.item.what == "segment" else size
 
-    def error(self, found: Mapping[int, Any], paper: Paper, exact: float) -> Any:
+    def error(self, found: Mapping[int, Any], paper: Paper, exact: Any) -> Any:
         """How far the value lies from the exact one in some drawings; a size has no sign."""
         read = self.read(found, paper)
         return read - exact if self.item.what == "place" else abs(read) - abs(exact)

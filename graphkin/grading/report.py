@@ -7,18 +7,22 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from statistics import mean, median
 
-from graphkin.errors import Problem
-from graphkin.grading.html import marked_up, page
-from graphkin.grading.model import Graded, Result, Suspicion
+from graphkin.grading.answers import Answers, Unread
+from graphkin.grading.html import RIGHT, marked_up, page
+from graphkin.grading.languages import language_in
+from graphkin.grading.model import Graded, Result, Suspicion, Taker
+from graphkin.grading.numbers import shown
 from graphkin.grading.pictures import pictures, slip_counts
 from graphkin.grading.rows import SLIPS
+from graphkin.grading.rows import unread as unread_words
+from graphkin.roster.model import Student
 from graphkin.text import Words
 
 NAMED = 5
 """Students that are named of many with the same data."""
 
 
-def class_report(result: Result, title: str, unread: Sequence[Problem], words: Words) -> str:
+def class_report(result: Result, title: str, unread: Sequence[Unread], words: Words) -> str:
     """The report as a page for a browser, its pictures within."""
     pngs = pictures(result.graded, words, "png")
     body = [f"<h1>{escape(words('class.title'))}</h1>", f"<p>{escape(title)}</p>"]
@@ -28,20 +32,24 @@ def class_report(result: Result, title: str, unread: Sequence[Problem], words: W
             body += [f"<h2>{escape(words(key))}</h2>", picture(pngs[name], words(key))]
     body += slips_section(result.graded, pngs, words)
     body += evidence_sections(result, words)
-    body += lines_section(words("class.unread"), unread_lines(unread))
+    students = [each.taker.student for each in result.graded]
+    body += lines_section(words("class.unread"), unread_lines(students, unread, words))
+    body += lines_section(words("class.absent"), absent_lines(result))
     body += lines_section(words("class.unsure"), unsure_lines(result, words))
     return page(f"{title} – {words('class.title')}", words.language, body)
 
 
 def summary(graded: Sequence[Graded], words: Words) -> str:
     """How many handed in, and how they did."""
-    shares = [float(100 * g.earned / g.points) for g in graded if g.present and g.points]
+    shares = [float(100 * g.share) for g in graded if g.share is not None]
     amounts = {
         name: words.fixed(found(shares), 1) if shares else "–"
         for name, found in (("mean", mean), ("median", median))
     }
     present = sum(each.present for each in graded)
-    return words("class.summary", present=present, all=len(graded), **amounts)
+    text = words("class.summary", present=present, all=len(graded), **amounts)
+    waiting = sum(bool(each.pending) for each in graded)
+    return f"{text}; {words('class.pending', count=waiting)}" if waiting else text
 
 
 def picture(png: bytes, text: str) -> str:
@@ -60,8 +68,8 @@ def slips_section(graded: Sequence[Graded], pngs: dict[str, bytes], words: Words
     if "slips" in pngs:
         yield picture(pngs["slips"], words("class.frequent"))
     heads = "".join(
-        f"<th>{escape(words(key))}</th>"
-        for key in ("class.slip_name", "class.students", "class.times")
+        f'<th scope="col"{RIGHT if i else ""}>{escape(words(key))}</th>'
+        for i, key in enumerate(("class.slip_name", "class.students", "class.times"))
     )
     yield f"<table><tr>{heads}</tr>"
     for name, answers, students in counts:
@@ -75,8 +83,6 @@ def slips_section(graded: Sequence[Graded], pngs: dict[str, bytes], words: Words
 def evidence_sections(result: Result, words: Words) -> Iterator[str]:
     """Wrong variants and copies; nothing where there is no evidence."""
     names = {each.taker.student.id: name_of(each) for each in result.graded}
-    if result.wrong_variants or result.copies:
-        yield f'<p class="small">{escape(words("class.evidence"))}</p>'
     yield from lines_section(
         words("class.wrong_variant"),
         (wrong_variant_words(each, names, words) for each in result.wrong_variants),
@@ -84,11 +90,17 @@ def evidence_sections(result: Result, words: Words) -> Iterator[str]:
     yield from lines_section(
         words("class.copies"), (copies_words(each, names, words) for each in result.copies)
     )
+    if result.wrong_variants or result.copies:
+        yield f'<p class="small">{escape(words("class.evidence"))}</p>'
 
 
 def name_of(graded: Graded) -> str:
     """A student by name and id."""
-    student = graded.taker.student
+    return named(graded.taker.student)
+
+
+def named(student: Student) -> str:
+    """The same of a class list."""
     return f"{student.name} ({student.id})" if student.name else student.id
 
 
@@ -127,10 +139,44 @@ def odds_words(odds: float, words: Words) -> str:
     return words.significant(min(odds, 1e30), 1)
 
 
-def unread_lines(unread: Iterable[Problem]) -> Iterator[str]:
-    """The cells that cannot be read."""
-    for problem in unread:
-        yield str(problem)
+def unread_lines(
+    students: Iterable[Student], unread: Iterable[Unread], words: Words
+) -> Iterator[str]:
+    """The cells that cannot be read, each in a sentence."""
+    names = {student.id: named(student) for student in students}
+    for cell in unread:
+        yield words(
+            "unread.row",
+            file=cell.file,
+            row=cell.row,
+            who=names.get(cell.who, cell.who),
+            field=cell.field,
+            text=shown(cell.text.strip()),
+            why=unread_words(cell.problem, cell.unit, words),
+        )
+
+
+def stranger_lines(given: Answers, words: Words) -> Iterator[str]:
+    """Columns that are no fields, and fields that have no column."""
+    for each in given.strangers:
+        near = f"; {words('class.meant', field=each.near)}" if each.near else ""
+        yield words("class.stranger", file=each.file, name=each.name) + near
+    if given.missing:
+        yield words("class.unanswered", fields=", ".join(given.missing))
+
+
+def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
+    """Students for whom the class list names a language that is none of the pages'."""
+    for taker in takers:
+        if taker.language and language_in(taker.language) is None:
+            yield words("class.no_language", who=named(taker.student), text=shown(taker.language))
+
+
+def absent_lines(result: Result) -> Iterator[str]:
+    """Those who handed in nothing."""
+    for each in result.graded:
+        if not each.present:
+            yield name_of(each)
 
 
 def unsure_lines(result: Result, words: Words) -> Iterator[str]:

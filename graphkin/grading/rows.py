@@ -8,7 +8,7 @@ from math import isnan
 
 from graphkin.errors import PageError
 from graphkin.grading.model import Graded, Mark, Status
-from graphkin.grading.numbers import shown
+from graphkin.grading.numbers import TURNING, shown
 from graphkin.paper.glyphs import advance
 from graphkin.paper.richtext import escape
 from graphkin.text import Words
@@ -63,8 +63,21 @@ SENSES = {
 PLAIN = {
     Status.RIGHT: "feedback.right",
     Status.BLANK: "feedback.blank",
-    Status.UNREADABLE: "feedback.unreadable",
 }
+UNREAD = {
+    "number": "unread.number",
+    "unit": "unread.unit",
+    "large": "unread.large",
+    "turning": "unread.turning",
+    "sliding": "unread.sliding",
+}
+"""The sentence for each reason why a cell cannot be read."""
+REVERSED = "sense_reversed"
+MANIFOLD = 2.0
+"""From so many times on an answer is told beside the expected value, not beside its tolerance."""
+BARELY = 1.05
+"""Up to so many tolerances an answer is just over."""
+SCORE, MOST = 20, 1e99
 POWERS = {"²": "^2"}
 
 
@@ -92,7 +105,7 @@ def row_of(graded: Graded, mark: Mark, words: Words) -> Row:
         off_words(mark, words),
         words(
             "feedback.of_points",
-            earned=points_words(mark.earned, words),
+            earned=points_words(mark.earned, words) if is_decided(mark) else "?",
             points=points_words(mark.points, words),
         ),
     )
@@ -130,7 +143,7 @@ def value_words(mark: Mark, words: Words, value: float) -> str:
     """A value of a field as the page writes it."""
     item = mark.item
     if item.what == "sense":
-        turning = item.quantity in ("omega", "epsilon")
+        turning = item.quantity in TURNING
         return words(SENSES[turning, value > 0]) if value else "0"
     if isnan(value):
         return "–"
@@ -152,28 +165,67 @@ def off_words(mark: Mark, words: Words) -> str:
 
 def why(graded: Graded, mark: Mark, words: Words) -> str:
     """Why a field earned what it did, in a sentence."""
+    if mark.status is Status.UNREADABLE:
+        reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words)
+        return words("feedback.unreadable", why=reason)
     if mark.status in PLAIN:
         return words(PLAIN[mark.status])
-    share = percent(mark)
-    parts = []
+    if mark.torn:
+        return words("feedback.torn")
+    if mark.item.what == "sense":
+        parts = [words("feedback.wrong_sense"), *advice(mark, words)]
+    elif mark.status is Status.FOLLOWS:
+        parts = []
+    else:
+        parts = [far(mark, words)]
     if mark.status is Status.FOLLOWS:
         source = next(each.item for each in graded.marks if each.item.field == mark.source)
-        parts.append(words("feedback.follows", source=source.symbol, share=share))
-    else:
-        parts.append(far(mark, words))
-    if mark.slip:
+        parts.append(words("feedback.follows", source=source.symbol, share=percent(mark)))
+    elif mark.slip and mark.slip != REVERSED:
         parts.append(words("feedback.guess", slip=words(SLIPS[mark.slip])))
     if mark.status is Status.SLIP and mark.earned:
-        parts.append(words("feedback.share", share=share))
+        parts.append(words("feedback.share", share=percent(mark)))
     return "; ".join(parts)
 
 
+def advice(mark: Mark, words: Words) -> list[str]:
+    """How a sense of turning is told from the drawing."""
+    turning = mark.slip == REVERSED and mark.item.quantity in TURNING
+    return [words("feedback.turning_advice")] if turning else []
+
+
+def unread(problem: str, unit: str, words: Words) -> str:
+    """Why a cell cannot be read, and what could be."""
+    return words(UNREAD[problem], unit=unit)
+
+
+def is_decided(mark: Mark) -> bool:
+    """Whether the points of a field are settled."""
+    return mark.status is not Status.UNREADABLE
+
+
 def far(mark: Mark, words: Words) -> str:
-    """How far off an answer is, in tolerances."""
-    if mark.item.what == "sense":
-        return words("feedback.wrong_sense")
-    times = abs(mark.off or 0.0) / mark.tolerance if mark.tolerance else 0.0
-    return words("feedback.wrong", times=words.significant(times, 2))
+    """How far off an answer is: how many times too large or small, or beside what is allowed."""
+    size, right = abs(mark.answer.value or 0.0), abs(mark.expected)
+    if mark.item.what != "place" and right:
+        if not size:
+            return words("feedback.nought")
+        if size >= MANIFOLD * right:
+            return words("feedback.too_large", times=times(size / right, words))
+        if right >= MANIFOLD * size:
+            return words("feedback.too_small", times=times(right / size, words))
+    off = abs(mark.off or 0.0) / mark.tolerance if mark.tolerance else 0.0
+    if off < BARELY:
+        return words("feedback.just_over")
+    return words("feedback.wrong", times=times(off, words))
+
+
+def times(number: float, words: Words) -> str:
+    """So many times, as a language says it: from twenty on some put a word after it."""
+    number = min(number, MOST)
+    text = words.significant(number, 2)
+    text = text if number >= 10 else words.decimal(f"{number:.1f}".removesuffix(".0"))
+    return words("feedback.many", times=text) if round(number) >= SCORE else text
 
 
 def percent(mark: Mark) -> str:

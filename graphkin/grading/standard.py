@@ -9,13 +9,14 @@ from typing import Any
 
 from graphkin.arithmetic import FLOAT
 from graphkin.grading.probes import Probe, probes, targets_of
-from graphkin.grading.tolerance import Tolerance, tolerances
+from graphkin.grading.tolerance import Tolerance, pencil_errors, readings_of, tolerances
 from graphkin.lab.model import Item, Rubric
 from graphkin.mechanism import Mechanism
 from graphkin.pencil.marks import Paper
 from graphkin.pencil.original import Original, Scales, original
+from graphkin.pencil.pencil import Pencil
 from graphkin.scaling import scales
-from graphkin.steps.program import Program
+from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, run
 
 NOTHING: Mapping[int, Any] = {}
@@ -36,30 +37,87 @@ class Expectation:
 
 
 @dataclass(frozen=True)
-class Standard:
-    """One variant: its construction without errors at the scales of its sheets, and its form."""
+class Layout:
+    """How the fields of a form are read off a construction; all variants of a program share it.
 
-    mechanism: Mechanism
-    scales: Scales
+    ``targets`` are what must be constructed for that.
+    """
+
+    program: Program
     items: tuple[Item, ...]
-    rubric: Rubric
-    computed: tuple[str, ...] = ()
-    """The fields that are too small to be measured."""
-
-    @cached_property
-    def exact(self) -> Original:
-        """The construction, by hand, without errors."""
-        return original(self.mechanism, self.scales, targets_of(self.mechanism, self.items))
-
-    @cached_property
-    def probes(self) -> tuple[Probe, ...]:
-        """How each field is read off it."""
-        return probes(self.mechanism, self.items)
+    probes: tuple[Probe, ...]
+    targets: tuple[Target, ...]
 
     @cached_property
     def by_field(self) -> Mapping[str, Probe]:
         """The probe of each field."""
         return {probe.item.field: probe for probe in self.probes}
+
+    @cached_property
+    def needed(self) -> tuple[int, ...]:
+        """The steps from which the fields follow, composite ones by value."""
+        wanted = {step for probe in self.probes for step in probe.steps}
+        steps = self.program.steps
+        for number in range(len(steps) - 1, -1, -1):
+            if number in wanted:
+                wanted.update(steps[number].args)
+        return tuple(sorted(wanted))
+
+    @cached_property
+    def followers(self) -> dict[int, frozenset[int]]:
+        """The steps that hang on each step, itself included, as far as it was asked for."""
+        return {}
+
+    def below(self, number: int) -> frozenset[int]:
+        """The steps that hang on a step, itself included."""
+        if number not in self.followers:
+            self.followers[number] = self.program.descendants(number)
+        return self.followers[number]
+
+
+def layout(mechanism: Mechanism, items: Iterable[Item]) -> Layout:
+    """How the fields are read off a mechanism's construction."""
+    form = tuple(items)
+    program = mechanism.program
+    return Layout(program, form, probes(mechanism, form), targets_of(mechanism, form))
+
+
+@dataclass(frozen=True)
+class Standard:
+    """One variant: its construction by hand without errors at the scales of its sheets, its form.
+
+    ``errors`` are those of the pencil for each field but senses, where they were worked out for
+    many variants at once.
+    """
+
+    mechanism: Mechanism
+    scales: Scales
+    layout: Layout
+    exact: Original
+    rubric: Rubric
+    computed: tuple[str, ...] = ()
+    """The fields that are too small to be measured."""
+    errors: tuple[float, ...] | None = None
+
+    @property
+    def items(self) -> tuple[Item, ...]:
+        """The fields of the form."""
+        return self.layout.items
+
+    @property
+    def probes(self) -> tuple[Probe, ...]:
+        """How each field is read off it."""
+        return self.layout.probes
+
+    @property
+    def by_field(self) -> Mapping[str, Probe]:
+        """The probe of each field."""
+        return self.layout.by_field
+
+    @property
+    def needed(self) -> tuple[int, ...]:
+        """The steps from which the fields follow, composite ones by value."""
+        return self.layout.needed
 
     @cached_property
     def key(self) -> Mapping[str, float]:
@@ -69,22 +127,18 @@ class Standard:
     @cached_property
     def tolerance(self) -> Mapping[str, Tolerance]:
         """How far each field but senses may be off."""
-        return tolerances(self.probes, self.key, self.exact, self.rubric, self.computed)
+        readings = readings_of(self.probes, self.key, self.exact)
+        errors = self.errors
+        if errors is None:
+            errors = pencil_errors(
+                readings, self.exact, Pencil(self.rubric.point, self.rubric.line)
+            )
+        return tolerances(readings, errors, self.rubric, self.computed)
 
     @cached_property
     def expectation(self) -> Expectation:
         """What is expected, for reports."""
         return Expectation(self.items, self.key, self.tolerance)
-
-    @cached_property
-    def needed(self) -> tuple[int, ...]:
-        """The steps from which the fields follow, composite ones by value."""
-        wanted = {step for probe in self.probes for step in probe.steps}
-        steps = self.mechanism.program.steps
-        for number in range(len(steps) - 1, -1, -1):
-            if number in wanted:
-                wanted.update(steps[number].args)
-        return tuple(sorted(wanted))
 
     @property
     def paper(self) -> Paper:
@@ -101,18 +155,30 @@ class Standard:
     def rerun(
         self, overrides: Mapping[int, Any], program: Program | None = None
     ) -> Mapping[int, Any]:
-        """The construction with some values put in place of its own; nothing if it fails."""
-        written = program or self.mechanism.program
-        given = dict(self.mechanism.trial_rates)
-        if written.seconds is not None:
-            given[written.seconds] = self.scales.seconds
+        """The construction with some values put in place of its own, or with other steps in its
+        program; nothing if it fails. What hangs on none of these stays as it is.
+        """
+        written = program or self.layout.program
+        exact = self.exact.trace.values
+        again = self.changed(overrides, written)
+        steps = [n for n in self.needed if n in again or n not in exact]
+        given = {arg: exact[arg] for n in steps for arg in written.steps[n].args if arg in exact}
+        kept = {arg: value for arg, value in given.items() if arg not in again}
         values = self.mechanism.scene.values_in(FLOAT)
         try:
-            return run(
-                written, self.needed, values, FLOAT, overrides=given | dict(overrides)
-            ).values
+            told = run(
+                written, sorted({*steps, *kept}), values, FLOAT, overrides=kept | dict(overrides)
+            )
         except StepFailed:
             return NOTHING
+        return {**exact, **told.values}
+
+    def changed(self, overrides: Mapping[int, Any], program: Program) -> frozenset[int]:
+        """The steps that hang on a value put in place of another, or on another step."""
+        own = self.layout.program.steps
+        other = () if program is self.layout.program else range(len(own))
+        roots = [*overrides, *(n for n in other if program.steps[n] is not own[n])]
+        return frozenset().union(*(self.layout.below(number) for number in roots))
 
     def told(
         self,
@@ -136,4 +202,6 @@ def standard(
     mechanism: Mechanism, items: Iterable[Item], rubric: Rubric, computed: Iterable[str] = ()
 ) -> Standard:
     """What the answers to a variant are held against, at the scales of its sheets."""
-    return Standard(mechanism, scales(mechanism), tuple(items), rubric, tuple(computed))
+    chosen, form = scales(mechanism), layout(mechanism, items)
+    exact = original(mechanism, chosen, form.targets)
+    return Standard(mechanism, chosen, form, exact, rubric, tuple(computed))

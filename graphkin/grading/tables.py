@@ -8,11 +8,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from graphkin.grading.model import Graded
+from graphkin.grading.model import Graded, Mark, Status
 from graphkin.grading.standard import Expectation
 from graphkin.roster.written import csv_text
 
-BEFORE = ("row", "number", "id", "name", "group", "points", "of", "percent")
+BEFORE = ("row", "number", "id", "name", "group", "points", "of", "percent", "pending")
 WHY = " why"
 
 
@@ -28,7 +28,10 @@ def written(lines: Iterable[Sequence[object]]) -> bytes:
 
 
 def marks_table(graded: Sequence[Graded], extra: Sequence[str] = ()) -> bytes:
-    """A row for each student in the order of the class: points of each field, and why."""
+    """A row for each student in the order of the class: points of each field, and why.
+
+    ``percent`` is of the points that are decided; ``pending`` are those that wait.
+    """
     fields = [mark.item.field for mark in graded[0].marks if mark.points] if graded else []
     head = [*BEFORE, *fields, *(f"{name}{WHY}" for name in fields), *extra]
     return written([head, *(marks_row(each, fields, extra) for each in graded)])
@@ -38,7 +41,7 @@ def marks_row(graded: Graded, fields: Sequence[str], extra: Sequence[str]) -> li
     """One student's row."""
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
-    percent = 100 * graded.earned / graded.points if graded.points else Fraction()
+    share = graded.share
     return [
         str(student.row),
         "" if student.number is None else str(student.number),
@@ -47,17 +50,23 @@ def marks_row(graded: Graded, fields: Sequence[str], extra: Sequence[str]) -> li
         student.group,
         number(graded.earned) if graded.present else "",
         number(graded.points),
-        f"{float(percent):.1f}" if graded.present else "",
-        *(number(marks[name].earned) if graded.present else "" for name in fields),
+        f"{float(100 * share):.1f}" if share is not None else "",
+        number(graded.pending) if graded.pending else "",
+        *(points_cell(marks[name]) if graded.present else "" for name in fields),
         *(reason(graded, name) if graded.present else "" for name in fields),
         *(student.extra.get(name, "") for name in extra),
     ]
 
 
+def points_cell(mark: Mark) -> str:
+    """The points of a field; empty while an answer that cannot be read waits for a decision."""
+    return number(mark.earned) if mark.status is not Status.UNREADABLE else ""
+
+
 def reason(graded: Graded, name: str) -> str:
     """What was found of a field, in plain words: right, follows v_BA_mm, slip rpm_as_rad."""
     mark = graded.mark(name)
-    parts = [mark.status.value, mark.source] + ([mark.slip] if mark.slip else [])
+    parts = (mark.status.value, mark.source, mark.slip, "contradicts its sign" if mark.torn else "")
     return " ".join(part for part in parts if part)
 
 

@@ -54,37 +54,45 @@ class Reading:
         return self.probe.error(found, self.exact.paper, self.value)
 
 
-def tolerances(
-    probes: Sequence[Probe],
-    key: Mapping[str, float],
-    exact: Original,
-    rubric: Rubric,
-    computed: Collection[str] = (),
-) -> dict[str, Tolerance]:
-    """The tolerance of each field of a form, senses left out; never above the cap where a field is
-    computed instead of measured.
-    """
-    readings = [
+def readings_of(
+    probes: Sequence[Probe], key: Mapping[str, float], exact: Original
+) -> list[Reading]:
+    """The fields of a form but senses, as the forecast of the pencil wants them."""
+    return [
         Reading(probe, exact, key[probe.item.field])
         for probe in probes
         if probe.item.what != "sense"
     ]
-    found = pencil_errors(readings, exact, Pencil(rubric.point, rubric.line))
-    size = extent(exact)
+
+
+def tolerances(
+    readings: Sequence[Reading],
+    errors: Sequence[float],
+    rubric: Rubric,
+    computed: Collection[str] = (),
+) -> dict[str, Tolerance]:
+    """The tolerance of each field from the pencil's error of it; never above the cap where a field
+    is computed instead of measured.
+    """
+    if not readings:
+        return {}
+    size = extent(readings[0].exact)
     return {
         (field := reading.probe.item.field): combined(
             reading, error, rubric, size, drawn=field not in computed
         )
-        for reading, error in zip(readings, found, strict=True)
+        for reading, error in zip(readings, errors, strict=True)
     }
 
 
-def pencil_errors(readings: Sequence[Reading], exact: Original, pencil: Pencil) -> list[float]:
+def pencil_errors(
+    readings: Sequence[Reading], exact: Original, pencil: Pencil
+) -> tuple[float, ...]:
     """The 95th percentile of the error of each field over drawings with a pencil."""
     import numpy as np
 
     if not readings:
-        return []
+        return ()
     owners, errors = sources(exact)
     drawings = redrawn(exact, pencil, errors)
     count = 2 * len(owners)
@@ -93,22 +101,22 @@ def pencil_errors(readings: Sequence[Reading], exact: Original, pencil: Pencil) 
     if bent.any():
         joint = joint_errors(readings, exact, pencil)
         found = np.where(bent, joint, found)
-    return [float(error) for error in found]
+    return tuple(float(error) for error in found)
 
 
 def added(off: Any) -> tuple[Any, Any]:
-    """The 95th percentile of each field from single errors at both their nodes; and where errors
-    do not just add up, or a drawing does not close.
+    """The 95th percentile of each field from single errors at both their nodes, which the last two
+    axes hold; and where errors do not just add up, or a drawing does not close.
 
     A scaled chi-square of the same mean and variance stands for the square, as in the forecast.
     """
     import numpy as np
 
     with np.errstate(all="ignore"):
-        mean = WEIGHT * off.sum(axis=2)
-        variance = (WEIGHT * (off * off).sum(axis=2) - mean * mean).sum(axis=1)
-        bent = ~(abs(mean).sum(axis=1) <= BENT * np.sqrt(variance))
-        drift = mean.sum(axis=1) ** 2
+        mean = WEIGHT * off.sum(axis=-1)
+        variance = (WEIGHT * (off * off).sum(axis=-1) - mean * mean).sum(axis=-1)
+        bent = ~(abs(mean).sum(axis=-1) <= BENT * np.sqrt(variance))
+        drift = mean.sum(axis=-1) ** 2
         size = variance + drift
         lack = (2 * variance**2 + 4 * drift * variance) / (9 * size**2)
         share = (1 - lack + NORMAL_95 * np.sqrt(lack)) ** 3

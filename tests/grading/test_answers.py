@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import unicodedata
+
 import pytest
 
-from graphkin.grading.answers import read_answers
-from graphkin.grading.numbers import read_answer
+from graphkin.grading.answers import Unread, read_answers
+from graphkin.grading.model import Answer
+from graphkin.grading.numbers import read_answer, rounding
 from graphkin.lab.model import Item
 from graphkin.roster.errors import RosterError
 
@@ -14,6 +17,7 @@ SPEED = Item("v_D", "value", "v", "m/s", "velocity", "D")
 RATE = Item("omega_3", "value", "ω", "rad/s", "omega", "3")
 HARD = Item("a_D", "value", "a", "m/s²", "acceleration", "D")
 SENSE = Item("omega_3_sense", "sense", "ω", "", "omega", "3")
+SLIDING = Item("v_slide_2_sense", "sense", "v", "", "slide speed", "2")
 FORM = (LENGTH, SPEED, RATE, SENSE)
 IDS = ("001", "002", "ĂÎ-3")
 
@@ -78,40 +82,6 @@ def test_nothing_is_not_answered(text):
     assert read_answer(text, SENSE).is_blank
 
 
-@pytest.mark.parametrize(
-    ("text", "sign"),
-    [
-        ("ccw", 1),
-        ("CCW", 1),
-        ("+", 1),
-        ("+1", 1),
-        ("counter-clockwise", 1),
-        ("counter clockwise", 1),
-        ("anticlockwise", 1),
-        ("trigonometric", 1),
-        ("Trigonometric", 1),
-        ("antiorar", 1),
-        ("antiorario", 1),
-        ("înainte", 1),
-        ("cw", -1),
-        ("-", -1),
-        ("−", -1),
-        ("clockwise", -1),
-        ("orar", -1),
-        ("orario", -1),
-        ("înapoi", -1),
-        ("indietro", -1),
-    ],
-)
-def test_senses_are_words_of_three_languages_or_signs(text, sign):
-    assert read_answer(text, SENSE).value == sign
-
-
-@pytest.mark.parametrize("text", ["left-handed", "0", "?", "sus", "ccww"])
-def test_other_words_are_no_sense(text):
-    assert read_answer(text, SENSE).problem
-
-
 def written(folder, name, text):
     path = folder / name
     path.write_text(text, encoding="utf-8")
@@ -126,9 +96,80 @@ def test_a_table_with_semicolons_a_mark_and_strange_columns(tmp_path):
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["001"]["omega_3_sense"].value == -1
     assert found.of["ĂÎ-3"]["v_D_mm"].is_blank
-    assert [problem.place for problem in found.unread] == ['a.csv, row 3, column "v_D"']
+    assert found.unread == [Unread("a.csv", 3, "ĂÎ-3", "v_D", "abc", "number", "m/s")]
     assert found.missing == ["omega_3"]
-    assert "comment" in found.strangers[0]
+    assert [(each.file, each.name) for each in found.strangers] == [("a.csv", "comment")]
+
+
+def test_columns_of_a_class_list_are_passed_over(tmp_path):
+    text = "Nr.;Matricol;Nume și prenume;Grupa;Limba;v_D;v_DD\n1;001;Popa Ion;A;ro;3,8;1\n"
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    assert found.of["001"]["v_D"].value == 3.8
+    assert [(each.name, each.near) for each in found.strangers] == [("v_DD", "v_D")]
+    form = "field;value\nname;Popa Ion\ngrupa;A\nv_D;3,8\n"
+    found = read_answers(written(tmp_path, "002.csv", form), FORM, IDS)
+    assert found.of["002"]["v_D"].value == 3.8
+    assert not found.strangers
+
+
+def test_a_student_may_sign_with_the_code_on_the_sheets(tmp_path):
+    text = "id,v_D\nQWERTYUIOP,3.8\n002,1\n"
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS, {"QWERTYUIOP": "001"})
+    assert found.of["001"]["v_D"].value == 3.8
+    with pytest.raises(RosterError, match="has answers already"):
+        read_answers(written(tmp_path, "a.csv", text + "001,2\n"), FORM, IDS, {"QWERTYUIOP": "001"})
+
+
+def test_an_id_in_loose_letters_is_the_same_id(tmp_path):
+    text = "id,v_D\n" + unicodedata.normalize("NFD", "ĂÎ-3") + ",1\n"
+    assert "ĂÎ-3" in read_answers(written(tmp_path, "a.csv", text), FORM, IDS).of
+
+
+@pytest.mark.parametrize(
+    ("text", "item", "problem"),
+    [
+        ("twelve", SPEED, "number"),
+        ("12,3,4", SPEED, "number"),
+        ("12 kg", SPEED, "unit"),
+        ("3 mm", RATE, "unit"),
+        ("1e400", SPEED, "large"),
+        ("sus", SENSE, "turning"),
+        ("orar", SLIDING, "sliding"),
+    ],
+)
+def test_what_cannot_be_read_says_why(text, item, problem):
+    assert read_answer(text, item).problem == problem
+
+
+def test_every_broken_file_of_a_folder_is_told(tmp_path):
+    written(tmp_path, "001.csv", 'field,value\nv_D,"1\n')
+    written(tmp_path, "003.csv", "field,value\nv_D,1\n")
+    (tmp_path / "002.csv").write_bytes(b"field,value\nv_D,\xff\n")
+    with pytest.raises(RosterError) as error:
+        read_answers(tmp_path, FORM, IDS)
+    told = "\n".join(str(problem) for problem in error.value.problems)
+    assert all(f"00{n}" in told for n in (1, 2, 3))
+
+
+SVG = """<?xml version="1.0"?>
+<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>
+<svg xmlns="http://www.w3.org/2000/svg"><script>alert(1)</script><text>&b;</text></svg>
+"""
+
+
+def test_a_drawing_is_no_table_of_answers(tmp_path):
+    """Nothing of an SVG is ever read, expanded or shown again."""
+    with pytest.raises(RosterError, match=r"no column id|cannot be read|quote"):
+        read_answers(written(tmp_path, "001.svg", SVG), FORM, IDS)
+    with pytest.raises(RosterError, match="without any table"):
+        read_answers(tmp_path, FORM, IDS)
+
+
+@pytest.mark.parametrize(
+    ("text", "share"), [("2,1", 0.05 / 2.1), ("27", 0.5 / 27), ("4,10", 0.005 / 4.1), ("", 0.0)]
+)
+def test_a_number_is_rounded_by_half_a_unit_of_its_last_digit(text, share):
+    assert rounding(Answer(text)) == pytest.approx(share)
 
 
 def test_everything_wrong_with_the_rows_is_told_at_once(tmp_path):
@@ -158,7 +199,7 @@ def test_a_folder_with_a_file_for_each_student(tmp_path):
     found = read_answers(tmp_path, FORM, IDS)
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["002"]["v_D"].value == 3.8
-    assert "v_DD" in found.strangers[0]
+    assert [each.name for each in found.strangers] == ["v_DD"]
     assert found.missing == ["omega_3"]
 
 
@@ -176,3 +217,11 @@ def test_answers_in_a_spreadsheet(tmp_path):
     found = read_answers(tmp_path / "a.xlsx", FORM, IDS)
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["001"]["omega_3_sense"].value == -1
+
+
+def test_what_a_row_breaks_is_told_with_all_else(tmp_path):
+    text = "id,v_D\n001,1,2\n009,1\n,4\n"
+    with pytest.raises(RosterError) as error:
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    rows = [problem.place.partition(", row ")[2][0] for problem in error.value.problems]
+    assert rows == ["2", "3", "4"]

@@ -12,10 +12,10 @@ from graphkin.grading.marking import Marker
 from graphkin.grading.model import Answer, Status
 from graphkin.grading.numbers import read_answer
 from graphkin.grading.rows import SLIPS
-from graphkin.grading.slips import NAMES
 from graphkin.grading.standard import Standard, standard
 from graphkin.lab.items import items
 from graphkin.lab.model import Lab, Rubric
+from graphkin.lab.slip_names import NAMES
 from graphkin.text import LANGUAGES, words
 from tests.grading.students import LABS, book_of, given, key_answers, lab_of, marker_of, taker
 

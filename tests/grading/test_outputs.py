@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import csv
+import errno
 import io
+import os
 import re
+import signal
+import subprocess
+import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -16,6 +21,7 @@ from graphkin.cli import app
 from graphkin.grading.book import Class, graded_class
 from graphkin.grading.feedback import feedback_html, feedback_pages
 from graphkin.grading.gradebook import GradebookError, filled, read_gradebook
+from graphkin.grading.languages import language_in
 from graphkin.grading.model import Answer, Taker
 from graphkin.grading.outputs import Told, report_files
 from graphkin.grading.rows import rows
@@ -32,7 +38,7 @@ def small_class(**changes: float) -> Class:
     """Two students of the pump, one with a hostile name and some answers changed, one absent."""
     marker = marker_of("pump", 7)
     answers = {"=1+1": {**key_answers(marker.standard), **given(changes)}}
-    answers["=1+1"]["v_D"] = Answer("<b>3,8,2</b>", problem="no number")
+    answers["=1+1"]["v_D"] = Answer("<b>3,8,2</b>", problem="number")
     takers = [
         Taker(Student(2, "=1+1", 7, HOSTILE, "=cmd"), {"n": "7"}, "ABCDEFGHIJ"),
         Taker(Student(3, "0002", 8, "Ana", "321"), {"n": "8"}, "KLMNOPQRST"),
@@ -227,6 +233,7 @@ def test_the_command_marks_a_class_and_fills_the_gradebook(folder):
         assert (folder / "out" / name).is_file()
     text = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
     assert f"A,{table['0001']['points']},88.5" in text
+    assert "„Lab 3 (4711)” valorează acolo 24 puncte, iar lucrarea 20,5" in found.output
     assert "stefan,A,," in text
 
 
@@ -246,8 +253,146 @@ def test_cells_that_cannot_be_read_are_told_with_status_1(folder):
     (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;1 9_"), encoding="utf-8")
     found = run(folder)
     assert found.exit_code == 1
-    assert 'row 2, column "v_D_mm"' in found.output
-    assert (folder / "out" / "marks.csv").is_file()
+    assert "answers.csv, rândul 2, O'Neil, Ana (0001), v_D_mm: „1 9_" in found.output
+    table = read_marks((folder / "out" / "marks.csv").read_bytes())
+    assert table["0001"]["v_D_mm"] == ""
+    assert table["0001"]["pending"] == "2"
+    assert table["0001"]["percent"] == "100.0"
+    english = run(folder, "--lang", "en", "--force")
+    assert "answers.csv, row 2, O'Neil, Ana (0001), v_D_mm: “1 9_" in english.output
+
+
+def test_a_gradebook_waits_for_points_that_wait(folder):
+    text = (folder / "answers.csv").read_text(encoding="utf-8")
+    (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;1 9_"), encoding="utf-8")
+    found = run(folder, "--gradebook", str(folder / "canvas.csv"), "--lang", "en")
+    assert "canvas.csv: 0001 has points that wait" in found.output
+    assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == CANVAS
+
+
+def test_two_gradebooks_of_one_name_are_refused(folder):
+    (folder / "other").mkdir()
+    (folder / "other" / "canvas.csv").write_text(CANVAS, encoding="utf-8")
+    books = [str(folder / "canvas.csv"), str(folder / "other" / "canvas.csv")]
+    found = run(folder, "--gradebook", books[0], "--gradebook", books[1])
+    assert found.exit_code == 2
+    assert "same name" in found.output
+
+
+def test_a_blank_row_is_not_handed_in(folder):
+    text = (folder / "answers.csv").read_text(encoding="utf-8")
+    width = text.partition("\n")[0].count(";")
+    (folder / "answers.csv").write_text(f"{text}\n0002{';' * width}", encoding="utf-8")
+    found = run(folder, "--lang", "en")
+    assert found.exit_code == 0
+    assert "1 of 2 students handed in" in found.output
+    page = (folder / "out" / "class.html").read_text(encoding="utf-8")
+    assert "Not handed in" in page
+    assert "Ștefan (0002)" in page
+    told = (folder / "out/feedback/0002.html").read_text("utf-8")
+    assert "you handed in no answers" in told
+    assert "<table" not in told, "who may still hand in is not told what is right"
+
+
+def test_files_in_the_way_are_told_in_one_line(folder):
+    assert run(folder).exit_code == 0
+    again = run(folder)
+    assert again.exit_code == 2
+    assert again.output.count("exists already") == 1
+    assert "and 4 more: each exists already" in again.output
+
+
+def test_a_full_disk_leaves_the_earlier_report_and_nothing_half_written(folder, monkeypatch):
+    assert run(folder).exit_code == 0
+    out = folder / "out"
+    before = {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
+    text = (folder / "answers.csv").read_text(encoding="utf-8")
+    (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;49,"), encoding="utf-8")
+    whole, written = Path.write_bytes, []
+
+    def full(path: Path, data: bytes) -> int:
+        written.append(path)
+        if len(written) > 3:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return whole(path, data)
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    found = run(folder, "--force")
+    assert found.exit_code == 2
+    assert "no space left on device" in found.output
+    assert {path: path.read_bytes() for path in out.rglob("*") if path.is_file()} == before
+
+
+DIES = """
+import os, pathlib, signal, sys
+rename, left = pathlib.Path.replace, [4]
+def dying(path, target):
+    left[0] -= 1
+    if not left[0]:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return rename(path, target)
+pathlib.Path.replace = dying
+from graphkin.cli import app
+app(sys.argv[1:])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
+def test_kill_9_in_the_middle_leaves_whole_files_and_the_next_run_ends_it(folder):
+    args = ["grade", str(folder / "class"), str(folder / "answers.csv"), "-o", str(folder / "cut")]
+    surroundings = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[2])}
+    command = [sys.executable, "-c", DIES, *args]
+    killed = subprocess.run(command, env=surroundings, capture_output=True, check=False)
+    assert killed.returncode == -signal.SIGKILL
+    assert run(folder).exit_code == 0
+    whole = tree(folder / "out")
+    cut = tree(folder / "cut")
+    assert 0 < len(cut) < len(whole)
+    assert all(whole[name] == data for name, data in cut.items())
+    assert CliRunner().invoke(app, [*args, "--force"]).exit_code == 0
+    assert tree(folder / "cut") == whole
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    """The files of a report, those left out that were put aside, and what changed."""
+    files = (path for path in folder.rglob("*") if path.is_file() and path.name[0] != ".")
+    found = {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+    return {name: data for name, data in found.items() if name != "differences.csv"}
+
+
+def test_a_language_of_the_class_list_is_that_of_the_feedback(tmp_path):
+    roster = tmp_path / "roster.csv"
+    text = "nr;id;name;Limba\n7;1;A;it\n8;2;B;English\n9;3;C;\n10;4;D;klingon\n11;=5;E;ro\n"
+    roster.write_text(text, encoding="utf-8")
+    made = CliRunner().invoke(app, ["variants", "pump", str(roster), "-o", str(tmp_path / "class")])
+    assert made.exit_code == 0, made.output
+    (tmp_path / "answers.csv").write_text("id,v_D,nr,lingua\n1,3,7,it\n", encoding="utf-8")
+    for lang, third, name in ((), "ro", "nu este o limbă"), (("--lang", "en"), "en", "no language"):
+        found = run(tmp_path, "--force", *lang)
+        assert found.exit_code == 0, found.output
+        assert f"D (4): {'„' if third == 'ro' else '“'}klingon" in found.output
+        assert name in found.output
+        spoken = ("it", "en", third, third, "ro")
+        for stem, language in zip(("1", "2", "3", "4"), spoken, strict=False):
+            page = (tmp_path / "out/feedback" / f"{stem}.html").read_text(encoding="utf-8")
+            assert f'lang="{language}"' in page, stem
+        last = max((tmp_path / "out/feedback").glob("*5*.html"), key=lambda path: len(path.name))
+        assert 'lang="ro"' in last.read_text(encoding="utf-8")
+        title = (tmp_path / "out/feedback/1.html").read_text(encoding="utf-8")
+        assert "Meccanismo di pompa" in title
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [("ro", "ro"), ("RO-ro", "ro"), ("Română", "ro"), ("italiano", "it"), ("Engleză", "en")],
+)
+def test_languages_are_known_by_code_and_name(text, code):
+    assert language_in(text) == code
+
+
+def test_a_class_without_its_table_is_marked_all_the_same(folder):
+    (folder / "class" / "variants.csv").unlink()
+    assert run(folder).exit_code == 0
 
 
 def test_formats_that_are_none_are_refused(folder):

@@ -120,6 +120,7 @@ WRONG = {
     RULE + "[marks]\nv_D = -1\n": "marks.v_D: -1; expected points",
     RULE + "[marks]\nv_D = true\n": "marks.v_D: true; expected a number",
     RULE + "[marking]\nfloor = 0.3\n": "marking.floor: 0.3 is above cap",
+    RULE + "[marking]\ncap = 2.5\n": "marking.cap: 2.5; expected a number from 0 to 1",
     RULE
     + "[marking]\nslips = { opposite = 2 }\n": "slips.opposite: 2; expected a number from 0 to 1",
     RULE + "[marking]\nslips = { 'a b' = 1 }\n": "no slip has this name",

@@ -1,0 +1,45 @@
+"""The language in which each student is answered: a column of the class list, in any language."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from graphkin.roster.errors import RosterError
+from graphkin.roster.tables import columns, folded, read_sheet
+from graphkin.roster.written import RUNS
+from graphkin.variants.manifest import TABLE
+
+HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
+"""What the column may be called."""
+NAMES = {
+    "ro": "ro rou ron rum roman romana romanian romanesc romaneste romeno rumeno",
+    "en": "en eng english engleza englez inglese",
+    "it": "it ita italian italiana italiano italieneste",
+}
+"""What each language may be called, without diacritics."""
+CODES = {name: code for code, names in NAMES.items() for name in names.split()}
+
+
+def language_in(text: str) -> str | None:
+    """The code of a language by its code or its name; None where it is none of the pages'."""
+    return CODES.get(folded(text)) or CODES.get(folded(text.partition("-")[0]))
+
+
+def languages(folder: Path) -> dict[str, str]:
+    """What the table of a class folder says of each student's language, by id; nothing where it
+    has no such column, or cannot be read: the table is not needed for anything else.
+    """
+    try:
+        sheet = read_sheet(folder / TABLE)
+    except RosterError:
+        return {}
+    where = columns(sheet, {"id": (), "language": HEADS})
+    if len(where) < 2:
+        return {}
+    rows = ((plain(row.cells[where["id"]]), row.cells[where["language"]]) for row in sheet.rows)
+    return {who: text for who, text in rows if text}
+
+
+def plain(cell: str) -> str:
+    """A cell without the sign by which no spreadsheet runs it."""
+    return cell[1:] if cell.startswith("'") and cell[1:].startswith(RUNS) else cell

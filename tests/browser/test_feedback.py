@@ -1,0 +1,45 @@
+"""Feedback and class report in a real browser: whole, readable by all, nothing fetched."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from graphkin.grading.feedback import feedback_html
+from graphkin.grading.report import class_report
+from graphkin.text import LANGUAGES, words
+from tests.browser.opening import Opened
+from tests.grading.students import marker_of
+from tests.grading.test_feedback import graded, mistaken, waiting
+from tests.grading.test_outputs import small_class
+
+
+def pages(language: str) -> dict[str, str]:
+    """Each kind of page that grading writes."""
+    spoken, rubric = words(language), marker_of("pump", 7).standard.rubric
+    forms = {
+        "right": graded({}),
+        "slip": mistaken("pump", "rpm_as_rad"),
+        "waiting": waiting(),
+        "absent": marker_of("pump", 7).mark(graded({}).taker, {}, present=False),
+    }
+    found = {name: feedback_html(form, "Pump", rubric, spoken) for name, form in forms.items()}
+    return found | {"class": class_report(small_class().result, "Pump", (), spoken)}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_page_bars_anybody(opened: Opened, tmp_path: Path, language: str) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    for name, text in pages(language).items():
+        path = tmp_path / f"{name}.html"
+        path.write_text(text, encoding="utf-8")
+        found = axe.run(opened(path, bypass_csp=True))
+        assert found.violations_count == 0, (name, found.generate_report())
+
+
+def test_a_page_fits_a_small_screen(opened: Opened, tmp_path: Path) -> None:
+    path = tmp_path / "slip.html"
+    path.write_text(pages("ro")["slip"], encoding="utf-8")
+    page = opened(path, viewport={"width": 390, "height": 844})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
