@@ -12,6 +12,7 @@ from graphkin.cli_class import new, variants
 from graphkin.cli_draw import accuracy, cycle, sheet
 from graphkin.cli_grade import grade
 from graphkin.cli_print import print_sheets
+from graphkin.cli_studio import studio
 from graphkin.console import FAILED, Desk, complain
 from graphkin.options import leave, mechanism_of, scales_of, scene_argument, tell
 
@@ -264,7 +265,7 @@ def doubts(scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | No
     return flat or verdict is None or not verdict.agrees
 
 
-for command in (sheet, cycle, accuracy, print_sheets, grade, new, variants):
+for command in (sheet, cycle, accuracy, print_sheets, grade, new, variants, studio):
     app.add_command(command)
 
 

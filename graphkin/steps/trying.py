@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from graphkin.arithmetic import FLOAT, phase
@@ -19,6 +20,8 @@ from graphkin.steps.windows import Windows, narrowed
 
 DOUBLES = ("float", "batch")
 """The kinds in which closures are looked for; in the others they are refined."""
+KEPT = 16
+"""Closures of a group that are kept."""
 SAME = 1e-7
 """Radians within which two angles count as one when closures are put in order."""
 
@@ -37,6 +40,24 @@ class Trying(Trial):
     def action(self, number: int) -> Action:
         """The step that closes the group in the closure of a number, counted from one."""
         return Action("close", Closer(self, number))
+
+    def closed_again(self, known: tuple[Any, ...], number: int) -> tuple[Any, ...]:
+        """As closed, for scalars; the last ones found are kept.
+
+        The traces of a sheet, and those by which its scale is chosen, ask the same many times.
+        """
+        found = self.kept.get((known, number))
+        if found is None:
+            found = self.closed(known, number)
+            if len(self.kept) >= KEPT:
+                self.kept.clear()
+            self.kept[known, number] = found
+        return found
+
+    @cached_property
+    def kept(self) -> dict[tuple[tuple[Any, ...], int], tuple[Any, ...]]:
+        """The closures that were found last, by what was known and their number."""
+        return {}
 
     def closed(self, known: Sequence[Any], number: int) -> tuple[Any, ...]:
         """Trial value, signs and the sine of crossing in one closure: scalars or arrays.
@@ -158,6 +179,8 @@ class Closer:
 
     def __call__(self, *known: Any) -> tuple[Any, ...]:
         """Trial value, signs and the sine of crossing."""
+        if all(isinstance(value, float | complex) for value in known):
+            return self.trying.closed_again(known, self.number)
         kind = kind_of(*known)
         if kind.name in DOUBLES:
             return self.trying.closed(known, self.number)

@@ -1,7 +1,8 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
-``python -m tests.bench.effects`` (or ``.motion .chain .variants .printing``) prints one part alone.
+``python -m tests.bench.effects`` (or ``.motion .chain .variants .printing .screen``) prints one
+part alone.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
 from graphkin.text import words
-from tests.bench import chain, effects, motion, printing, variants
+from tests.bench import chain, effects, motion, printing, screen, variants
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files
 
@@ -203,7 +204,7 @@ def table() -> str:
         [
             *lines,
             *("", effects.table(), "", motion.table(), "", chain.table()),
-            *("", variants.table(), "", printing.table()),
+            *("", variants.table(), "", printing.table(), "", screen.table()),
         ]
     )
 

@@ -1,0 +1,55 @@
+"""The command ``studio``: a page on this computer in which a scene is written and looked at."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from graphkin.options import tell
+
+
+@click.command()
+@click.argument("name", metavar="[SCENE]", required=False, default="")
+@click.option(
+    "--port",
+    metavar="N",
+    type=click.IntRange(0, 65535),
+    default=0,
+    help="Port to listen at; a free one by default.",
+)
+@click.option("--no-browser", is_flag=True, help="Only print the address, open no browser.")
+@click.option(
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language of the page and the sheets; the scene's by default.",
+)
+def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
+    """Write, move and look at a scene in a browser.
+
+    Opens, for this computer alone, a page with the text of SCENE, its mistakes marked where they
+    stand, a slider for each parameter, the mechanism, both plans, results, flattest crossings and
+    the independent check; all of it follows what is written and moved. Scenes and sheets are saved
+    into the current folder, and nothing outside it is read or written. Without SCENE it begins with
+    a slider-crank.
+
+    The page's address holds a token that nobody else knows; it ends with this command (Ctrl+C).
+
+    \b
+    Examples:
+      graphkin studio
+      graphkin studio pump
+      graphkin studio mine.toml --no-browser --port 8080
+    """
+    from graphkin.studio.desk import Desk
+    from graphkin.studio.folder import Folder
+    from graphkin.studio.server import serve
+
+    desk = Desk(Folder(Path()), lang)
+    served = serve(desk, port, desk.address_of(name))
+    tell([served.address])
+    if not no_browser:
+        import webbrowser
+
+        webbrowser.open(served.address)
+    served.server.run()

@@ -1,0 +1,94 @@
+"""The addresses of the studio: the page with its files, and what the page asks for."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from graphkin.errors import GraphkinError
+from graphkin.paper.glyphs import FILES
+from graphkin.paper.glyphs import FOLDER as FONTS
+from graphkin.studio.desk import Desk
+from graphkin.studio.orders import MOST_BYTES, Order, OrderError
+from graphkin.studio.page import page
+
+HERE = Path(__file__).parent / "web"
+KINDS = {
+    ".css": "text/css",
+    ".js": "text/javascript",
+    ".svg": "image/svg+xml",
+    ".woff2": "font/woff2",
+}
+JSON = "application/json"
+WORK = ("look", "write", "save", "sheets")
+"""What the page asks the desk to do."""
+
+
+def application(desk: Desk) -> Any:
+    """The WSGI application of a desk."""
+    from bottle import Bottle
+
+    app = Bottle()
+    app.config["catchall"] = False  # a fault is told where the studio was started
+    app.route("/", "GET", lambda: start_page(desk))
+    app.route("/scenes", "GET", lambda: record(desk.listed()))
+    app.route("/<name:re:[a-zA-Z-]+\\.(css|js|svg|woff2)>", "GET", static)
+    for name in WORK:
+        app.route(f"/{name}", "POST", answering(getattr(desk, name)))
+    return app
+
+
+def answering(work: Callable[[Order], dict[str, Any]]) -> Callable[[], Any]:
+    """A handler that reads what is asked for and gives the answer as JSON."""
+
+    def handler() -> Any:
+        from bottle import request
+
+        if request.content_type.partition(";")[0].strip() != JSON:
+            return answer(415, "text/plain", b"JSON is expected\n")
+        if request.content_length > MOST_BYTES:
+            return answer(413, "text/plain", b"too large\n")
+        data = request.body.read(MOST_BYTES + 1)
+        try:
+            return record(work(Order(data)))
+        except OrderError as error:
+            return answer(400, "text/plain", f"{error}: not as the page asks\n".encode())
+
+    return handler
+
+
+def start_page(desk: Desk) -> Any:
+    """The page with the text that its address names."""
+    from bottle import request
+
+    scene, lab = (str(request.query.getunicode(key, "")) for key in ("scene", "lab"))
+    try:
+        opened = desk.open(scene, lab)
+    except GraphkinError as error:
+        return answer(404, "text/plain", f"{error}\n".encode())
+    return answer(200, "text/html", page(opened, desk).encode())
+
+
+def static(name: str) -> Any:
+    """A file of the page, or one of the sheet's fonts."""
+    folder = FONTS if name in {f"{font}.woff2" for font in FILES.values()} else HERE
+    path = folder / name
+    if not path.is_file():
+        return answer(404, "text/plain", b"no such file\n")
+    return answer(200, KINDS[path.suffix], path.read_bytes())
+
+
+def record(found: dict[str, Any]) -> Any:
+    """An answer as JSON."""
+    text = json.dumps(found, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return answer(200, JSON, text.encode())
+
+
+def answer(status: int, kind: str, body: bytes) -> Any:
+    """An answer of some kind; texts are UTF-8."""
+    from bottle import HTTPResponse
+
+    whole = kind if kind.startswith("font") else f"{kind}; charset=utf-8"
+    return HTTPResponse(body, status, {"Content-Type": whole})

@@ -1,0 +1,112 @@
+"""The one folder that the studio reads and writes: nothing outside it has a name here."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from graphkin import labs
+from graphkin.errors import Problem, SceneError
+from graphkin.paper.files import RESERVED
+from graphkin.scene.limits import decoded, read_bytes
+from graphkin.scene.read import read_text
+
+ENDING = ".toml"
+SCENE = "scene.toml"
+"""The scene of a lab, in its folder."""
+MOST = 500
+"""Scenes that are listed."""
+LONGEST, DEEPEST = 200, 6
+"""Signs of a name, and its parts."""
+FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
+"""Signs that some file system takes for something else."""
+OTHERS = frozenset((labs.LAB, "pyproject.toml"))
+"""Files that are no scenes."""
+
+
+class Folder:
+    """A folder with scenes, some of them in folders of their own."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root.resolve()
+
+    def path(self, name: str) -> Path:
+        """The file of a name such as ``pump.toml`` or ``crank-lab/scene.toml``.
+
+        Raises SceneError for a name that leads out of the folder, in whatever way, or that is none.
+        """
+        problem = doubt(name)
+        target = None if problem else (self.root / name)
+        if target is None or not target.resolve().is_relative_to(self.root):
+            expected = "a name within the folder in which the studio was started"
+            raise SceneError(Problem("file", problem or "leads out of the folder", expected))
+        return target
+
+    def scenes(self) -> list[str]:
+        """The names of the scenes here and in the folders here, in alphabetical order."""
+        found = [*self.root.glob(f"*{ENDING}"), *self.root.glob(f"*/{SCENE}")]
+        names = sorted(path.relative_to(self.root).as_posix() for path in found)
+        return [name for name in names if self.holds(name)][:MOST]
+
+    def holds(self, name: str) -> bool:
+        """Whether a name is that of a scene that can be read here."""
+        try:
+            return name not in OTHERS and self.path(name).is_file()
+        except SceneError:
+            return False
+
+    def read(self, name: str) -> str:
+        """The text of a scene. Raises SceneError where there is none, or none that can be read."""
+        path = self.path(name)
+        if not path.is_file():
+            raise SceneError(Problem("file", f"there is no file {name} here", "one that is listed"))
+        return decoded(read_bytes(path))
+
+    def name_of(self, path: Path) -> str:
+        """The name of a file by its path. Raises SceneError for one that lies elsewhere."""
+        found = path.resolve()
+        if not found.is_relative_to(self.root):
+            hint = f"start the studio in {found.parent}"
+            raise SceneError(Problem(str(path), "lies outside this folder", str(self.root), hint))
+        return found.relative_to(self.root).as_posix()
+
+
+def doubt(name: str) -> str:
+    """What is wrong with a name by itself; nothing for a sound one."""
+    parts = name.split("/")
+    if not name.endswith(ENDING) or name == ENDING:
+        return f"the name does not end in {ENDING}"
+    if len(name) > LONGEST or len(parts) > DEEPEST:
+        return "the name is too long"
+    return next((found for part in parts if (found := doubt_of_part(part))), "")
+
+
+def doubt_of_part(part: str) -> str:
+    """What is wrong with one part of a name."""
+    if not part or part.startswith(".") or part != part.rstrip(" ."):
+        return "a part of the name is empty, or begins or ends with a dot"
+    if FORBIDDEN.search(part):
+        return "the name holds a sign that file names do not have everywhere"
+    if part.partition(".")[0].upper() in RESERVED:
+        return f"{part} is the name of a device"
+    return ""
+
+
+def stem_of(name: str) -> str:
+    """What a scene is called by the name of its file: that of its folder for scene.toml."""
+    *folders, file = name.split("/")
+    return folders[-1] if folders and file == SCENE else file.removesuffix(ENDING)
+
+
+def shipped() -> Iterator[tuple[str, str]]:
+    """The labs that come with graphkin: names and titles."""
+    for name in labs.names():
+        yield name, read_text(shipped_text(name), name).title
+
+
+def shipped_text(name: str) -> str:
+    """The text of the scene of a shipped lab. Raises SceneError for a name that is none."""
+    if name not in labs.names():
+        raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(labs.names())))
+    return decoded(read_bytes(labs.shelf() / name / SCENE))

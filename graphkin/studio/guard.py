@@ -1,0 +1,91 @@
+"""Who may speak with the studio: only the page whose address holds the token, only from here.
+
+The server listens on the loopback address alone. A page of another site can still send requests
+there: it does not know the token, and one that has let its own name point here (DNS rebinding) is
+told by the Host that its browser names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from hmac import compare_digest
+from secrets import token_urlsafe
+from typing import Any
+
+Environ = dict[str, Any]
+Start = Callable[..., Any]
+Application = Callable[[Environ, Start], Iterable[bytes]]
+BITS = 192
+"""Bits of a token."""
+POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self'",
+        "style-src 'self'",
+        "font-src 'self'",
+        "img-src 'self'",
+        "connect-src 'self'",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'none'",
+    )
+)
+"""What a browser may load with the page: nothing from outside, nothing written into it."""
+HEADERS = (
+    ("Content-Security-Policy", POLICY),
+    ("Cache-Control", "no-store"),
+    ("Cross-Origin-Opener-Policy", "same-origin"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    ("Referrer-Policy", "no-referrer"),
+    ("X-Content-Type-Options", "nosniff"),
+    ("X-Frame-Options", "DENY"),
+)
+METHODS = ("GET", "POST")
+
+
+def new_token() -> str:
+    """A token that nobody can guess."""
+    return token_urlsafe(BITS // 8)
+
+
+class Guard:
+    """Stands before an application: what is not the page's own is answered 403, and goes no way.
+
+    ``hosts`` are the names under which a browser may call the server, with its port.
+    """
+
+    def __init__(self, inside: Application, token: str, hosts: Iterable[str]) -> None:
+        self.inside = inside
+        self.token = token.encode()
+        self.hosts = frozenset(hosts)
+
+    def __call__(self, environ: Environ, start: Start) -> Iterable[bytes]:
+        """Answer a request, or refuse it."""
+
+        def guarded(status: str, headers: list[tuple[str, str]], *rest: Any) -> Any:
+            return start(status, [*headers, *HEADERS], *rest)
+
+        path = self.path(environ)
+        if path is None:
+            return refused(guarded)
+        within = {**environ, "PATH_INFO": path, "SCRIPT_NAME": ""}
+        return self.inside(within, guarded)
+
+    def path(self, environ: Environ) -> str | None:
+        """The path behind the token; None for a request that is to be refused."""
+        host = environ.get("HTTP_HOST", "")
+        if host not in self.hosts or environ["REQUEST_METHOD"] not in METHODS:
+            return None
+        if environ.get("HTTP_ORIGIN", f"http://{host}") != f"http://{host}":
+            return None
+        empty, _, rest = str(environ.get("PATH_INFO", "")).partition("/")
+        token, slash, path = rest.partition("/")
+        known = compare_digest(token.encode("utf-8", "replace"), self.token)
+        return f"/{path}" if known and slash and not empty else None
+
+
+def refused(start: Start) -> Iterable[bytes]:
+    """The answer to a request that is not the page's own."""
+    body = b"403: this address needs the token that graphkin studio has printed.\n"
+    start("403 Forbidden", [("Content-Type", "text/plain"), ("Content-Length", str(len(body)))])
+    return [body]

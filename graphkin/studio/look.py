@@ -1,0 +1,139 @@
+"""What is seen of a scene's text at once: its mistakes in place, sliders, drawings, numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from graphkin.errors import GraphkinError, Problem, SceneError
+from graphkin.handout import drawings_of, language_of
+from graphkin.mechanism import Mechanism
+from graphkin.scaling import shown
+from graphkin.scene.model import Scene
+from graphkin.scene.read import read_text
+from graphkin.steps.solution import FAIR, Verdict
+from graphkin.studio.panels import Memory, panels, style
+from graphkin.studio.places import Mark, marked
+from graphkin.studio.sliders import sliders
+from graphkin.studio.tables import margins, results, verdict_words
+from graphkin.text import Words, words
+
+SETTING = "setting "
+"""What begins the place of a problem of a parameter that is set from outside."""
+STRANGER = "is no parameter"
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """What is to be looked at: a text, the values of its sliders, and how it is shown.
+
+    ``mechanism`` is the plan whose construction stands on the mechanism, ``quick`` lets labels
+    ride, ``language`` is the page's.
+    """
+
+    text: str
+    name: str
+    language: str
+    settings: Mapping[str, str] = field(default_factory=dict)
+    mechanism: str = "velocity"
+    quick: bool = False
+
+
+def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, Any]:
+    """Everything that the page shows of a text, as plain records for JSON.
+
+    ``go_on`` is called before each longer part, and may raise to end the work.
+    """
+    found: dict[str, Any] = {"problems": [], "sliders": []}
+    try:
+        scene = read(sight)
+        found["sliders"] = [asdict(each) for each in sliders(scene)]
+        found["title"] = scene.titles.get(sight.language, scene.title)
+        found |= drawn(Mechanism(scene), sight, memory, found["problems"], go_on)
+    except GraphkinError as error:
+        found["problems"] += error.problems
+    found["problems"] = [told(mark) for mark in marked(found["problems"], sight.text)]
+    return found
+
+
+def read(sight: Sight) -> Scene:
+    """The scene of a text; values of sliders that it has no longer are dropped."""
+    try:
+        return read_text(sight.text, sight.name, None, sight.settings)
+    except SceneError as error:
+        gone = strangers(error.problems)
+        if not gone:
+            raise
+    settings = {name: value for name, value in sight.settings.items() if name not in gone}
+    return read_text(sight.text, sight.name, None, settings)
+
+
+def strangers(problems: Iterable[Problem]) -> set[str]:
+    """The settings that are no parameters of the scene."""
+    return {
+        problem.place.removeprefix(SETTING)
+        for problem in problems
+        if problem.place.startswith(SETTING) and problem.found.endswith(STRANGER)
+    }
+
+
+def drawn(
+    mechanism: Mechanism,
+    sight: Sight,
+    memory: Memory,
+    problems: list[Problem],
+    go_on: Callable[[], None],
+) -> dict[str, Any]:
+    """Drawings, results, margins and the verdict; what is doubtful is drawn and said."""
+    spoken = language_of(mechanism, sight.language)
+    solution = shown(mechanism)
+    verdict = mechanism.witness(solution)
+    problems += doubts(solution.margin, verdict)
+    drawings = drawings_of(mechanism, verdict, spoken)
+    pictures = []
+    for panel, unplaced in panels(drawings, sight.mechanism, memory, quick=sight.quick):
+        pictures.append(panel)
+        problems += unplaced
+        go_on()
+    return {
+        "kinds": [drawing.kind for drawing in drawings],
+        "panels": [{"name": p.name, "caption": p.caption, "svg": p.svg} for p in pictures],
+        "style": style(pictures),
+        "results": results(drawings, solution),
+        "margins": margins(drawings),
+        "verdict": {"agrees": verdict.agrees, "words": verdict_words(verdict, spoken)},
+    }
+
+
+def doubts(margin: float, verdict: Verdict) -> list[Problem]:
+    """Why no sheet would be handed out of a drawing that can be shown all the same."""
+    if margin >= FAIR:
+        return []
+    found = f"the flattest crossing has a sine of {margin:.1e}"
+    hint = "the position is nearly singular: choose another driver angle"
+    return [Problem("position", found, f"at least {FAIR:g}", hint)]
+
+
+def told(mark: Mark) -> dict[str, Any]:
+    """A problem as a record, with its line and what to select; the setting it is about, if any."""
+    problem = mark.problem
+    setting = problem.place.removeprefix(SETTING) if problem.place.startswith(SETTING) else ""
+    return {
+        "place": problem.place,
+        "found": problem.found,
+        "expected": problem.expected,
+        "hint": problem.hint,
+        "line": mark.line,
+        "start": mark.start,
+        "end": mark.end,
+        "setting": setting,
+    }
+
+
+def spoken_in(language: str) -> Words:
+    """The words of the page; English where a scene names a language that is not there."""
+    try:
+        return words(language)
+    except KeyError:
+        return words("en")

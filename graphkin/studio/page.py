@@ -1,0 +1,93 @@
+"""The page of the studio: its frame in the words of a language, and the text it begins with."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import lru_cache
+from html import escape
+from pathlib import Path
+
+from graphkin import __version__
+from graphkin.studio.desk import Desk, Opened
+from graphkin.text import Words
+
+FRAME = Path(__file__).parent / "web" / "page.html"
+GAP = re.compile(r"\{\{([\w.]+)\}\}")
+SPOKEN = (
+    "studio.text",
+    "studio.problems",
+    "studio.none_wrong",
+    "studio.one_wrong",
+    "studio.some_wrong",
+    "studio.line",
+    "studio.file_name",
+    "studio.new",
+    "studio.open",
+    "studio.save",
+    "studio.save_sheets",
+    "studio.here",
+    "studio.no_scenes",
+    "studio.labs",
+    "studio.close",
+    "studio.cancel",
+    "studio.replace",
+    "studio.exist",
+    "studio.leave",
+    "studio.go_on",
+    "studio.saved",
+    "studio.unsaved",
+    "studio.drawing_sheets",
+    "studio.files",
+    "studio.no_files",
+    "studio.view",
+    "studio.parameters",
+    "studio.no_parameters",
+    "studio.value_of",
+    "studio.write",
+    "studio.reset",
+    "studio.larger",
+    "studio.on_mechanism",
+    "studio.on_velocity",
+    "studio.on_acceleration",
+    "studio.old",
+    "studio.gone",
+    "studio.failed",
+    "studio.drawings",
+    "studio.numbers",
+    "studio.in_mechanism",
+    "studio.key",
+    "studio.task",
+    "studio.steps",
+    "studio.overlay",
+    "sheet.velocity",
+    "sheet.acceleration",
+)
+"""The sentences of the page, those that stand in it and those that it says later."""
+
+
+def page(opened: Opened, desk: Desk) -> str:
+    """The whole page, to begin with a text."""
+    words = desk.words(opened.text)
+    said = {key: words(key, **gaps(words, key)) for key in SPOKEN}
+    start = {"language": words.language, "words": said}
+    filled = {
+        **said,
+        "language": words.language,
+        "version": __version__,
+        "name": opened.name,
+        "text": opened.text.removeprefix("\ufeff"),
+        "start": json.dumps(start, ensure_ascii=False),
+    }
+    return GAP.sub(lambda gap: escape(filled[gap[1]]), frame())
+
+
+def gaps(words: Words, key: str) -> dict[str, str]:
+    """The gaps of a sentence, left as they are for the page to fill."""
+    return {name: f"{{{name}}}" for name in re.findall(r"\{(\w+)\}", words.sentences[key])}
+
+
+@lru_cache(maxsize=1)
+def frame() -> str:
+    """The page's frame, with gaps for words and texts."""
+    return FRAME.read_text(encoding="utf-8")

@@ -1,0 +1,119 @@
+"""From the place that a problem names to the line and the key of the text that it is about."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from graphkin.errors import Problem
+from graphkin.scene.limits import WHERE
+from graphkin.studio.spans import Path, Span, spans, unquoted
+
+PART = re.compile(r'"(?:\\.|[^"\\])*"|\[(\d+)\]|[^.\[\]"]+')
+LINE = re.compile(r"line (\d+)")
+SETTING = re.compile(r"(?:setting|parameter) (\S+)")
+ABOUT = re.compile(r"[A-Za-z ]+ of (?:links? )?(.+)")
+VERSION = ("graphkin",)
+DRIVERS = ("drivers",)
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A problem with where it stands: its line from 1, 0 where it has none, and what to select.
+
+    ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two.
+    """
+
+    problem: Problem
+    line: int = 0
+    start: int = 0
+    end: int = 0
+
+
+def marked(problems: Iterable[Problem], text: str) -> list[Mark]:
+    """Each problem with its place in the text, in the order of the text."""
+    wrong = list(problems)
+    found = spans(text) if wrong else {}
+    marks = [mark_of(problem, text, span_of(problem, text, found)) for problem in wrong]
+    return sorted(marks, key=lambda mark: (mark.line == 0, mark.start))
+
+
+def mark_of(problem: Problem, text: str, span: Span | None) -> Mark:
+    """A problem at a span, cut to its first line."""
+    if span is None:
+        return Mark(problem)
+    start, end = span
+    stop = text.find("\n", start)
+    end = min(end, len(text) if stop < 0 else stop)
+    return Mark(problem, text.count("\n", 0, start) + 1, units(text[:start]), units(text[:end]))
+
+
+def units(text: str) -> int:
+    """The length of a text as a browser counts it."""
+    return len(text.encode("utf-16-le", "surrogatepass")) // 2
+
+
+def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:
+    """What of the text a problem is about; the nearest heading where its key is not written."""
+    line = LINE.fullmatch(problem.place)
+    if line:
+        return span_of_line(text, int(line[1]))
+    if not problem.place:
+        return found.get(VERSION, Span(0, 0))
+    for path in paths(problem.place, found):
+        for length in range(len(path), 0, -1):
+            span = found.get(path[:length]) or found.get((*path[: length - 1], f"{path[-1]}s"))
+            if span is not None:
+                return span
+    return None
+
+
+def paths(place: str, found: Mapping[Path, Span]) -> Iterator[Path]:
+    """The paths that a place may mean, the likeliest first.
+
+    What cannot be found by drawing is settled by a branch, else by where the drivers stand.
+    """
+    setting, about = SETTING.fullmatch(place), ABOUT.fullmatch(place)
+    if setting:
+        yield "parameters", setting[1]
+    elif about:
+        names = re.split(r"[,\s-]+", about[1])
+        tried = ((table, name) for name in names for table in ("branches", "links"))
+        yield from (path for path in tried if path in found)
+        yield DRIVERS
+    elif place == "position":
+        yield DRIVERS
+    else:
+        yield tuple(parts(place.partition(", ")[0]))
+
+
+def parts(place: str) -> Iterator[str | int]:
+    """The keys and indices of a dotted place."""
+    for match in PART.finditer(place):
+        yield int(match[1]) if match[1] else unquoted(match[0])
+
+
+def span_of_line(text: str, number: int) -> Span:
+    """A line without the blanks around it, from the sign at which it fails to be TOML."""
+    lines = text.split("\n")
+    number = min(number, len(lines))
+    start = sum(len(line) + 1 for line in lines[: number - 1])
+    line = lines[number - 1]
+    first, last = len(line) - len(line.lstrip()), len(line.rstrip())
+    column = failing(text, number)
+    if column is not None and first < column < last and line[column] != "#":
+        first = column
+    return Span(start + first, start + last)
+
+
+def failing(text: str, number: int) -> int | None:
+    """The column, from 0, at which a text fails to be TOML on a line."""
+    try:
+        tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        where = re.search(WHERE, str(error))
+        if where and where[1] and int(where[1]) == number:
+            return int(where[2]) - 1
+    return None

@@ -1,0 +1,111 @@
+"""What the studio writes, and only when it is asked to: the scene, and the sheets of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+
+from graphkin import labs
+from graphkin.handout import hand_out
+from graphkin.mechanism import Mechanism
+from graphkin.paper.files import file_stem, rendered, write_all
+from graphkin.scene.read import read_text
+from graphkin.studio.folder import SCENE, Folder, shipped_text, stem_of
+
+VIEWS = ("key", "task", "steps", "overlay")
+PAGE = "html"
+FORMATS = ("svg", "pdf", PAGE)
+
+
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """What became of it: the names of the files written, or of those that are in the way."""
+
+    files: tuple[str, ...] = ()
+    exist: tuple[str, ...] = ()
+    mark: str = ""
+
+
+def save_scene(folder: Folder, name: str, text: str, mark: str, *, replace: bool) -> Saved:
+    """Write the text of a scene; not over a file that is there, unless told to.
+
+    ``mark`` is what the last saving of this page gave: a file that is still as it was then is this
+    page's own and is written anew. Raises SceneError for a name that leads elsewhere, PageError
+    where nothing can be written.
+    """
+    path = folder.path(name)
+    data = text.encode("utf-8")
+    if os.path.lexists(path) and not replace and mark_of_file(path) != mark:
+        return Saved(exist=(name,))
+    write_all(path.parent, {path.name: data}, force=True)
+    return Saved(files=(name,), mark=mark_of(data))
+
+
+def mark_of(data: bytes) -> str:
+    """What tells one content of a file from another."""
+    return sha256(data).hexdigest()
+
+
+def mark_of_file(path: Path) -> str:
+    """The same of a file; nothing of one that cannot be read."""
+    try:
+        return mark_of(path.read_bytes())
+    except OSError:
+        return ""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Which sheets are wanted: of which text under which name, in which language and form."""
+
+    text: str
+    name: str
+    settings: Mapping[str, str]
+    language: str
+    view: str
+    formats: Sequence[str]
+
+
+def sheets_of(folder: Folder, wanted: Wanted) -> dict[str, bytes]:
+    """The files of a scene's sheets by name, as ``graphkin sheet`` writes them.
+
+    Raises as the reading of a scene and hand_out do.
+    """
+    name, settings, view, formats = wanted.name, wanted.settings, wanted.view, wanted.formats
+    text, language = wanted.text, wanted.language
+    mechanism = Mechanism(read_text(text, stem_of(name), None, settings))
+    stem = file_stem(mechanism.scene.name, settings)
+    files: dict[str, bytes] = {}
+    if PAGE in formats:
+        from graphkin.screen.handed import hand_out_page
+
+        lab = lab_of(folder, name, text)
+        page = hand_out_page(mechanism, lab, stem, view, language)
+        files[f"{stem}-{view}.{PAGE}"] = page.encode("utf-8")
+    if set(formats) - {PAGE}:
+        for part in hand_out(mechanism, view=view, language=language):
+            files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, formats)
+    return files
+
+
+def lab_of(folder: Folder, name: str, text: str) -> str:
+    """The lab whose form belongs to a scene: that of its own folder, or a shipped one unchanged.
+
+    The name of the scene's file, which is no lab, where there is none.
+    """
+    if name.rpartition("/")[2] == SCENE:
+        return str(folder.path(name).parent)
+    lab = stem_of(name)
+    return lab if lab in labs.names() and text == shipped_text(lab) else name
+
+
+def save_files(folder: Folder, files: Mapping[str, bytes], *, replace: bool) -> Saved:
+    """Write files into the folder, all or none; not over others, unless told to."""
+    exist = tuple(name for name in files if os.path.lexists(folder.root / name))
+    if exist and not replace:
+        return Saved(exist=exist)
+    write_all(folder.root, files, force=True)
+    return Saved(files=tuple(files))

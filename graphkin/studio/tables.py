@@ -1,0 +1,138 @@
+"""The numbers beside the drawings: what is read off, where lines cross flat, and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
+from html import escape
+from itertools import chain
+from math import degrees
+
+from graphkin.grading.html import marked_up
+from graphkin.paper.drawing import METRES, Drawing
+from graphkin.paper.flattest import crossings_on
+from graphkin.paper.symbolic import symbol
+from graphkin.paper.tables import Row, slide_rows, turning_rows, vector_rows
+from graphkin.plane import Ratio
+from graphkin.report.centres import breadth_of, completed, place_of
+from graphkin.scene.model import Scene
+from graphkin.steps.crossings import Crossing
+from graphkin.steps.program import Part
+from graphkin.steps.solution import Solution, Verdict
+from graphkin.text import Words
+
+FLATTEST = 6
+"""Crossings that are shown."""
+FLAT, SLANTED = 15.0, 30.0
+"""Angles in degrees below which a crossing is too flat to be fair, and below which it is poor."""
+WHERE = {
+    Part.POSITION: "studio.in_mechanism",
+    Part.VELOCITY: "sheet.velocity",
+    Part.NORMAL: "studio.in_triangle",
+    Part.ACCELERATION: "sheet.acceleration",
+    Part.CENTRE: "studio.in_centre",
+    Part.POLE: "studio.in_pole",
+}
+"""What is said of where a crossing is drawn."""
+
+
+def results(drawings: Sequence[Drawing], solution: Solution) -> str:
+    """What is read off the plans, the angular values, what slides, centres and poles."""
+    parts = [part for drawing in drawings for part in read_off(drawing)]
+    return "".join([*parts, *places(drawings[0].scene, solution, drawings[0].words)])
+
+
+def read_off(drawing: Drawing) -> Iterator[str]:
+    """The tables of one sheet."""
+    words = drawing.words
+    unit = words(f"table.{drawing.kind}")
+    spin = words(f"table.{'omega' if drawing.kind == 'velocity' else 'epsilon'}")
+    first, sense = words("table.symbol"), words("table.sense")
+    caption = words(f"sheet.{drawing.kind}")
+    vectors = (first, words("table.segment"), words("table.millimetres"), unit)
+    yield table(caption, vectors, vector_rows(drawing, empty=False))
+    turning = words("studio.turning_of", plan=caption)
+    yield table(turning, (first, spin, sense), turning_rows(drawing, empty=False))
+    sliding = words("studio.sliding_of", plan=caption)
+    yield table(sliding, (first, unit, sense), slide_rows(drawing, empty=False))
+
+
+def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
+    """Where the centres and poles lie that are asked, in the unit of the scene."""
+    full, breadth, unit = completed(scene, solution), breadth_of(solution), scene.units["length"]
+    asked: list[tuple[str, Ratio | None]] = []
+    asked += [(f"I_{name}", full.links[name].instant_centre) for name in scene.ask.centres]
+    asked += [(f"I_{name}", solution.centres.get(name)) for name in scene.ask.pairs]
+    asked += [(f"J_{name}", full.links[name].acceleration_pole) for name in scene.ask.poles]
+    rows = []
+    for name, ratio in asked:
+        at = place_of(ratio, breadth)
+        cells = (words("calculation.at_infinity"), "")
+        if at is not None:
+            metre = METRES[unit]
+            cells = (words.significant(at.real / metre, 5), words.significant(at.imag / metre, 5))
+        elif ratio is None or ratio.shift == 0:
+            cells = (words("calculation.everywhere"), "")
+        rows.append(Row((symbol(name), *cells)))
+    head = (words("table.symbol"), f"*x*, {unit}", f"*y*, {unit}")
+    yield table(words("studio.places"), head, rows)
+
+
+def margins(drawings: Sequence[Drawing]) -> str:
+    """The flattest crossings, with what a millimetre of pencil becomes there."""
+    words = drawings[0].words
+    found = chain.from_iterable(crossings_on(drawing) for drawing in drawings)
+    worst = sorted(found, key=lambda crossing: crossing.angle)[:FLATTEST]
+    keys = ("studio.crossing", "studio.drawn_in", "studio.angle", "studio.pencil")
+    head = tuple(map(words, keys))
+    rows = [margin_row(crossing, words) for crossing in worst]
+    looks = [look_of(crossing) for crossing in worst]
+    return table(words("studio.margins"), head, rows, looks)
+
+
+def margin_row(crossing: Crossing, words: Words) -> Row:
+    """One crossing: its letter, where it is drawn, its angle, and what becomes of a millimetre."""
+    angle = words.fixed(degrees(crossing.angle), 1)
+    factor = words.significant(crossing.factor, 2)
+    flat = f" ({words('studio.flat')})" if look_of(crossing) == "flat" else ""
+    where = words(WHERE.get(crossing.part, "studio.in_mechanism"))
+    return Row((symbol(crossing.name), where, f"{angle}°{flat}", f"{factor} mm"))
+
+
+def look_of(crossing: Crossing) -> str:
+    """How a crossing is marked: flat, slanted, or not at all."""
+    angle = degrees(crossing.angle)
+    return "flat" if angle < FLAT else "slanted" if angle < SLANTED else ""
+
+
+def verdict_words(verdict: Verdict, words: Words) -> str:
+    """What the independent route says, and how far apart both may be."""
+    difference = words.significant(verdict.largest_difference, 2)
+    limit = words.significant(verdict.limit, 2)
+    if verdict.agrees:
+        said = words("page.verified", difference=difference)
+        return f"{said} ({words('studio.limit', limit=limit)})"
+    where = "; ".join([verdict.quantity, *verdict.branches])
+    return words("studio.disagrees", difference=difference, limit=limit, where=where)
+
+
+@lru_cache(maxsize=1024)
+def tagged(markup: str) -> str:
+    """A markup in tags; heads and symbols come again with every move."""
+    return marked_up(markup)
+
+
+def table(caption: str, head: Sequence[str], rows: Sequence[Row], looks: Iterable[str] = ()) -> str:
+    """A table in tags, its cells given as markup; nothing where it has no rows."""
+    if not rows:
+        return ""
+    classes = [*looks, *[""] * len(rows)]
+    heads = "".join(f'<th scope="col">{tagged(cell)}</th>' for cell in head)
+    lines = []
+    for row, look in zip(rows, classes, strict=False):
+        first, *rest = map(tagged, row.cells)
+        cells = "".join(f"<td>{cell}</td>" for cell in rest)
+        kind = f' class="{look}"' if look else ""
+        lines.append(f'<tr{kind}><th scope="row">{first}</th>{cells}</tr>')
+    title = f"<caption>{escape(caption)}</caption>"
+    return f"<table>{title}<thead><tr>{heads}</tr></thead><tbody>{''.join(lines)}</tbody></table>"

@@ -1,0 +1,92 @@
+// Opening and saving, and the questions before anything is replaced or lost.
+
+import { ask, find, listed, say, tell } from "./talk.js";
+
+for (const button of document.querySelectorAll("dialog .close")) {
+  button.addEventListener("click", () => button.closest("dialog").close());
+}
+
+/** Whether the answer to a question is yes. */
+export function agreed(question, yes) {
+  const dialog = find("asking");
+  find("question").textContent = question;
+  find("yes").textContent = yes;
+  dialog.returnValue = "";
+  dialog.showModal();
+  find("no").focus();
+  return new Promise((resolve) => {
+    find("yes").onclick = () => dialog.close("yes");
+    find("no").onclick = () => dialog.close();
+    dialog.onclose = () => resolve(dialog.returnValue === "yes");
+  });
+}
+
+/** Save something; where files are in the way, only after asking. Nothing where that is refused. */
+export async function saved(what, fields) {
+  let answer = await ask(what, fields);
+  if (answer.exist.length) {
+    const list = answer.exist.join(", ");
+    if (!(await agreed(say("studio.exist", { list }), say("studio.replace")))) return null;
+    answer = await ask(what, { ...fields, replace: true });
+  }
+  return answer;
+}
+
+/** Let a scene or a lab be chosen; `go` is called with the address that opens it. */
+export async function choose(go) {
+  const { scenes, labs } = await listed();
+  const entry = (key, name, title = "") => {
+    const item = document.createElement("li");
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = title ? `${name} – ${title}` : name;
+    button.addEventListener("click", () => {
+      find("opening").close();
+      go(`?${key}=${encodeURIComponent(name)}`);
+    });
+    item.append(button);
+    return item;
+  };
+  find("scenes").replaceChildren(...scenes.map((name) => entry("scene", name)));
+  find("labs").replaceChildren(...labs.map(([name, title]) => entry("lab", name, title)));
+  find("no-scenes").hidden = scenes.length > 0;
+  find("opening").showModal();
+}
+
+/** Let the kinds of files be chosen, then draw and save them; `fields` gives the scene as it is. */
+export function saveSheets(fields) {
+  const dialog = find("saving");
+  const said = find("saving-said");
+  said.textContent = "";
+  find("saving-form").onsubmit = async (event) => {
+    event.preventDefault();
+    const formats = [...dialog.querySelectorAll("[name=formats]:checked")].map((box) => box.value);
+    if (!formats.length) {
+      said.textContent = say("studio.no_files");
+      return;
+    }
+    said.textContent = say("studio.drawing_sheets");
+    find("draw").disabled = true;
+    try {
+      const answer = await saved("sheets", { ...fields(), formats, view: find("view").value });
+      said.textContent = "";
+      if (answer?.problems.length) said.textContent = answer.problems.map(sentence).join(" ");
+      else if (answer) {
+        tell(say("studio.saved", { list: answer.files.join(", ") }));
+        dialog.close();
+      }
+    } catch (error) {
+      said.textContent = error.message;
+    } finally {
+      find("draw").disabled = false;
+    }
+  };
+  dialog.showModal();
+}
+
+/** A problem in one sentence. */
+export function sentence({ place, found, expected, hint }) {
+  return [place && `${place}: ${found}`, expected && `expected ${expected}`, hint]
+    .filter(Boolean)
+    .join("; ");
+}

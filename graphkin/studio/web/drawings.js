@@ -1,0 +1,71 @@
+// The drawings and the numbers beside them.
+
+import { find, say } from "./talk.js";
+
+const old = find("old");
+const shown = find("shown");
+const all = find("drawings");
+const names = ["mechanism", "velocity", "acceleration"];
+const sheet = new CSSStyleSheet();
+let rules = "";
+document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
+
+/** The plan whose construction stands on the mechanism. */
+export const onMechanism = () => shown.querySelector("input:checked").value;
+
+/** Call back when another construction is to be shown. */
+export function onChoosing(work) {
+  shown.addEventListener("change", work);
+}
+
+/** Put everything in its place; what cannot be drawn now stays as it was, and says so. */
+export function showDrawings(answer) {
+  const drawn = answer.panels !== undefined;
+  old.hidden = drawn || !all.querySelector("svg");
+  find("seeing").classList.toggle("old", !drawn);
+  if (!drawn) return;
+  if (answer.style !== rules) {
+    rules = answer.style;
+    sheet.replaceSync(rules);
+  }
+  const panels = new Map(answer.panels.map((panel) => [panel.name, panel]));
+  for (const name of names) {
+    const figure = find(name);
+    const panel = panels.get(name);
+    figure.hidden = panel === undefined;
+    if (!panel) {
+      if (figure.classList.contains("large")) enlarge(figure, false);
+      continue;
+    }
+    set(find(`caption-${name}`), panel.caption);
+    set(figure.querySelector(".drawing"), panel.svg);
+  }
+  shown.hidden = answer.kinds.length < 2;
+  all.dataset.plans = String(answer.kinds.length);
+  const verdict = find("verdict");
+  verdict.textContent = `${answer.verdict.agrees ? "✓" : "✗"} ${answer.verdict.words}`;
+  verdict.classList.toggle("wrong", !answer.verdict.agrees);
+  set(find("results"), answer.results);
+  set(find("margins"), answer.margins);
+}
+
+/** Put markup that the studio made into an element, where it is another. */
+function set(element, markup) {
+  if (element.made !== markup) element.innerHTML = element.made = markup;
+}
+
+/** Give one drawing the room of all, or all their own. */
+function enlarge(figure, large) {
+  for (const name of names) find(name).classList.toggle("large", large && name === figure.id);
+  all.classList.toggle("one", large);
+  figure.querySelector(".enlarge").setAttribute("aria-pressed", String(large));
+}
+
+for (const name of names) {
+  const figure = find(name);
+  const button = figure.querySelector(".enlarge");
+  const what = name === "mechanism" ? "studio.in_mechanism" : `sheet.${name}`;
+  button.title = say("studio.larger", { name: say(what) });
+  button.setAttribute("aria-label", button.title);
+  button.addEventListener("click", () => enlarge(figure, !figure.classList.contains("large")));
+}

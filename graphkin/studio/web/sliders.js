@@ -1,0 +1,110 @@
+// A slider and a field for each parameter; only those that were moved are set.
+
+import { find, say } from "./talk.js";
+
+const box = find("sliders");
+const write = find("write");
+const reset = find("reset");
+const rows = new Map();
+let moved = {};
+let changed = () => {};
+
+/** The values that differ from the text, by name. */
+export const settings = () => ({ ...moved });
+
+/** Call back when a slider is moved (quick) or a value is entered. */
+export function onMoving(work) {
+  changed = work;
+}
+
+/** Go back to what the text says. */
+export function forgetMoves() {
+  moved = {};
+}
+
+/** Show the parameters as they are; a slider that is being held keeps its place. */
+export function showSliders(sliders) {
+  const known = new Set(sliders.map((slider) => slider.name));
+  moved = Object.fromEntries(Object.entries(moved).filter(([name]) => known.has(name)));
+  for (const [name, row] of rows) {
+    if (!known.has(name)) {
+      row.whole.remove();
+      rows.delete(name);
+    }
+  }
+  sliders.forEach((slider, i) => {
+    if (!rows.has(slider.name)) rows.set(slider.name, made(slider.name));
+    const row = rows.get(slider.name);
+    if (box.children[i] !== row.whole) box.insertBefore(row.whole, box.children[i] ?? null);
+    fill(row, slider);
+  });
+  if (!sliders.length) box.textContent = say("studio.no_parameters");
+  find("into").hidden = !sliders.length;
+  enable();
+}
+
+/** Mark the fields whose values are refused. */
+export function markSliders(problems) {
+  const wrong = new Set(problems.map((each) => each.setting));
+  for (const [name, row] of rows) row.field.setAttribute("aria-invalid", String(wrong.has(name)));
+}
+
+function enable() {
+  write.disabled = reset.disabled = Object.keys(moved).length === 0;
+}
+
+/** The row of a parameter: its name, its slider, its value to be typed, its unit. */
+function made(name) {
+  if (!rows.size) box.textContent = "";
+  const whole = document.createElement("div");
+  const label = document.createElement("label");
+  const range = document.createElement("input");
+  const field = document.createElement("input");
+  const unit = document.createElement("span");
+  whole.className = "slider";
+  label.textContent = name;
+  label.htmlFor = range.id = `slider-${name}`;
+  range.type = "range";
+  range.min = "0";
+  field.id = `value-${name}`;
+  field.size = 7;
+  field.inputMode = "decimal";
+  field.autocomplete = "off";
+  field.setAttribute("aria-label", say("studio.value_of", { name }));
+  unit.className = "unit";
+  whole.append(label, range, field, unit);
+  const row = { whole, range, field, unit, stops: [] };
+  range.addEventListener("input", () => {
+    moved[name] = row.stops[Number(range.value)];
+    show(row, moved[name]);
+    enable();
+    changed(true);
+  });
+  field.addEventListener("change", () => {
+    const value = field.value.trim().replace(",", ".").replace("−", "-");
+    if (value) moved[name] = value;
+    enable();
+    changed(false);
+  });
+  field.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") event.preventDefault(), field.dispatchEvent(new Event("change"));
+  });
+  return row;
+}
+
+function fill(row, slider) {
+  row.stops = slider.stops;
+  row.unit.textContent = slider.unit;
+  row.range.max = String(slider.stops.length - 1);
+  row.range.title = slider.low || slider.high ? `${slider.low} … ${slider.high}` : "";
+  if (moved[slider.name] !== undefined && moved[slider.name] !== slider.value) {
+    if (row.stops[Number(row.range.value)] === moved[slider.name]) return; // a newer move
+  }
+  row.range.value = String(slider.index);
+  show(row, slider.value);
+}
+
+function show(row, value) {
+  if (document.activeElement !== row.field) row.field.value = value;
+  row.range.setAttribute("aria-valuetext", `${value} ${row.unit.textContent}`.trim());
+}

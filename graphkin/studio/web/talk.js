@@ -1,0 +1,45 @@
+// How the page speaks with the studio, and the words that it uses.
+
+const start = JSON.parse(document.body.dataset.start);
+export const language = start.language;
+const tab = crypto.randomUUID();
+
+/** A sentence of the page, its gaps filled. */
+export function say(key, gaps = {}) {
+  return start.words[key].replace(/\{(\w+)\}/g, (whole, name) => gaps[name] ?? whole);
+}
+
+/** What the studio answers; an error with a sentence where it does not. */
+export async function ask(what, fields) {
+  let answer;
+  try {
+    answer = await fetch(what, {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify({ tab, language, ...fields }),
+    });
+  } catch {
+    throw new Error(say("studio.gone"));
+  }
+  if (!answer.ok) throw new Error(say(answer.status === 403 ? "studio.gone" : "studio.failed"));
+  return answer.json();
+}
+
+/** The scenes and labs that can be opened. */
+export async function listed() {
+  try {
+    return await (await fetch("scenes")).json();
+  } catch {
+    throw new Error(say("studio.gone"));
+  }
+}
+
+export const find = (id) => document.getElementById(id);
+
+const status = find("status");
+
+/** Say something at the top of the page. */
+export function tell(words, wrong = false) {
+  if (status.textContent !== words) status.textContent = words;
+  status.classList.toggle("wrong", wrong);
+}

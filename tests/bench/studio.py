@@ -1,0 +1,125 @@
+"""The studio's answers to a slider, as a browser gets them: ``python -m tests.bench.studio``.
+
+A server in a process of its own, one connection that is kept; each time is that of the whole way:
+what is asked as JSON, solving, checking, drawing, the answer as JSON, and its way back. Times are
+given beside the limit for a move; the growth of memory beside what the process held before.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from http.client import HTTPConnection
+from pathlib import Path
+from statistics import median, quantiles
+from time import perf_counter
+from urllib.parse import urlsplit
+
+from graphkin import labs
+
+ROOT = Path(__file__).resolve().parents[2]
+LIMIT = 0.05
+"""Seconds in which a move of a slider is to be answered."""
+WARM, MOVES = 60, 500
+ORDER = {"tab": "bench", "language": "en", "name": "pump.toml"}
+
+
+class Page:
+    """The page's side: one connection, requests counted."""
+
+    def __init__(self, address: str, text: str) -> None:
+        parts = urlsplit(address)
+        self.line = HTTPConnection(parts.hostname or "", parts.port, timeout=60)
+        self.path = f"{parts.path}look"
+        self.text, self.number = text, 0
+
+    def look(self, n: int, **options: object) -> float:
+        """Seconds until a move of n is answered and read."""
+        self.number += 1
+        order = {**ORDER, "text": self.text, "number": self.number, "settings": {"n": str(n)}}
+        start = perf_counter()
+        body = json.dumps({**order, **options})
+        self.line.request("POST", self.path, body, {"Content-Type": "application/json"})
+        answer = json.loads(self.line.getresponse().read())
+        took = perf_counter() - start
+        assert len(answer["panels"]) == 3, answer
+        return took
+
+    def moves(self, count: int, **options: object) -> list[float]:
+        """The times of some moves, to and fro over all numbers."""
+        there = [*range(1, 31), *range(29, 1, -1)]
+        return [self.look(there[i % len(there)], **options) for i in range(count)]
+
+
+@contextmanager
+def served(lab: str) -> Iterator[tuple[int, str]]:
+    """A studio that runs: its process and its address."""
+    command = [sys.executable, "-m", "graphkin", "studio", lab, "--no-browser"]
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {"PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": "1", "PATH": ""}
+        with subprocess.Popen(
+            command, cwd=folder, env=environment, stdout=subprocess.PIPE, text=True
+        ) as process:
+            assert process.stdout is not None
+            try:
+                yield process.pid, process.stdout.readline().strip()
+            finally:
+                process.terminate()
+
+
+def held(process: int) -> float:
+    """Memory that a process holds, in MB."""
+    status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
+    line = next(line for line in status.splitlines() if line.startswith("VmRSS"))
+    return int(line.split()[1]) / 1024
+
+
+def spent(process: int) -> float:
+    """Seconds of processor that a process has used, whatever else the machine does meanwhile."""
+    fields = Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def measured(lab: str) -> list[str]:
+    """The rows of one lab."""
+    text = (labs.shelf() / lab / "scene.toml").read_text(encoding="utf-8")
+    with served(lab) as (process, address):
+        page = Page(address, text)
+        first = page.look(7)
+        page.moves(WARM)
+        page.moves(WARM, quick=True)
+        before, begun = held(process), spent(process)
+        moves = page.moves(MOVES, quick=True)
+        after, used = held(process), spent(process) - begun
+        accelerations = page.moves(WARM, quick=True, mechanism="acceleration")
+        rest = page.moves(WARM)
+        both = page.moves(WARM, mechanism="acceleration")
+    rows = [
+        ("limit of a move", LIMIT),
+        ("a move, processor time, mean", used / MOVES),
+        ("a move, median", median(moves)),
+        ("a move, 95 of 100", quantiles(moves, n=20)[-1]),
+        ("a move, the slowest", max(moves)),
+        ("a move, accelerations on the mechanism, median", median(accelerations)),
+        ("at rest, all labels placed, median", median(rest)),
+        ("at rest, all labels placed, the slowest", max(rest)),
+        ("at rest, accelerations on it, median", median(both)),
+        ("the first look", first),
+    ]
+    lines = [f"{lab}: {name:50} {1e3 * t:8.1f} ms {t / LIMIT:8.2f} ×" for name, t in rows]
+    grown = f"{after - before:+8.2f} MB {after / before:8.3f} ×"
+    return [*lines, f"{lab}: {f'memory after {MOVES} moves':50} {grown}"]
+
+
+def table() -> str:
+    """All rows as one text."""
+    return "\n".join(line for lab in ("pump", "slotted-lever") for line in measured(lab))
+
+
+if __name__ == "__main__":
+    print(table())

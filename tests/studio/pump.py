@@ -1,0 +1,65 @@
+"""The pump as the page of the studio asks for it."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from threading import Thread
+from typing import Any
+
+from graphkin import labs
+from graphkin.studio.desk import Desk
+from graphkin.studio.folder import Folder
+from graphkin.studio.look import Sight, look
+from graphkin.studio.orders import Order
+from graphkin.studio.panels import Memory
+from graphkin.studio.server import Served
+
+PUMP = (labs.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
+
+
+def seen(text: str = PUMP, memory: Memory | None = None, **options: Any) -> dict[str, Any]:
+    """What is seen of a text, in English."""
+    sight = Sight(text, "scene", "en", **options)
+    return look(sight, memory or Memory(), lambda: None)
+
+
+def svgs(found: dict[str, Any]) -> dict[str, str]:
+    """The pictures by name."""
+    return {panel["name"]: panel["svg"] for panel in found["panels"]}
+
+
+def ordered(**fields: Any) -> Order:
+    """A request of the page."""
+    return Order(json.dumps({"text": PUMP, "language": "en", "tab": "a", **fields}).encode())
+
+
+def desk_in(place: Any) -> Desk:
+    """A desk in a folder."""
+    return Desk(Folder(place))
+
+
+@contextmanager
+def running(served: Served) -> Iterator[Served]:
+    """A studio that runs in a thread of its own until it is not needed any more."""
+
+    def run() -> None:
+        with suppress(OSError):  # its socket is closed under it
+            served.server.run()
+
+    thread = Thread(target=run, daemon=True)
+    thread.start()
+    yield served
+    served.server.close()
+    served.server.asyncore.close_all(served.server._map, ignore_all=True)
+    thread.join(10)
+    assert not thread.is_alive()
+
+
+def drawn(svg: str) -> list[str]:
+    """The elements of a picture that are no labels, leaders, details, notes or insets."""
+    elements = re.findall(r"<(?:line|circle|path|polyline|polygon|text) [^>]*>", svg)
+    moving = re.compile(r'class="(?:label|leader|number|caption|detail|[\w-]+ detail)')
+    return [element for element in elements if not moving.search(element)]

@@ -1,0 +1,82 @@
+"""The command: it prints an address that answers, and says what is wrong with what it is given."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from http.client import HTTPConnection
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.cli import app
+from graphkin.errors import PageError
+from graphkin.studio.server import serve
+from tests.studio.pump import PUMP, desk_in
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@contextmanager
+def started(folder: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
+    """The command in a folder."""
+    command = [sys.executable, "-m", "graphkin", "studio", *arguments]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "BROWSER": "true"}
+    with subprocess.Popen(
+        command,
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+@pytest.mark.parametrize("arguments", [("--no-browser", "one.toml"), ("pump", "--lang", "it")])
+def test_the_address_that_is_printed_answers_until_it_is_stopped(tmp_path, arguments):
+    (tmp_path / "one.toml").write_text(PUMP, encoding="utf-8")
+    with started(tmp_path, *arguments) as process:
+        assert process.stdout is not None
+        address = urlsplit(process.stdout.readline().strip())
+        assert address.hostname == "127.0.0.1"
+        assert address.query in ("scene=one.toml", "lab=pump")
+        line = HTTPConnection("127.0.0.1", address.port or 0, timeout=30)
+        line.request("GET", f"{address.path}?{address.query}")
+        page = line.getresponse().read().decode()
+        assert ('lang="it"' in page) == ("it" in arguments)
+        line.close()
+        process.send_signal(signal.SIGINT)
+        _, wrong = process.communicate(timeout=30)
+        assert process.returncode in (0, 130)
+        assert "Traceback" not in wrong
+    assert [path.name for path in tmp_path.iterdir()] == ["one.toml"]
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("nothing.toml", "neither a file nor a shipped lab"), ("../out.toml", "lies outside")],
+)
+def test_a_scene_that_cannot_be_opened_is_told(tmp_path, monkeypatch, name, said):
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    (tmp_path / "out.toml").write_text(PUMP, encoding="utf-8")
+    monkeypatch.chdir(inner)
+    result = CliRunner().invoke(app, ["studio", name, "--no-browser"])
+    assert result.exit_code != 0
+    assert said in result.output + str(result.exception)
+
+
+def test_without_its_libraries_it_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "waitress", None)
+    with pytest.raises(PageError, match=r"graphkin\[studio\]"):
+        serve(desk_in(tmp_path))

@@ -1,0 +1,188 @@
+"""Nothing outside the folder is read or written, by whatever name; nothing there is lost."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from graphkin.errors import PageError, SceneError
+from graphkin.scene.read import read_text
+from graphkin.studio.folder import Folder, stem_of
+from graphkin.studio.saving import Wanted, lab_of, save_files, save_scene, sheets_of
+from tests.studio.pump import PUMP, desk_in, ordered
+
+
+@pytest.fixture
+def place(tmp_path) -> Path:
+    """A folder with scenes, and a secret beside it."""
+    here = tmp_path / "here"
+    (here / "lab").mkdir(parents=True)
+    (here / "one.toml").write_text(PUMP, encoding="utf-8")
+    (here / "lab" / "scene.toml").write_text(PUMP, encoding="utf-8")
+    (here / "lab" / "lab.toml").write_text("", encoding="utf-8")
+    (here / "pyproject.toml").write_text("", encoding="utf-8")
+    (tmp_path / "secret.toml").write_text("secret", encoding="utf-8")
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "outside" / "scene.toml").write_text("secret", encoding="utf-8")
+    (here / "link.toml").symlink_to(tmp_path / "secret.toml")
+    (here / "linked").symlink_to(tmp_path / "outside")
+    (here / "within.toml").symlink_to(here / "one.toml")
+    return here
+
+
+OUTSIDE = [
+    "../secret.toml",
+    "lab/../../secret.toml",
+    "/etc/passwd.toml",
+    "C:/secret.toml",
+    "C:secret.toml",
+    "..\\secret.toml",
+    "\\\\host\\share\\x.toml",
+    "link.toml",
+    "linked/scene.toml",
+    "linked/new.toml",
+    "./../secret.toml",
+    "lab/./../../secret.toml",
+    ".hidden.toml",
+    "lab/.git/config.toml",
+    "",
+    ".toml",
+    "..",
+    "lab",
+    "one.txt",
+    "one.toml/",
+    "//one.toml",
+    "one.toml\x00.toml",
+    "a\nb.toml",
+    "con.toml",
+    "lab/NUL.x.toml",
+    "trailing /x.toml",
+    "a" * 300 + ".toml",
+    "a/" * 20 + "b.toml",
+    "one.toml:stream.toml",
+    "a*.toml",
+]
+
+
+@pytest.mark.parametrize("name", OUTSIDE)
+def test_no_name_leads_out_of_the_folder(place, name):
+    folder = Folder(place)
+    before = {path: path.read_bytes() for path in place.parent.rglob("*") if path.is_file()}
+    with pytest.raises(SceneError):
+        folder.read(name)
+    with pytest.raises(SceneError):
+        save_scene(folder, name, "x", "", replace=True)
+    assert before == {p: p.read_bytes() for p in place.parent.rglob("*") if p.is_file()}
+
+
+def test_scenes_are_listed_and_other_files_are_not(place):
+    assert Folder(place).scenes() == ["lab/scene.toml", "one.toml", "within.toml"]
+
+
+def test_a_folder_reached_by_a_link_is_a_folder_like_any(place, tmp_path):
+    (tmp_path / "way").symlink_to(place)
+    assert Folder(tmp_path / "way").read("one.toml") == PUMP
+
+
+def test_a_pipe_is_no_scene(place):
+    os.mkfifo(place / "pipe.toml")
+    assert "pipe.toml" not in Folder(place).scenes()
+    with pytest.raises(SceneError):
+        Folder(place).read("pipe.toml")
+
+
+def test_a_file_that_is_there_is_not_replaced_without_asking(place):
+    folder = Folder(place)
+    saved = save_scene(folder, "one.toml", "mine", "", replace=False)
+    assert (saved.files, saved.exist) == ((), ("one.toml",))
+    assert folder.read("one.toml") == PUMP
+    saved = save_scene(folder, "one.toml", "mine", "", replace=True)
+    assert saved.files == ("one.toml",)
+    assert folder.read("one.toml") == "mine"
+
+
+def test_what_this_page_has_saved_it_saves_again_until_somebody_else_changes_it(place):
+    folder = Folder(place)
+    mark = save_scene(folder, "new.toml", "one", "", replace=False).mark
+    mark = save_scene(folder, "new.toml", "two", mark, replace=False).mark
+    assert folder.read("new.toml") == "two"
+    (place / "new.toml").write_text("theirs", encoding="utf-8")
+    assert save_scene(folder, "new.toml", "three", mark, replace=False).exist == ("new.toml",)
+    assert folder.read("new.toml") == "theirs"
+
+
+def test_a_link_that_is_replaced_leaves_what_it_led_to(place):
+    save_scene(Folder(place), "within.toml", "mine", "", replace=True)
+    assert (place / "one.toml").read_text(encoding="utf-8") == PUMP
+    assert not (place / "within.toml").is_symlink()
+
+
+def test_sheets_are_written_all_or_none(place):
+    folder = Folder(place)
+    files = {"a.svg": b"a", "b.svg": b"b"}
+    (place / "b.svg").write_bytes(b"old")
+    assert save_files(folder, files, replace=False).exist == ("b.svg",)
+    assert not (place / "a.svg").exists()
+    (place / "c.svg").mkdir()
+    with pytest.raises(PageError, match="is a folder"):
+        save_files(folder, {**files, "c.svg": b"c"}, replace=True)
+    assert (place / "b.svg").read_bytes() == b"old"
+    assert save_files(folder, files, replace=True).files == ("a.svg", "b.svg")
+
+
+def test_sheets_are_named_as_the_command_names_them(place):
+    wanted = Wanted(PUMP, "lab/one.toml", {"n": "9"}, "en", "key", ("svg", "html"))
+    names = ["one-n9-key.html", "one-n9-velocity-key.svg", "one-n9-acceleration-key.svg"]
+    assert list(sheets_of(Folder(place), wanted)) == names
+
+
+def test_a_name_of_a_scene_cannot_lead_its_sheets_elsewhere(place):
+    wanted = Wanted(PUMP, "../../evil.toml", {}, "en", "key", ("svg",))
+    assert all("/" not in name for name in sheets_of(Folder(place), wanted))
+
+
+def test_the_form_is_that_of_the_scene_s_own_lab(place):
+    folder = Folder(place)
+    assert lab_of(folder, "lab/scene.toml", "any") == str(folder.root / "lab")
+    assert lab_of(folder, "pump.toml", PUMP) == "pump"
+    assert lab_of(folder, "pump.toml", PUMP + "\n") == "pump.toml"
+
+
+def test_a_scene_is_called_as_the_command_calls_it():
+    names = {"pump.toml": "pump", "lab/scene.toml": "lab", "a/b/x.toml": "x", "scene.toml": "scene"}
+    assert {name: stem_of(name) for name in names} == names
+
+
+def test_the_page_is_told_why_nothing_was_written(place):
+    desk = desk_in(place)
+    found = desk.save(ordered(name="link.toml", replace=True))
+    assert not found["files"]
+    assert "leads out" in found["problems"][0]["found"]
+    broken = ordered(text="graphkin = 1", name="x.toml", view="key", formats=["svg"])
+    assert desk.sheets(broken)["problems"]
+    assert sorted(path.suffix for path in place.iterdir()) == ["", "", *[".toml"] * 4]
+
+
+def test_a_scene_outside_the_folder_is_not_opened(place, monkeypatch):
+    monkeypatch.chdir(place)
+    desk = desk_in(place)
+    assert desk.address_of("") == {}
+    assert desk.address_of("pump") == {"lab": "pump"}
+    assert desk.address_of("one.toml") == {"scene": "one.toml"}
+    assert desk.address_of("lab") == {"scene": "lab/scene.toml"}
+    for name in ("../secret.toml", str(place.parent / "secret.toml"), "link.toml"):
+        with pytest.raises(SceneError, match="lies outside this folder"):
+            desk.address_of(name)
+
+
+def test_what_is_opened_is_what_was_named(place):
+    desk = desk_in(place)
+    assert desk.open("one.toml", "").text == PUMP
+    assert desk.open("", "pump").text == PUMP
+    assert desk.open("", "pump").name == "pump.toml"
+    read_text(desk.open("", "").text, "new")
+    for scene, lab in (("none.toml", ""), ("", "../pump"), ("../secret.toml", "")):
+        with pytest.raises(SceneError):
+            desk.open(scene, lab)

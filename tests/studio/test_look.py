@@ -1,0 +1,226 @@
+"""Everything on the page follows from the text: drawings, numbers, margins, verdict, mistakes."""
+
+from __future__ import annotations
+
+import re
+from html import unescape
+
+import pytest
+
+from graphkin import labs
+from graphkin.errors import WitnessError
+from graphkin.handout import drawings_of, hand_out
+from graphkin.mechanism import Mechanism, load
+from graphkin.paper.flattest import crossings_on
+from graphkin.paper.style import STYLES, style_of
+from graphkin.scaling import shown
+from graphkin.steps.solution import Verdict
+from graphkin.studio.panels import COLOURS, Memory, StaleError
+from graphkin.studio.tables import FLATTEST
+from graphkin.text import LANGUAGES, words
+from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
+
+SINGULAR = """graphkin = 1
+title = "knee"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[parameters]
+h = { value = 259.9999999, min = 200, max = 260 }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = [0, "h"], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 90
+speed = 60
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+"""
+
+
+def rows(html: str) -> list[list[str]]:
+    """The cells of the bodies of all tables, as plain text."""
+    found = []
+    for row in re.findall(r"<tr[^>]*>(.*?)</tr>", html):
+        cells = re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row)
+        found.append([unescape(re.sub(r"<[^>]+>", "", cell)) for cell in cells])
+    return found
+
+
+def test_the_numbers_are_those_of_the_solution():
+    found = seen(settings={"n": "12"})
+    motion = load("pump", n=12).solve()
+    told = {row[0]: row for row in rows(found["results"])}
+    assert float(told["vD"][3]) == pytest.approx(abs(motion.points["D"].velocity), rel=1e-3)
+    assert float(told["aD"][3]) == pytest.approx(abs(motion.points["D"].acceleration), rel=1e-3)
+    assert float(told["ω3"][1]) == pytest.approx(abs(motion.links["3"].omega), rel=1e-3)
+    centre = motion.links["3"].instant_centre
+    place = centre.start + centre.shift / centre.size
+    said = [float(cell.replace("−", "-")) for cell in told["I3"][1:]]
+    assert said == pytest.approx([100 * place.real, 100 * place.imag], rel=1e-3)
+    assert found["verdict"]["agrees"]
+
+
+def test_the_flattest_crossings_come_first_with_what_a_pencil_makes_of_them():
+    found = rows(seen()["margins"])[1:]
+    mechanism = load("pump")
+    drawings = drawings_of(mechanism, mechanism.witness(shown(mechanism)), words("en"))
+    worst = sorted(c.angle for d in drawings for c in crossings_on(d))[:FLATTEST]
+    angles = [float(row[2].partition("°")[0]) for row in found]
+    assert angles == pytest.approx([57.29578 * angle for angle in worst], abs=0.06)
+    factors = [float(row[3].removesuffix(" mm")) for row in found]
+    assert factors == sorted(factors, reverse=True)
+
+
+@pytest.mark.parametrize("mechanism", ["velocity", "acceleration"])
+def test_the_mechanism_bears_the_construction_that_is_chosen(mechanism):
+    svg = svgs(seen(mechanism=mechanism))["mechanism"]
+    assert ('data-name="J3"' in svg) == (mechanism == "acceleration")
+    assert ('data-name="I3"' in svg) == (mechanism == "velocity")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", labs.names())
+def test_every_lab_is_seen_in_every_language(name, language):
+    text = (labs.shelf() / name / "scene.toml").read_text(encoding="utf-8")
+    from graphkin.studio.look import Sight, look
+
+    found = look(Sight(text, name, language), Memory(), lambda: None)
+    assert not found["problems"]
+    assert set(svgs(found)) == {"mechanism", "velocity", "acceleration"}
+    assert f'lang="{language}"' in svgs(found)["velocity"]
+    assert "{" not in found["results"] + found["margins"] + found["verdict"]["words"]
+
+
+def test_every_mistake_is_told_and_sliders_stay_where_the_text_can_be_read():
+    text = PUMP.replace("A-B = 40", "A-X = 40").replace('velocity = ["D"]', 'velocity = ["Q"]')
+    found = seen(text)
+    assert len(found["problems"]) == 2
+    assert "panels" not in found
+    apart = seen(PUMP.replace("O2-B = 30", "O2-B = 3"))
+    assert [slider["name"] for slider in apart["sliders"]] == ["n"]
+    (problem,) = apart["problems"]
+    assert "arcs miss each other" in problem["found"]
+    assert problem["line"] == 42
+
+
+def test_a_slider_out_of_range_is_told_of_the_slider():
+    (problem,) = seen(settings={"n": "31"})["problems"]
+    assert problem["setting"] == "n"
+    assert problem["line"] == 11
+
+
+def test_a_parameter_that_the_text_has_no_longer_is_forgotten():
+    found = seen(settings={"gone": "5", "n": "8"})
+    assert not found["problems"]
+    assert found["sliders"][0]["value"] == "8"
+
+
+def test_a_nearly_singular_position_is_shown_with_a_warning():
+    found = seen(SINGULAR)
+    assert any("flattest crossing" in problem["found"] for problem in found["problems"])
+    assert seen(SINGULAR, settings={"h": "240"})["problems"] == []
+
+
+def test_a_scene_that_asks_nothing_shows_everything():
+    text = PUMP[: PUMP.index("[ask]")] + "[sheet]\nlanguage = 'en'\n"
+    found = seen(text)
+    assert not found["problems"]
+    assert found["kinds"] == ["velocity", "acceleration"]
+
+
+def test_a_scene_that_asks_only_velocities_has_no_acceleration_plan():
+    text = PUMP[: PUMP.index("[ask]")] + "[ask]\nvelocity = ['D']\n"
+    assert set(svgs(seen(text, mechanism="acceleration"))) == {"mechanism", "velocity"}
+
+
+def test_every_colour_of_the_sheets_has_one_on_the_page():
+    known = {style_of(cls, "colour").colour for cls in STYLES}
+    known |= {style_of(cls, "colour").fill for cls in STYLES} - {""}
+    assert known <= set(COLOURS)
+    assert not re.search("#[0-9a-f]", seen()["style"])
+
+
+HOSTILE = "<img src=x onerror=alert(1)>\"'&</script><script>alert(2)</script>"
+
+
+def test_hostile_titles_and_notes_are_nothing_but_text():
+    written = HOSTILE.replace("\\", "").replace('"', '\\"')
+    text = PUMP.replace('en = "Pump mechanism"', f'en = "{written}"')
+    text = text.replace("[sheet]", f'[notes]\nen = "{written}"\n[sheet]\nowner = "{written}"')
+    found = seen(text)
+    assert found["title"] == HOSTILE
+    markup = [*svgs(found).values(), found["results"], found["margins"]]
+    markup += [panel["caption"] for panel in found["panels"]]
+    for each in markup:
+        assert "<script" not in each
+        assert "<img" not in each
+        assert "onerror=" not in each
+
+
+def test_hostile_names_are_refused_and_told_as_text():
+    text = PUMP.replace("[links.4]", '[links."<svg onload=alert(1)>"]')
+    found = seen(text)
+    assert found["problems"]
+    assert "panels" not in found
+
+
+def test_an_expression_is_never_evaluated_as_code(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for evil in ("__import__('os').mkdir('evil')", "open('evil','w')", "().__class__", "exec('1')"):
+        found = seen(PUMP.replace("C-D = 20", f'C-D = "{evil}"'))
+        assert found["problems"][0]["line"] == 30
+        assert seen(settings={"n": evil})["problems"]
+    assert not list(tmp_path.iterdir())
+
+
+def test_only_the_newest_move_is_computed(tmp_path):
+    desk = desk_in(tmp_path)
+    assert "panels" in desk.look(ordered(number=5, quick=True))
+    assert desk.look(ordered(number=3, quick=True)) == {"stale": True, "number": 3}
+    assert "panels" in desk.look(ordered(number=1, tab="another page", quick=True))
+
+
+def test_what_is_being_drawn_ends_when_something_newer_is_asked_for(tmp_path):
+    desk = desk_in(tmp_path)
+    from graphkin.studio.look import Sight, look
+
+    calls = []
+
+    def newer() -> None:
+        calls.append(1)
+        desk.arrived("a", 2)
+        desk.still_wanted("a", 1)
+
+    with pytest.raises(StaleError):
+        look(Sight(PUMP, "pump", "en"), Memory(), newer)
+    assert len(calls) == 1
+
+
+def test_pages_not_heard_of_for_long_are_forgotten(tmp_path):
+    desk = desk_in(tmp_path)
+    for page in range(30):
+        desk.arrived(str(page), 1)
+        desk.memory(str(page))
+    assert len(desk.newest) == len(desk.memories) == 8
+    assert "29" in desk.memories
+
+
+def test_a_route_that_does_not_agree_is_said_aloud_and_nothing_is_handed_out(monkeypatch):
+    def doubting(self, solution):
+        return Verdict(False, 0.25, "velocity of D", 1e-9, 0.0, 0.0, ("B",))
+
+    monkeypatch.setattr(Mechanism, "witness", doubting)
+    verdict = seen()["verdict"]
+    assert not verdict["agrees"]
+    assert "0.25" in verdict["words"]
+    assert "velocity of D; B" in verdict["words"]
+    with pytest.raises(WitnessError):
+        hand_out(load("pump"))

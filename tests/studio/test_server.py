@@ -1,0 +1,286 @@
+"""Only the page that holds the token is answered, only from here, only what it may ask."""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Iterator
+from http.client import HTTPConnection, HTTPResponse
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote, urlsplit
+
+import pytest
+
+from graphkin.errors import PageError
+from graphkin.studio.guard import HEADERS
+from graphkin.studio.orders import MOST_BYTES, Order, OrderError
+from graphkin.studio.server import HOME, Served, serve
+from tests.studio.pump import PUMP, desk_in, running
+
+JSON = {"Content-Type": "application/json"}
+
+
+@pytest.fixture
+def served(tmp_path) -> Iterator[Served]:
+    """A studio that runs in an empty folder."""
+    with running(serve(desk_in(tmp_path))) as found:
+        yield found
+
+
+def asked(
+    served: Served, method: str, path: str, body: Any = None, **headers: str
+) -> tuple[HTTPResponse, bytes]:
+    """The answer to a request; a path without a slash before it is the page's own."""
+    line = HTTPConnection(HOME, served.port, timeout=30)
+    whole = path if path.startswith("/") else urlsplit(served.address).path + path
+    given = {key.replace("_", "-"): value for key, value in headers.items()}
+    line.request(method, whole, body, given)
+    answer = line.getresponse()
+    data = answer.read()
+    line.close()
+    return answer, data
+
+
+def look(served: Served, **fields: Any) -> dict[str, Any]:
+    """What is seen of the pump."""
+    order = {"text": PUMP, "name": "pump.toml", "language": "en", "tab": "t", "number": 1} | fields
+    answer, data = asked(served, "POST", "look", json.dumps(order), **JSON)
+    assert answer.status == 200
+    return json.loads(data)
+
+
+def test_the_page_comes_and_all_that_it_loads(served):
+    answer, data = asked(served, "GET", "?lab=pump")
+    assert answer.status == 200
+    page = data.decode()
+    assert "Mecanism de pomp" in page
+    for name in ("page.js", "page.css", "mark.svg", "talk.js", "editor.js", "GraphkinSans.woff2"):
+        answer, data = asked(served, "GET", name)
+        assert answer.status == 200, name
+        assert data
+
+
+def test_a_move_of_a_slider_is_answered(served):
+    found = look(served, settings={"n": "12"}, quick=True)
+    assert found["sliders"][0]["value"] == "12"
+    assert len(found["panels"]) == 3
+
+
+@pytest.mark.parametrize("path", ["/", "/look", "/page.js", "/x/", "/x/look", "//", "/?lab=pump"])
+@pytest.mark.parametrize("method", ["GET", "POST"])
+def test_nothing_is_answered_without_the_token(served, method, path):
+    answer, data = asked(served, method, path, "{}", **JSON)
+    assert answer.status == 403
+    assert b"graphkin studio" in data
+
+
+def test_a_token_cut_or_changed_is_none(served):
+    token = urlsplit(served.address).path.strip("/")
+    assert len(token) == 32
+    for wrong in (token[:-1], token + "x", token.swapcase(), "", "é" * 16, f".{token}"):
+        assert asked(served, "GET", f"/{quote(wrong)}/")[0].status == 403
+    assert asked(served, "GET", f"/{token}")[0].status == 403
+    assert asked(served, "GET", f"/x/{token}/")[0].status == 403
+
+
+def test_every_studio_has_a_token_and_a_port_of_its_own(tmp_path):
+    first, second = serve(desk_in(tmp_path)), serve(desk_in(tmp_path))
+    assert first.port != second.port
+    assert urlsplit(first.address).path != urlsplit(second.address).path
+    for each in (first, second):
+        each.server.close()
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "localhost", ""]
+)
+def test_a_name_that_points_here_from_elsewhere_is_refused(served, host):
+    answer, _ = asked(served, "GET", "", Host=host.format(port=served.port))
+    assert answer.status == 403
+
+
+def test_both_names_of_this_computer_are_known(served):
+    for host in (HOME, "localhost"):
+        assert asked(served, "GET", "", Host=f"{host}:{served.port}")[0].status == 200
+
+
+def test_a_page_of_another_site_is_refused_even_with_the_token(served):
+    for origin in ("http://evil.example", "null", f"http://localhost:{served.port}", "file://"):
+        answer, _ = asked(served, "POST", "look", "{}", Origin=origin, **JSON)
+        assert answer.status == 403
+    own = f"http://{HOME}:{served.port}"
+    assert asked(served, "GET", "", Origin=own)[0].status == 200
+
+
+@pytest.mark.parametrize("method", ["PUT", "DELETE", "OPTIONS", "TRACE", "PATCH", "HEAD"])
+def test_other_methods_are_refused(served, method):
+    assert asked(served, method, "")[0].status == 403
+
+
+def test_forms_of_other_pages_cannot_be_sent_here(served):
+    for kind in ("text/plain", "application/x-www-form-urlencoded", ""):
+        answer, _ = asked(served, "POST", "save", "{}", Content_Type=kind)
+        assert answer.status == 415
+
+
+def test_it_listens_on_the_loopback_address_alone(served):
+    assert served.server.socket.getsockname()[0] == "127.0.0.1"
+    others = {info[4][0] for info in socket.getaddrinfo(socket.gethostname(), None)}
+    for address in others - {"127.0.0.1", "::1"}:
+        with (
+            pytest.raises(OSError, match=r"."),
+            socket.create_connection((address, served.port), 1),
+        ):
+            pass
+
+
+def test_a_port_that_is_taken_is_told(tmp_path, served):
+    with pytest.raises(PageError, match="cannot be used"):
+        serve(desk_in(tmp_path), served.port)
+    with pytest.raises(PageError, match="cannot be used"):
+        serve(desk_in(tmp_path), 70_000)
+
+
+@pytest.mark.parametrize(
+    "path", ["", "page.js", "nothing.js", "../folder.py", "/", "scenes", "?scene=../x.toml"]
+)
+def test_every_answer_forbids_what_comes_from_elsewhere(served, path):
+    answer, _ = asked(served, "GET", path)
+    for name, value in HEADERS:
+        assert answer.getheader(name) == value
+    policy = answer.getheader("Content-Security-Policy")
+    assert "http" not in policy
+    assert "unsafe" not in policy
+    assert "*" not in policy
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "page.html",
+        "../guard.py",
+        "..%2fguard.py",
+        "%2e%2e/guard.py",
+        "web/page.js",
+        "/etc/passwd",
+        "page.js%00.css",
+        "GraphkinSans.ttf",
+        "..",
+        "?scene=../../../etc/passwd",
+        "?scene=/etc/passwd.toml",
+        "?scene=%2e%2e%2fx.toml",
+        "?lab=../pump",
+        "?lab=%00",
+    ],
+)
+def test_no_other_file_comes(served, path):
+    answer, data = asked(served, "GET", path)
+    assert answer.status in (400, 403, 404)
+    assert b"import" not in data
+    assert b"root:" not in data
+
+
+def test_a_request_that_is_too_large_is_refused(served):
+    line = HTTPConnection(HOME, served.port, timeout=30)
+    line.putrequest("POST", urlsplit(served.address).path + "look")
+    line.putheader("Content-Type", "application/json")
+    line.putheader("Content-Length", str(MOST_BYTES + 1))
+    line.endheaders()
+    assert line.getresponse().status == 413
+    line.close()
+
+
+def test_a_large_scene_within_the_limit_is_told_to_be_too_large(served):
+    found = look(served, text="#" * 300_000)
+    assert "too large" in found["problems"][0]["found"]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "",
+        "no json",
+        "[]",
+        "null",
+        '{"text": 5}',
+        '{"text": "\\ud800"}',
+        '{"text": "", "settings": []}',
+        '{"text": "", "settings": {"n": 5}}',
+        '{"text": "", "settings": {"n": ""}}',
+        '{"text": "", "quick": 1}',
+        '{"text": "", "number": -1}',
+        '{"text": "", "number": true}',
+        '{"text": "", "number": 1e3}',
+        '{"text": "", "language": "xx"}',
+        '{"text": "", "language": ["en"]}',
+        '{"text": "", "mechanism": "both"}',
+        '{"text": "", "name": ["x"]}',
+        f'{{"text": "", "name": "{"x" * 301}"}}',
+        "[" * 100_000,
+        b"\xff\xfe",
+    ],
+)
+def test_what_the_page_does_not_ask_is_refused(served, body):
+    assert asked(served, "POST", "look", body, **JSON)[0].status == 400
+
+
+def test_kinds_of_files_are_some_of_those_known():
+    known = ("svg", "pdf")
+    assert Order(b'{"formats": ["pdf", "svg"]}').choices("formats", known) == known
+    for wrong in (b'{"formats": []}', b'{"formats": "svg"}', b'{"formats": ["exe"]}', b"{}"):
+        with pytest.raises(OrderError):
+            Order(wrong).choices("formats", known)
+
+
+def test_nothing_is_written_by_looking(served, tmp_path):
+    for number in range(1, 4):
+        look(served, number=number, settings={"n": str(number)})
+    asked(served, "GET", "scenes")
+    assert not list(tmp_path.iterdir())
+
+
+def test_scene_and_sheets_are_saved_where_it_was_started(served, tmp_path):
+    order = {"text": PUMP, "name": "mine.toml", "language": "en", "settings": {"n": "9"}}
+    assert json.loads(asked(served, "POST", "save", json.dumps(order), **JSON)[1])["files"]
+    assert (tmp_path / "mine.toml").read_text(encoding="utf-8") == PUMP
+    order |= {"view": "task", "formats": ["svg", "pdf"]}
+    found = json.loads(asked(served, "POST", "sheets", json.dumps(order), **JSON)[1])
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names == {"mine.toml", *found["files"]}
+    assert "mine-n9-velocity-task.pdf" in names
+    again = json.loads(asked(served, "POST", "sheets", json.dumps(order), **JSON)[1])
+    assert again["exist"] == found["files"]
+
+
+def test_a_hostile_name_and_text_stay_text_in_the_page(served, tmp_path):
+    evil = "</textarea><script>alert(1)</script><img src=x onerror=alert(1)> \" ' &"
+    (tmp_path / "'&evil.toml").write_text(f"# {evil}\n", encoding="utf-8")
+    answer, data = asked(served, "GET", "?scene=%27%26evil.toml")
+    assert answer.status == 200
+    assert data.count(b"<script") == 1
+    assert b"<img" not in data
+    assert b"onerror=alert(1)&gt;" in data
+
+
+def test_a_fault_is_told_without_its_inner_parts(served, monkeypatch, capsys):
+    def fault(*_: Any) -> None:
+        raise ZeroDivisionError("a secret path")
+
+    monkeypatch.setattr("graphkin.studio.desk.look", fault)
+    order = json.dumps({"text": PUMP, "language": "en"})
+    answer, data = asked(served, "POST", "look", order, **JSON)
+    assert answer.status == 500
+    assert b"secret" not in data
+    monkeypatch.undo()
+    assert look(served)["panels"]
+
+
+def test_the_files_of_the_page_name_no_outside_address():
+    folder = Path(__file__).resolve().parents[2] / "graphkin" / "studio" / "web"
+    for path in folder.iterdir():
+        text = path.read_text(encoding="utf-8").replace("http://www.w3.org/2000/svg", "")
+        assert "http:" not in text, path
+        assert "https:" not in text, path
+        assert " on" + "click=" not in text
+        assert "eval(" not in text
