@@ -1,0 +1,57 @@
+"""The pictures of pages in the README: ``python -m tests.browser.pictures [FOLDER]``."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import sync_playwright
+
+from graphkin.mechanism import load
+from graphkin.screen.handed import hand_out_page
+from graphkin.studio.server import serve
+from tests.browser.opening import ARGS
+from tests.studio.pump import desk_in, running
+
+FOLDER = Path(__file__).resolve().parents[2] / "examples"
+SIZE = {"width": 1440, "height": 900}
+
+
+def draw(folder: Path) -> None:
+    """Write the pictures."""
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=shutil.which("chromium"), args=ARGS)
+        draw_page(browser.new_page(viewport=SIZE), folder / "pump-n7-page.png")
+        draw_studio(browser.new_page(viewport=SIZE), folder / "studio.png")
+        browser.close()
+
+
+def draw_page(page: Any, path: Path) -> None:
+    """The page of student 7's pump in English, at the step that finds a centre."""
+    file = Path(tempfile.mkdtemp()) / "pump.html"
+    text = hand_out_page(load("pump", n=7), "pump", "pump-n7", "key", "en", "colour")
+    file.write_text(text, encoding="utf-8")
+    page.goto(f"{file.as_uri()}#step=9")
+    page.wait_for_timeout(500)
+    page.screenshot(path=path)
+
+
+def draw_studio(page: Any, path: Path) -> None:
+    """The studio with the pump in English, its slider moved."""
+    desk = desk_in(Path(tempfile.mkdtemp()))
+    desk.language = "en"
+    with running(serve(desk)) as served:
+        page.goto(f"{served.address}?lab=pump")
+        page.wait_for_selector("body[data-settled=true]")
+        page.fill("#value-n", "12")
+        page.press("#value-n", "Enter")
+        page.wait_for_selector("#slider-n[aria-valuetext='12']")
+        page.wait_for_timeout(500)
+        page.screenshot(path=path)
+
+
+if __name__ == "__main__":
+    draw(Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER)
