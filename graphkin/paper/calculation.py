@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import PageError, Problem
@@ -36,16 +36,26 @@ class Row:
     heading: bool = False
 
 
-def calculation(drawings: Sequence[Drawing], view: str) -> tuple[Page, ...]:
-    """The calculation pages of the sheets that were drawn: solved, or to be filled in."""
-    rows = list(all_rows(drawings, solved=view == "key"))
+NOTHING: Mapping[str, str] = {}
+
+
+def calculation(
+    drawings: Sequence[Drawing], view: str, computed: Mapping[str, str] = NOTHING
+) -> tuple[Page, ...]:
+    """The calculation pages of the sheets that were drawn: solved, or to be filled in.
+
+    ``computed`` says by the symbol why a quantity is computed, not measured.
+    """
+    rows = list(all_rows(drawings, computed, solved=view == "key"))
     pages = list(paged(rows))
     return tuple(
         page_of(drawings[0], page, view, f"{i}/{len(pages)}") for i, page in enumerate(pages, 1)
     )
 
 
-def all_rows(drawings: Sequence[Drawing], *, solved: bool) -> Iterator[Row]:
+def all_rows(
+    drawings: Sequence[Drawing], computed: Mapping[str, str], *, solved: bool
+) -> Iterator[Row]:
     """All lines in order, relations numbered through."""
     number = 0
     for section, found in relations(drawings):
@@ -55,11 +65,14 @@ def all_rows(drawings: Sequence[Drawing], *, solved: bool) -> Iterator[Row]:
         for relation in found:
             number += bool(relation.result)
             tag = f"({number})" if relation.result else ""
-            yield from broken(relation, tag, drawings[0], solved=solved)
+            hint = computed.get(relation.left, "") if relation.result else ""
+            yield from broken(relation, tag, drawings[0], hint, solved=solved)
 
 
-def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> Iterator[Row]:
-    """A relation in as many lines as it needs, its number beside the last."""
+def broken(
+    relation: Relation, tag: str, drawing: Drawing, hint: str = "", *, solved: bool
+) -> Iterator[Row]:
+    """A relation in as many lines as it needs, its number beside the last, a hint after it."""
     parts = relation.parts(solved=solved)
     room = RIGHT - LEFT - NUMBER
     parts = [
@@ -71,6 +84,7 @@ def broken(relation: Relation, tag: str, drawing: Drawing, *, solved: bool) -> I
         parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
         if relation.unit.startswith("rad/"):
             parts.append(f"({drawing.words('table.sense')}: {BLANK.rstrip()})")
+    parts += [f"({hint})"] if hint else []
     lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):
         if extent(line, LETTER)[0] > room:

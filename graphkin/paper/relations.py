@@ -156,9 +156,9 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:
-    """Where instantaneous centres and acceleration poles lie, in the axes of the frame."""
+    """Where instantaneous centres and acceleration poles lie: in millimetres on paper from the
+    first fixed pivot, as they are measured, and in the axes of the frame."""
     part = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
-    unit, axes = drawing.scene.units["length"], drawing.words("calculation.axes")
     for _, step, value in drawing.mechanism_steps():
         if step.part is not part or not isinstance(value, Ratio) or not step.name:
             continue
@@ -169,5 +169,17 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
             said = drawing.words(f"calculation.{key}")
             yield Relation(symbol(step.name), result=said, equals=equals)
         else:
-            x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
-            yield Relation(symbol(step.name), result=f"({x}; {y})", unit=unit, remark=axes)
+            yield of_place(drawing, symbol(step.name), point)
+
+
+def of_place(drawing: Drawing, name: str, point: complex) -> Relation:
+    """A place on paper from the first fixed pivot, and in the axes of the frame."""
+    words, unit = drawing.words, drawing.scene.units["length"]
+    x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
+    pivots = drawing.scene.frame.points
+    if not pivots:
+        return Relation(name, result=f"({x}; {y})", unit=unit, remark=words("calculation.axes"))
+    way = 1000 * (point - drawing.standing.spot(pivots[0])) / drawing.scales.kL
+    measured = f"({words.fixed(way.real, 2)}; {words.fixed(way.imag, 2)})"
+    remark = words("calculation.on_paper", pivot=symbol(pivots[0]), place=f"({x}; {y}) {unit}")
+    return Relation(name, result=measured, unit="mm", remark=remark)
