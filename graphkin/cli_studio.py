@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
 
-from graphkin.options import tell
+from graphkin.options import current, tell
+
+NEEDED = ("bottle", "waitress")
+"""The packages of the extra [studio]."""
 
 
 @click.command()
@@ -41,6 +45,12 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
       graphkin studio pump
       graphkin studio mine.toml --no-browser --port 8080
     """
+    if missing := [name for name in NEEDED if not find_spec(name)]:
+        raise click.UsageError(
+            f"the studio needs {' and '.join(missing)}: pip install '.[studio]' where graphkin was "
+            "installed from, or pip install 'graphkin[studio]'",
+            current(),
+        )
     from graphkin.studio.desk import Desk
     from graphkin.studio.folder import Folder
     from graphkin.studio.server import serve

@@ -15,6 +15,7 @@ from urllib.parse import urlsplit
 import pytest
 from click.testing import CliRunner
 
+from graphkin import cli_studio
 from graphkin.cli import app
 from graphkin.errors import PageError
 from graphkin.studio.server import serve
@@ -80,3 +81,10 @@ def test_without_its_libraries_it_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "waitress", None)
     with pytest.raises(PageError, match=r"graphkin\[studio\]"):
         serve(desk_in(tmp_path))
+
+
+def test_without_its_packages_it_says_what_to_install(monkeypatch):
+    monkeypatch.setattr(cli_studio, "find_spec", lambda name: None if name == "bottle" else name)
+    result = CliRunner().invoke(cli_studio.studio, ["--no-browser"])
+    assert result.exit_code == 2
+    assert "the studio needs bottle: pip install '.[studio]'" in result.output
