@@ -2,39 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphkin.paper.candidates import (
+from graphkin.paper.candidates import Blots, Subjects, Tries, distance_cost
+from graphkin.paper.clashes import PAD, Places
+from graphkin.paper.shapes import (
     NOWHERE,
     TINY,
     Array,
-    Blots,
     Box,
     Index,
     Mask,
-    Shapes,
-    Subjects,
-    Tries,
-    cosines,
     crossings,
     distance,
-    distance_cost,
     joined,
-    leaders,
+    meeting,
     merged,
     rectangles,
     segments,
     separation,
 )
 
-AHEAD = 4  # how many places of a label are compared with all others at one go
-PAD = 0.6  # mm between a label and a taken box, a point, a leader or a label above or below it
-BESIDE = 1.2  # mm between labels side by side, so that they do not read as one
-APART = np.array([[BESIDE], [PAD]])
 OWN = 0.4  # mm within which a drawn line is taken for the subject itself
 ROOM = 1.4  # mm of air around a label beyond which more is no better
 LEADER = np.array([6.0, 3.7])  # what one costs to a point and to a segment; costs are in mm
@@ -42,6 +33,7 @@ CROSSING = 0.9  # a line that a leader crosses
 SKIRT = 2.5  # a line that a leader runs along
 ASTRAY = 4.0  # a label further than FAR_OFF from its segment and nearer to another of length LONG
 FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
+SLANT = 0.34  # sine of the angle to a line below which a leader runs along it
 AIR = 0.7  # each mm of air that is missing
 
 # Kinds of shapes; how far (mm) each should be beyond a label's own subject, and the cost of each
@@ -51,8 +43,8 @@ MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
 WEIGHT = np.array([[0.4, 0.0, 1.5, 0.5], [1.1, 0.0, 0.7, 1.5]])
 
 
-class Places(NamedTuple):
-    """The places that are open, a row for each; a leader NOWHERE is none; mm."""
+class Open(NamedTuple):
+    """Candidates that nothing has ruled out yet, a row for each; mm."""
 
     label: Index
     x: Array  # centre
@@ -60,90 +52,31 @@ class Places(NamedTuple):
     hx: Array  # half extents of the label
     hy: Array
     cost: Array
-    leader: Array  # x0, y0 at the label, x1, y1 at the subject
+    own: Array  # distance from the label's own subject
+    root_x: Array  # the place on the subject that is meant
+    root_y: Array
 
-    def take(self, which: Index) -> Places:
-        """Return some of the places."""
-        return Places(self.label[which], *(column[which] for column in self[1:]))
+    def take(self, which: Index) -> Open:
+        """Return some of the candidates."""
+        return Open(self.label.take(which), *(column.take(which) for column in self[1:]))
 
-    def joined(self, more: Places) -> Places:
-        """Return these places and then more."""
-        both = (np.concatenate(pair) for pair in zip(self[1:], more[1:], strict=True))
-        return Places(np.concatenate([self.label, more.label]), *both)
+    def boxes(self, more: Array | float = 0.0) -> Array:
+        """Return the labels' boxes as rows left, top, right, bottom, wider by a length in mm."""
+        wide, high = self.hx + more, self.hy + more
+        return np.stack([self.x - wide, self.y - high, self.x + wide, self.y + high])
 
+    def leaders(self, radius: Array) -> Array:
+        """Return lines from 0.5 mm off the labels' boxes, aimed at their centres, to the subjects.
 
-NONE = np.empty(0)
-NO_PLACES = Places(np.empty(0, dtype=np.intp), NONE, NONE, NONE, NONE, NONE, np.empty((0, 4)))
-
-
-class Clashes:
-    """Which places rule each other out, found when first asked for."""
-
-    def __init__(self) -> None:
-        self.places = NO_PLACES
-        self.known: dict[int, Mask] = {}
-
-    def add(self, more: Places) -> None:
-        """Add places; those there were keep their numbers."""
-        old, self.places = len(self.places.label), self.places.joined(more)
-        leader = self.places.leader
-        self.led, self.path = leader[:, 0] < NOWHERE, np.stack(segments(leader))
-        self.box = np.stack(self.places[1:5])
-        middle, half = self.box[:2], self.box[2:]
-        end = np.where(self.led, leader.T[2:], middle)
-        self.low, self.high = np.minimum(middle - half, end), np.maximum(middle + half, end) + APART
-        grown = self._found(np.fromiter(self.known, dtype=np.intp), old)
-        for k, row in zip(self.known, grown, strict=True):
-            self.known[k] = np.concatenate([self.known[k], row])
-
-    def of(self, k: int) -> Mask:
-        """Return which places the place k rules out if a label sits there."""
-        if k not in self.known:
-            same = np.flatnonzero(self.places.label[k : k + AHEAD] == self.places.label[k])
-            self.find(j for j in (same + k).tolist() if j not in self.known)
-        return self.known[k]
-
-    def find(self, which: Iterable[int]) -> None:
-        """Compare some places with all others, at one go."""
-        ks = np.fromiter(which, dtype=np.intp)
-        self.known.update(zip(ks.tolist(), self._found(ks, 0), strict=True))
-
-    def _found(self, ks: Index, start: int) -> Mask:
-        """Compare some places with those from a number on: first their extents, then the rest."""
-        label, (left, top), (right, bottom) = self.places.label, self.low, self.high
-        near = left[start:] < right[ks, None]
-        near &= left[ks, None] < right[start:]
-        near &= top[start:] < bottom[ks, None]
-        near &= top[ks, None] < bottom[start:]
-        near &= label[start:] != label[ks, None]
-        at = np.flatnonzero(near)
-        row, there = np.divmod(at, near.shape[1]) if len(at) else (at, at)
-        near.reshape(-1)[at] = self._meet(ks[row], there + start)
-        return np.asarray(near)
-
-    def _meet(self, one: Index, other: Index) -> Mask:
-        """Return which pairs of places meet: their boxes, a box and a leader, or two leaders."""
-        here, there = self.box.take(one, axis=1), self.box.take(other, axis=1)
-        inside = np.abs(here[:2] - there[:2]) < here[2:] + there[2:] + APART
-        clash = np.asarray(inside[0] & inside[1])
-        led, back = np.flatnonzero(self.led[other]), np.flatnonzero(self.led[one])
-        if len(led) or len(back):
-            x, y, hx, hy = self.box.take(np.concatenate([one[led], other[back]]), axis=1)
-            ways = Shapes(*self.path.take(np.concatenate([other[led], one[back]]), axis=1))
-            clash[np.concatenate([led, back])[separation(x, y, hx, hy, ways) < PAD]] = True
-            both = led[self.led[one[led]]]
-            leader = self.places.leader
-            clash[both] |= crossings(leader[one[both]], leader[other[both]])
-        return clash
-
-
-class Pairs(NamedTuple):
-    """Which shapes are near the places of which label, sorted by label."""
-
-    row: Index
-    shape: Index
-    own: Mask  # the shape is the subject or runs through it
-    start: Index  # where each row begins
+        They end at circles of a radius in mm; columns are x0, y0, x1, y1.
+        """
+        way_x, way_y = self.root_x - self.x, self.root_y - self.y
+        length = np.sqrt(way_x * way_x + way_y * way_y).clip(TINY)
+        share_x = (self.hx + 0.5) / np.abs(way_x).clip(TINY)
+        share = np.minimum(share_x, (self.hy + 0.5) / np.abs(way_y).clip(TINY))
+        back = radius / length
+        ends = self.root_x - way_x * back, self.root_y - way_y * back
+        return np.stack([self.x + way_x * share, self.y + way_y * share, *ends], axis=1)
 
 
 class Page:
@@ -164,45 +97,35 @@ class Page:
         self.shapes = joined(segments(drawn), rectangles(taken), segments(core))
         kinds = [np.full(len(drawn), LINE), np.full(len(taken), BOX)]
         self.kind = np.concatenate([*kinds, np.where(subjects.line, CORE, DOT)])
+        self.first = len(drawn) + len(taken)  # of the labels' own subjects
         self.long = (np.hypot(self.shapes.ex, self.shapes.ey) > LONG / 2) & (self.kind != BOX)
         keep = np.where(subjects.line, -NOWHERE, subjects.radius + PAD)
         self.clear = np.concatenate([clear, np.full(len(taken), PAD), keep])
+        self.own = self._owned()
         self.blots = Blots(drawn, field, 0.7 * float(clear.min(initial=PAD)))
-        self.reach = np.maximum(self.clear, np.where(self.kind < DOT, ROOM, 2 * ROOM))
 
-    def places(self, which: Index, some: Tries, span: slice, led: bool) -> Places:
-        """Return the free ones among the candidates of some labels, with leaders or without."""
-        which, some, own, cost = self._promising(which, some, span)
-        if not len(which):
-            return NO_PLACES
-        subjects = self.subjects.take(which)
-        (x, y), (hx, hy) = np.moveaxis(some.centre, 2, 0), subjects.half.T[:, :, None]
-        pairs = self._pairs(subjects, some)
-        row, near = pairs.row, self.shapes.take(pairs.shape).upright()
-        apart = separation(x[row], y[row], hx[row], hy[row], near)
-        itself = pairs.shape == which[row] + len(self.kind) - len(self.subjects.gap)
-        hard = np.where(itself, -NOWHERE, self.clear[pairs.shape])
-        cost[np.logical_or.reduceat(apart < hard[:, None], pairs.start)] = np.inf
-        if led:
-            leader = leaders(some, subjects)
-            cost += LEADER[subjects.line.astype(int), None]
-            cost += self._toll(leader, cost < np.inf, pairs)
-        else:
-            leader = np.full((*x.shape, 4), NOWHERE)
-            cost += self._doubt(subjects, own, apart, pairs)
-        at = np.nonzero(cost < np.inf)
-        hx, hy = subjects.half[at[0]].T
-        return Places(which[at[0]], x[at], y[at], hx, hy, cost[at], leader[at])
+    def near(self, some: Open) -> Places:
+        """Return candidates as places without a leader."""
+        leader = np.full((len(some.label), 4), NOWHERE)
+        return Places(*some[:5], some.cost + self._doubt(some), leader)
 
-    def _promising(
-        self, which: Index, some: Tries, span: slice
-    ) -> tuple[Index, Tries, Array, Array]:
-        """Return labels, their nearest candidates, not surely taken, how far these are, the cost.
+    def led(self, some: Open) -> Places:
+        """Return candidates as places with a leader, but those where it runs into what is named.
 
-        A label without any is left out; one with few has infinite costs at the end of its row.
+        What it costs to cross lines or to run along them is added to their costs.
+        """
+        leader = some.leaders(self.subjects.radius.take(some.label))
+        toll = LEADER[self.subjects.line.take(some.label).astype(int)] + self._toll(some, leader)
+        places = Places(*some[:5], some.cost + toll, leader)
+        return places.take(np.flatnonzero(np.isfinite(toll)))
+
+    def open(self, which: Index, some: Tries, span: slice) -> Open:
+        """Return the free ones among the candidates of labels.
+
+        Of each label those are looked at that the slice takes, counted from the nearest one.
         """
         subjects = self.subjects.take(which)
-        (x, y), (hx, hy) = np.moveaxis(some.centre, 2, 0), subjects.half.T[:, :, None]
+        x, y, (hx, hy) = some.x, some.y, subjects.half.T[:, :, None]
         own = distance(x, y, hx, hy, segments(subjects.ends).upright())
         own -= subjects.radius[:, None]
         free = own >= subjects.gap[:, None] - TINY
@@ -210,98 +133,117 @@ class Page:
         free &= (y - hy >= self.field[1]) & (y + hy <= self.field[3])
         free &= ~self.blots.hit(x, y, hx, hy)
         cost = np.where(free, distance_cost(some, own, subjects), np.inf)
-        count = free.sum(axis=1) - span.start
-        left = np.flatnonzero(count > 0)
-        rows, last = left[:, None], span.start + count.max()
-        order = np.argsort(cost, axis=1, kind="stable")[left, span.start : min(span.stop, last)]
-        order = np.where(np.isfinite(cost[rows, order]), order, order[:, :1])
-        kept = Tries(*(column[rows, order] for column in some))
-        cost, own = cost[rows, order], own[rows, order]
-        cost[np.arange(order.shape[1]) >= count[rows]] = np.inf
-        return which[left], kept, own, cost
+        order = np.argsort(cost, axis=1, kind="stable")[:, span]
+        at = (order + np.arange(len(which))[:, None] * cost.shape[1]).reshape(-1)
+        at = at.take(np.flatnonzero(np.isfinite(cost.take(at))))
+        row = at // cost.shape[1]
+        columns = (column.take(at) for column in (cost, own, some.root_x, some.root_y))
+        wide, high = subjects.half[row].T
+        found = Open(which[row], x.take(at), y.take(at), wide, high, *columns)
+        return found.take(np.flatnonzero(self._clear_of_all(found)))
 
-    def _pairs(self, subjects: Subjects, some: Tries) -> Pairs:
-        """Return the shapes near the places of each label; each has its own subject at least."""
-        ends = np.concatenate([some.centre, some.root], axis=1)
-        low, high = ends.min(axis=1), ends.max(axis=1)
-        (x, y), (hx, hy) = (low + high).T / 2, (high - low).T / 2 + subjects.half.T
-        near, reach = self.shapes, self.reach
-        close = np.abs(x[:, None] - near.x) <= hx[:, None] + (near.ex + reach)
-        close &= np.abs(y[:, None] - near.y) <= hy[:, None] + (near.ey + reach)
-        row, shape = close.nonzero()
-        apart = separation(x[row], y[row], hx[row], hy[row], near.take(shape)) <= reach[shape]
-        row, shape = row[apart], shape[apart]
-        start = np.searchsorted(row, np.arange(len(x)))
-        return Pairs(row, shape, self._own(subjects, row, shape), start)
+    def _clear_of_all(self, some: Open) -> Mask:
+        """Return which candidates are as far from all shapes as they must be."""
+        clear = self.clear
+        place, shape = meeting(some.boxes(), self.reach(clear))
+        other = np.flatnonzero(shape != some.label.take(place) + self.first)
+        place, shape = place.take(other), shape.take(other)
+        near = np.flatnonzero(self._apart(some, place, shape) < clear.take(shape))
+        free = np.ones(len(some.label), dtype=np.bool_)
+        free[place.take(near)] = False
+        return free
 
-    def _own(self, subjects: Subjects, row: Index, shape: Index) -> Mask:
-        """Return which shapes run through a whole subject or are a part of it."""
-        zero = np.zeros(len(row))
-        near, mine = self.shapes.take(shape), segments(subjects.ends).take(row)
-        tips, ends = subjects.ends[row].T, self.ends[shape].T
+    def _apart(self, some: Open, place: Index, shape: Index) -> Array:
+        """Return how far candidates are from shapes, a pair in each row."""
+        x, y, hx, hy = (column.take(place) for column in some[1:5])
+        return separation(x, y, hx, hy, self.shapes.take(shape))
+
+    def _owned(self) -> Mask:
+        """Return which shapes (columns) run through a label's whole subject or are a part of it."""
+        ends, wide = self.subjects.ends, self.subjects.radius + OWN
+        low, high = np.minimum(ends[:, :2], ends[:, 2:]).T, np.maximum(ends[:, :2], ends[:, 2:]).T
+        label, shape = meeting(np.concatenate([low - wide, high + wide]), self.reach(0.0))
+        zero = np.zeros(len(label))
+        near, mine = self.shapes.take(shape), segments(ends).take(label)
+        tips, ends = ends[label].T, self.ends[shape].T
         through = [separation(tips[k], tips[k + 1], zero, zero, near) for k in (0, 2)]
         part = [separation(ends[k], ends[k + 1], zero, zero, mine) for k in (0, 2)]
-        inside = (np.maximum(*part) <= OWN) & (self.kind[shape] != BOX)
-        return np.asarray((np.maximum(*through) <= subjects.radius[row] + OWN) | inside)
+        own = (np.maximum(*part) <= OWN) & (self.kind[shape] != BOX)
+        own |= np.maximum(*through) <= wide[label]
+        table = np.zeros((len(wide), len(self.kind)), dtype=np.bool_)
+        table[label[own], shape[own]] = True
+        return table
 
-    def _doubt(self, subjects: Subjects, own: Array, apart: Array, pairs: Pairs) -> Array:
+    def _is_own(self, label: Index, shape: Index) -> Mask:
+        """Return which shapes are a label's own subject, a pair in each row."""
+        return np.asarray(self.own.take(label * len(self.kind) + shape))
+
+    def reach(self, more: Array | float) -> Array:
+        """Return boxes around all shapes as rows left, top, right, bottom, wider by some mm."""
+        wide, high, near = self.shapes.ex + more, self.shapes.ey + more, self.shapes
+        return np.stack([near.x - wide, near.y - high, near.x + wide, near.y + high])
+
+    def _doubt(self, some: Open) -> Array:
         """Return what places cost where a label may seem to name something else, or is cramped."""
-        kind = subjects.line[pairs.row].astype(int), self.kind[pairs.shape]
-        weight = np.where(pairs.own, 0.0, WEIGHT[kind])[:, None]
-        short = (own[pairs.row] + MARGIN[kind][:, None] - apart) * weight
-        doubt = np.maximum.reduceat(short, pairs.start).clip(0.0)
-        room = np.where(pairs.own[:, None], ROOM, apart)
-        air = np.minimum.reduceat(room, pairs.start).clip(0.0, ROOM)
-        astray = ASTRAY * self._astray(subjects, own, apart, pairs)
-        return np.asarray(doubt * (1.0 + doubt / 5.0) + AIR * (ROOM - air) + astray)
+        far = np.maximum(ROOM, some.own + MARGIN.max())
+        place, shape = meeting(some.boxes(far), self.reach(0.0))
+        apart, label = self._apart(some, place, shape), some.label.take(place)
+        other = np.flatnonzero((apart < far.take(place)) & ~self._is_own(label, shape))
+        place, shape, label = place.take(other), shape.take(other), label.take(other)
+        apart = apart.take(other)
+        own, line = some.own.take(place), self.subjects.line.take(label)
+        kind = self.kind.take(shape) + len(MARGIN[0]) * line
+        doubt, air = np.zeros(len(some.own)), np.full(len(some.own), ROOM)
+        np.maximum.at(doubt, place, (own + MARGIN.take(kind) - apart) * WEIGHT.take(kind))
+        np.minimum.at(air, place, apart.clip(0.0))
+        astray = np.zeros(len(some.own), dtype=np.bool_)
+        astray[place.take(np.flatnonzero((apart < own) & line & self.long.take(shape)))] = True
+        astray &= some.own > self.subjects.gap.take(some.label) + FAR_OFF
+        return np.asarray(doubt * (1.0 + doubt / 5.0) + AIR * (ROOM - air) + ASTRAY * astray)
 
-    def _astray(self, subjects: Subjects, own: Array, apart: Array, pairs: Pairs) -> Mask:
-        """Return where a label is far from its own segment and nearer to another long one."""
-        other = ~pairs.own & subjects.line[pairs.row] & self.long[pairs.shape]
-        nearer = (apart < own[pairs.row]) & other[:, None]
-        far = own > subjects.gap[:, None] + FAR_OFF
-        return np.asarray(np.logical_or.reduceat(nearer, pairs.start) & far)
-
-    def _toll(self, leader: Array, free: Mask, pairs: Pairs) -> Array:
+    def _toll(self, some: Open, leader: Array) -> Array:
         """Return what leaders cost: lines crossed or skirted; infinite across a box or a point."""
-        kind = self.kind[pairs.shape]
-        solid = np.where((kind == LINE) | pairs.own, -NOWHERE, self.clear[pairs.shape] - PAD / 2)
-        at = _close(leader, free, pairs.row, self.shapes.take(pairs.shape), solid)
-        toll = np.zeros(len(at[0]))
-        path, shape = leader[pairs.row[at[0]], at[1]], pairs.shape[at[0]]
-        which = np.flatnonzero((kind[at[0]] == LINE) | (kind[at[0]] == CORE))
-        own = pairs.own[at[0][which]]
-        toll[which] = self._brush(path[which], shape[which], own)
-        which = np.flatnonzero(solid[at[0]] > 0)
-        some, zero, near = path[which], np.zeros(1), self.shapes.take(shape[which])
-        limit = solid[at[0][which]]
-        hit = separation(near.x, near.y, near.ex, near.ey, segments(some)) < limit
-        hit &= separation(some[:, 2], some[:, 3], zero, zero, near) > limit
+        x0, y0, x1, y1 = leader.T
+        ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)
+        wide = np.maximum(self.clear - PAD / 2, 2 * OWN)
+        place, shape = meeting(np.stack(ways), self.reach(wide))
+        off = self._off(leader.take(place, axis=0), shape)
+        near = (off[0] * off[1] <= 0) | (np.abs(off).min(axis=0) <= wide.take(shape))
+        near = np.flatnonzero(near)
+        place, shape, off = place.take(near), shape.take(near), off.take(near, axis=1)
+        own, kind = self._is_own(some.label.take(place), shape), self.kind.take(shape)
+        path = leader.take(place, axis=0)
+        line = (kind == LINE) | (kind == CORE)
+        toll = np.where(line, self._brush(path, shape, off, own), 0.0)
+        limit = self.clear[shape] - PAD / 2
+        which = np.flatnonzero((kind != LINE) & ~own & (limit > 0))
+        path, zero, solid = path[which], np.zeros(1), self.shapes.take(shape[which])
+        limit = limit[which]
+        hit = separation(solid.x, solid.y, solid.ex, solid.ey, segments(path)) < limit
+        hit &= separation(path[:, 2], path[:, 3], zero, zero, solid) > limit
         toll[which[hit]] = np.inf
-        flat = np.bincount(pairs.row[at[0]] * free.shape[1] + at[1], toll, free.size)
-        return np.asarray(flat, dtype=np.float64).reshape(free.shape)
+        return np.asarray(np.bincount(place, toll, len(leader)), dtype=np.float64)
 
-    def _brush(self, path: Array, shape: Index, own: Mask) -> Array:
+    def _off(self, path: Array, shape: Index) -> Array:
+        """Return on which side of shapes, and how far off in mm, both ends of leaders lie."""
+        near = self.shapes
+        x, y, nx, ny = (column.take(shape) for column in (near.x, near.y, near.nx, near.ny))
+        x0, y0, x1, y1 = path.T
+        return np.stack([nx * (x0 - x) + ny * (y0 - y), nx * (x1 - x) + ny * (y1 - y)])
+
+    def _brush(self, path: Array, shape: Index, off: Array, own: Mask) -> Array:
         """Return what it costs that leaders cross or run along these lines, a line for each."""
-        line, zero = self.ends[shape], np.zeros(1)
-        cosine, middle = cosines(path, line), (path[:, :2] + path[:, 2:]).T / 2
-        toll = CROSSING * (1.0 + 2.0 * cosine * cosine) * (crossings(path, line) & ~own)
-        along = np.flatnonzero(np.abs(cosine) > 0.94)
-        near = self.shapes.take(shape[along])
-        beside = separation(middle[0, along], middle[1, along], zero, zero, near) < 2 * OWN
-        toll[along] += SKIRT * (beside | own[along])
+        x0, y0, x1, y1 = path.T
+        length = np.sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2).clip(TINY)
+        sine = (off[1] - off[0]) / length
+        toll = np.zeros(len(shape))
+        cross = np.flatnonzero((off[0] * off[1] <= 0) & ~own)
+        cross = cross[crossings(path[cross], self.ends[shape[cross]])]
+        toll[cross] = CROSSING * (3.0 - 2.0 * sine[cross] * sine[cross])
+        beside = (np.abs(sine) < SLANT) & (self.shapes.slack[shape] == 0)
+        along = np.flatnonzero(beside & (own | (np.abs(off[0] + off[1]) < 4 * OWN)))
+        near, zero = self.shapes.take(shape[along]), np.zeros(1)
+        x, y = (x0[along] + x1[along]) / 2, (y0[along] + y1[along]) / 2
+        along = along[own[along] | (separation(x, y, zero, zero, near) < 2 * OWN)]
+        toll[along] += SKIRT
         return np.asarray(toll)
-
-
-def _close(
-    leader: Array, free: Mask, row: Index, near: Shapes, solid: Array
-) -> tuple[Index, Index]:
-    """Return which pairs and columns have a leader that comes near the shape of the pair."""
-    (ax, ay, bx, by), wide = np.moveaxis(leader, 2, 0), np.maximum(solid, 2 * OWN)
-    left, right = (near.x - near.ex - wide)[:, None], (near.x + near.ex + wide)[:, None]
-    top, bottom = (near.y - near.ey - wide)[:, None], (near.y + near.ey + wide)[:, None]
-    close = np.maximum(ax, bx)[row] >= left
-    close &= np.where(free, np.minimum(ax, bx), NOWHERE)[row] <= right
-    close &= np.maximum(ay, by)[row] >= top
-    close &= np.minimum(ay, by)[row] <= bottom
-    return np.divmod(np.flatnonzero(close), close.shape[1])

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import hypot
-from typing import Any, NamedTuple
+from math import hypot, sqrt
+from typing import NamedTuple
 
 from graphkin.paper.areas import Rect
+from graphkin.paper.chords import segments
 from graphkin.paper.field import XY
-from graphkin.paper.labels import Board, Label, segments
+from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Circle, Line, Mark, Text, reach
 from graphkin.paper.symbols import SHORT, VECTORS, head
 
@@ -22,10 +23,16 @@ TOO_SHORT = 0.5
 """Vectors shorter than this, in mm, are not worth a detail."""
 GRID = 5.0
 """Distance of the places tried for a detail, in mm."""
-
-
-TRIES = 60
-"""Places among which one is sought whose line to the drawing crosses no text."""
+TOGETHER = 48
+"""Places that are compared with all that is drawn at one go."""
+INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
+"""Half the sides of rectangles in a disc of radius 1."""
+BLOT = 2.0
+"""Size of the cells in which marks are counted to rule places out at a glance, in mm."""
+CLEAR = 0.5
+"""How far the line from a drawing to its detail stays from lettering, in mm."""
+MOST = 240
+"""Places, nearest first, among which one is sought whose line to the drawing crosses no text."""
 
 
 def length_of(line: Line) -> float:
@@ -81,26 +88,37 @@ def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY |
     One is preferred from which a line to the drawing crosses no text.
     """
     import numpy as np
-    import shapely
+
+    from graphkin.paper.candidates import Blots
+    from graphkin.paper.shapes import distance, joined, rectangles, separation
+    from graphkin.paper.shapes import segments as shapes_of
 
     xs = np.arange(rect[0] + room, rect[2] - room, GRID)
     ys = np.arange(rect[1] + room, rect[3] - room, GRID)
-    grid = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
-    lines: Any = np.array([s for mark in marks for s in segments(mark)]).reshape(-1, 2, 2)
-    texts = [shapely.box(*reach(mark)) for mark in marks if isinstance(mark, Text)]
-    sides = [text.exterior for text in texts]
-    drawn: Any = shapely.multilinestrings([*shapely.linestrings(lines), *sides])
-    shapely.prepare(drawn)  # many times as fast as a tree
-    free = grid[~shapely.dwithin(drawn, shapely.points(grid), room)]
-    nearest = free[np.hypot(*(free - near).T).argsort(kind="stable")][:TRIES]
-    ways: Any = shapely.linestrings(
-        np.array([[near, place] for place in nearest]).reshape(-1, 2, 2)
-    )
-    crossed = shapely.STRtree(texts).query(ways, predicate="dwithin", distance=0.5)[0]
-    clear = np.delete(nearest, crossed, axis=0)
-    for x, y in (*clear, *nearest):
-        return float(x), float(y)
-    return None
+    x, y = (row.reshape(-1) for row in np.meshgrid(xs, ys))
+    order = np.argsort(np.hypot(x - near[0], y - near[1]), kind="stable")
+    x, y, zero = x[order], y[order], np.zeros(1)
+    lines = np.array([s for mark in marks for s in segments(mark)]).reshape(-1, 4)
+    texts = rectangles([reach(mark) for mark in marks if isinstance(mark, Text)])
+    blots, boxes = Blots(lines, rect, 0.0, BLOT), texts.upright()
+    for wide, high in INNER:
+        half = np.full(len(x), wide * room), np.full(len(x), high * room)
+        likely = np.flatnonzero(~blots.hit(x, y, *half))
+        x, y = x[likely], y[likely]
+    drawn = joined(shapes_of(lines), texts).upright()
+    first: XY | None = None
+    for start in range(0, len(x), TOGETHER):
+        u, v = x[start : start + TOGETHER], y[start : start + TOGETHER]
+        free = (distance(u, v, zero, zero, drawn) > room).all(axis=0)
+        ways = shapes_of(np.stack(np.broadcast_arrays(*near, u, v), axis=1))
+        clear = (separation(boxes.x, boxes.y, boxes.ex, boxes.ey, ways) >= CLEAR).all(axis=0)
+        for i in np.flatnonzero(free & clear)[:1]:
+            return float(u[i]), float(v[i])
+        for i in np.flatnonzero(free)[: 0 if first else 1]:
+            first = float(u[i]), float(v[i])
+        if first and start >= MOST:
+            break
+    return first
 
 
 def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterator[Mark]:
@@ -133,11 +151,12 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
 
 def crosses_text(line: Line, marks: Sequence[Mark]) -> bool:
     """True when a line would run through lettering."""
-    import shapely
+    from graphkin.paper.shapes import met
+    from graphkin.paper.shapes import segments as shapes_of
 
-    way = shapely.LineString([(line.x1, line.y1), (line.x2, line.y2)])
-    texts = [shapely.box(*reach(mark)) for mark in marks if isinstance(mark, Text)]
-    return bool(shapely.dwithin(way, texts, 0.5).any()) if texts else False
+    boxes = [reach(mark) for mark in marks if isinstance(mark, Text)]
+    wider = [(b[0] - CLEAR, b[1] - CLEAR, b[2] + CLEAR, b[3] + CLEAR) for b in boxes]
+    return met(wider, shapes_of([(line.x1, line.y1, line.x2, line.y2)])) > 0
 
 
 def passes(line: Line, centre: XY, radius: float) -> bool:
@@ -149,18 +168,31 @@ def passes(line: Line, centre: XY, radius: float) -> bool:
 
 def draw_part(board: Board, line: Line, source: XY, place: XY, times: int) -> None:
     """The part of a line that lies in the small circle, enlarged, with its head if that is in."""
-    import shapely
-
-    disc = shapely.Point(source).buffer(RADIUS / times)
-    part = shapely.LineString([(line.x1, line.y1), (line.x2, line.y2)]).intersection(disc)
-    if part.is_empty or part.geom_type != "LineString":
+    found = within(line, source, RADIUS / times)
+    if found is None:
         return
-    (x0, y0), (x1, y1) = (larger((x, y), source, place, times) for x, y in part.coords)
+    (x0, y0), (x1, y1) = (larger(end, source, place, times) for end in found)
     style = line.cls.split()[0]
     board.marks.append(Line(x0, y0, x1, y1, f"{style} detail"))
-    whole = disc.covers(shapely.Point(line.x2, line.y2))
+    whole = found[1] == (line.x2, line.y2)
     if style != "construction" and whole and hypot(x1 - x0, y1 - y0) >= SHORT:
         board.marks.append(head((x0, y0), (x1, y1), style))
+
+
+def within(line: Line, centre: XY, radius: float) -> tuple[XY, XY] | None:
+    """The part of a line that lies in a circle; None where there is none."""
+    dx, dy = line.x2 - line.x1, line.y2 - line.y1
+    x, y = line.x1 - centre[0], line.y1 - centre[1]
+    square, half = dx * dx + dy * dy, x * dx + y * dy
+    under = half * half - square * (x * x + y * y - radius * radius)
+    if under <= 0 or square <= 0:
+        return None
+    low, high = (-half - sqrt(under)) / square, (-half + sqrt(under)) / square
+    if high <= 0 or low >= 1:
+        return None
+    start = (line.x1 + low * dx, line.y1 + low * dy) if low > 0 else (line.x1, line.y1)
+    end = (line.x1 + high * dx, line.y1 + high * dy) if high < 1 else (line.x2, line.y2)
+    return start, end
 
 
 def larger(point: XY, source: XY, place: XY, times: int) -> XY:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from graphkin.paper.field import XY
+from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Line, Mark, Polyline, reach
 from graphkin.paper.place import Spot
 from graphkin.paper.symbols import VECTORS
@@ -22,22 +22,48 @@ def with_leaders(
     labels: Sequence[Label], spots: Sequence[Spot], marks: Sequence[Mark]
 ) -> list[Spot]:
     """The places of labels, with a leader for each doubtful one that can have one."""
+    found = list(spots)
+    doubtful = doubtful_ones(labels, spots, marks)
+    if doubtful:
+        texts = [label.text(spot) for label, spot in zip(labels, spots, strict=True)]
+        areas = [reach(text) for text in texts]
+    for i in doubtful:
+        ends = segment_of(labels[i])
+        leader = leader_to(labels[i], spots[i], ends) if ends else None
+        if leader and not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
+            found[i] = replace(spots[i], leader=leader)
+    return found
+
+
+def doubtful_ones(
+    labels: Sequence[Label], spots: Sequence[Spot], marks: Sequence[Mark]
+) -> list[int]:
+    """The labels without a leader that are nearer to another bar or vector than to their own.
+
+    Numbers of links are held against bars and plates, other names against vectors.
+    """
+    import numpy as np
     import shapely
 
-    texts = [label.text(spot) for label, spot in zip(labels, spots, strict=True)]
-    boxes = [shapely.box(*reach(text)) for text in texts]
-    bars, vectors = rivals(marks, bars=True), rivals(marks, bars=False)
-    found = []
-    for i, (label, spot) in enumerate(zip(labels, spots, strict=True)):
-        ends = segment_of(label)
-        doubtful = ends and not spot.leader and is_doubtful(label, boxes[i], bars, vectors)
-        leader = leader_to(label, spot, ends) if ends and doubtful else None
-        others = [*boxes[:i], *boxes[i + 1 :]]
-        if leader and not shapely.intersects(shapely.LineString(leader), others).any():
-            found.append(replace(spot, leader=leader))
-        else:
-            found.append(spot)
-    return found
+    found: list[int] = []
+    for bars in (True, False):
+        shapes = rivals(marks, bars=bars)
+        place = {name: j for j, name in enumerate(shapes)}
+        which = [
+            i
+            for i, (label, spot) in enumerate(zip(labels, spots, strict=True))
+            if label.ring is bars and label.name in place and segment_of(label) and not spot.leader
+        ]
+        if not which or len(shapes) < 2:
+            continue
+        areas = np.array([reach(labels[i].text(spots[i])) for i in which])
+        apart = shapely.distance(shapely.box(*areas.T)[:, None], list(shapes.values()))
+        mine = np.arange(len(which)), [place[labels[i].name] for i in which]
+        own = apart[mine]
+        apart[mine] = np.inf
+        nearer = np.flatnonzero(apart.min(axis=1) < own - MARGIN)
+        found += [which[k] for k in nearer.tolist()]
+    return sorted(found)
 
 
 def rivals(marks: Sequence[Mark], *, bars: bool) -> dict[str, Any]:
@@ -52,18 +78,6 @@ def rivals(marks: Sequence[Mark], *, bars: bool) -> dict[str, Any]:
         elif bars and isinstance(mark, Polyline) and kind == "plate":
             found[mark.name] = shapely.Polygon(mark.points)
     return found
-
-
-def is_doubtful(label: Label, box: Any, bars: dict[str, Any], vectors: dict[str, Any]) -> bool:
-    """True when another bar (for a link's number) or vector is nearer than the label's own."""
-    import shapely
-
-    near = bars if label.ring else vectors
-    if label.name not in near:
-        return False
-    own = shapely.distance(box, near[label.name])
-    other = [shape for name, shape in near.items() if name != label.name]
-    return bool(other and shapely.distance(box, other).min() < own - MARGIN)
 
 
 def segment_of(label: Label) -> tuple[XY, XY] | None:

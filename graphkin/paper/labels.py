@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
-from math import ceil, cos, radians, sin
 
-from graphkin.paper import candidates
+import numpy as np
+
+from graphkin.paper import shapes
 from graphkin.paper.areas import Rect
-from graphkin.paper.crowd import HELPERS, by_need
+from graphkin.paper.chords import segments
+from graphkin.paper.crowd import HELPERS, by_need, placed_after
 from graphkin.paper.doubt import with_leaders
 from graphkin.paper.field import XY, clipped
-from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, box, reach
+from graphkin.paper.marks import Circle, Line, Mark, Text, box, reach
 from graphkin.paper.place import Spot, Wish, place
 from graphkin.paper.richtext import extent, flowed
 
@@ -30,6 +31,8 @@ SMALL = 1.8
 """Height of the smallest lettering in mm."""
 KEY = 4
 """Priority of a key number."""
+NEAR = 0.6
+"""How near to a note a label may stand, in mm."""
 GAP, LED = 0.9, 3.4
 """Clear distance of a label from its subject, and of one that always has a leader, in mm."""
 
@@ -135,10 +138,12 @@ class Board:
         says which. Raises PageError when another label finds no place even so.
         """
         meanings: list[str] = []
-        wished = list(self.labels)
+        wished = before = list(self.labels)
+        spots: list[Spot] = []
         for rounds_left in reversed(range(ROUNDS)):
             foot = self.footed([*self.notes, *meanings])
-            spots = self.spots(foot)
+            spots = self.spots_of_new(foot, before, spots) or self.spots(foot)
+            before = list(self.labels)
             if all(spot.free for spot in spots) and not self.unled(spots):
                 break
             if not rounds_left:
@@ -191,6 +196,27 @@ class Board:
                 key = f"{len(meanings)})"
                 self.labels[i] = replace(label, markup=key, height=SMALL, priority=KEY)
 
+    def spots_of_new(
+        self, foot: Sequence[Mark], before: Sequence[Label], spots: Sequence[Spot]
+    ) -> list[Spot]:
+        """The places after some labels have changed, if all others can keep theirs; else none."""
+        boxes = [reach(mark) for mark in foot]
+        kept = {
+            i: spot
+            for i, spot in enumerate(spots)
+            if spot.free and self.labels[i] is before[i] and stays(self.labels[i], spot, boxes)
+        }
+        if not kept:
+            return []
+        found = placed_after(self, foot, kept, [i for i in range(len(spots)) if i not in kept])
+        if not all(spot.free for spot in found.values()):
+            return []
+        leaders = ([f.leader for f in some.values() if f.leader] for some in (kept, found))
+        ends = [np.array(some).reshape(-1, 4) for some in leaders]
+        if shapes.crossings(ends[0][:, None], ends[1]).any():
+            return []
+        return [spot for _, spot in sorted((kept | found).items())]
+
     def footed(self, notes: Sequence[str]) -> list[Mark]:
         """Notes in lines at the foot of the field, where they cross the fewest lines."""
         lines = flowed(notes, "; ", self.rect[2] - self.rect[0] - 6, 2.5)
@@ -205,8 +231,8 @@ class Board:
             ]
             for away in range(0, max(1, int(room)), ASIDE)
         ]
-        drawn = candidates.segments([s for mark in self.marks for s in segments(mark)])
-        return [*min(tried, key=lambda texts: candidates.met([*map(reach, texts)], drawn))]
+        drawn = shapes.segments([s for mark in self.marks for s in segments(mark)])
+        return [*min(tried, key=lambda texts: shapes.met([*map(reach, texts)], drawn))]
 
     def placed(self) -> list[Mark]:
         """Only the labels that find a free place, without the other marks."""
@@ -221,6 +247,16 @@ class Board:
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
         labels = self.labels if some is None else some
         return place([label.wish() for label in labels], lines, boxes, self.rect)
+
+
+def stays(label: Label, spot: Spot, boxes: Sequence[Rect]) -> bool:
+    """True when a label with its leader is clear of boxes that are to be taken."""
+    taken = [(b[0] - NEAR, b[1] - NEAR, b[2] + NEAR, b[3] + NEAR) for b in boxes]
+    return not any(
+        left < b[2] and b[0] < right and top < b[3] and b[1] < bottom
+        for left, top, right, bottom in map(reach, label.marks(spot))
+        for b in taken
+    )
 
 
 def marks_of(labels: Sequence[Label], spots: Sequence[Spot]) -> list[Mark]:
@@ -239,33 +275,3 @@ def near(box: Rect, x: float, y: float) -> bool:
     """True when a box lies within reach of a short leader that starts at a place."""
     far = 2 * LED
     return box[0] - far < x < box[2] + far and box[1] - far < y < box[3] + far
-
-
-def segments(mark: Mark) -> Sequence[tuple[float, float, float, float]]:
-    """The straight pieces of a mark, for labels to keep clear of; arcs as short chords."""
-    if isinstance(mark, Line):
-        return [(mark.x1, mark.y1, mark.x2, mark.y2)]
-    if isinstance(mark, Polyline):
-        points = [*mark.points, mark.points[0]] if mark.closed else list(mark.points)
-        return chained(points)
-    if isinstance(mark, Circle):
-        return arc_chords(mark.cx, mark.cy, mark.r, 0, 360)
-    if isinstance(mark, Arc):
-        return arc_chords(mark.cx, mark.cy, mark.r, mark.start, mark.end)
-    return []
-
-
-def chained(points: Sequence[XY]) -> list[tuple[float, float, float, float]]:
-    """The segments between points that follow one another."""
-    return [(*points[i], *points[i + 1]) for i in range(len(points) - 1)]
-
-
-@lru_cache(maxsize=256)
-def arc_chords(
-    x: float, y: float, r: float, start: float, end: float
-) -> tuple[tuple[float, float, float, float], ...]:
-    """Chords of an arc, so short that they leave it by less than a tenth of a millimetre."""
-    turn = abs(end - start)
-    count = max(2, ceil(turn / 8 * max(1.0, (r / 20) ** 0.5)))
-    angles = (radians(start + (end - start) * i / count) for i in range(count + 1))
-    return tuple(chained([(x + r * cos(a), y - r * sin(a)) for a in angles]))

@@ -165,6 +165,14 @@ def numbers(mark: Mark) -> Iterator[float]:
     return iter((mark.x, mark.y, mark.height, mark.rotate))
 
 
+def fits(mark: Mark, width: float, height: float) -> bool:
+    """Tell at a glance that a line lies on a page, as most marks are lines; of others nothing."""
+    if isinstance(mark, Line):
+        across = 0 <= mark.x1 <= width and 0 <= mark.x2 <= width
+        return across and 0 <= mark.y1 <= height and 0 <= mark.y2 <= height
+    return False
+
+
 @lru_cache(maxsize=4096)
 def fault(mark: Mark, width: float, height: float) -> tuple[str, str] | None:
     """Tell (found, expected) when a mark cannot be drawn on a page of this size in mm."""
@@ -207,6 +215,8 @@ class Page:
         """Refuse marks that are not finite or leave the page; name each of them."""
         problems = []
         for mark in self.marks:
+            if fits(mark, self.width, self.height):
+                continue
             found = fault(mark, self.width, self.height)
             if found:
                 problems.append(Problem(place_of(mark), *found))

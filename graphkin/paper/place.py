@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
@@ -10,8 +10,10 @@ from math import inf
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphkin.paper.candidates import NOWHERE, Array, Box, Subjects, tries
-from graphkin.paper.clearance import Clashes, Page, Places
+from graphkin.paper.candidates import Subjects, tries
+from graphkin.paper.clashes import NO_PLACES, Clashes, Places
+from graphkin.paper.clearance import Page
+from graphkin.paper.shapes import NOWHERE, Array, Box
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]
@@ -21,8 +23,9 @@ NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
 FAR = np.array([4.0, 7.0, 11.0, 17.0])  # mm beyond the gap, with a leader
 FARTHEST = np.array([*FAR, 24.0, 33.0])  # for labels that find no other place
 
-NEAREST = slice(0, 32)  # which of a label's places without a leader are looked at, by distance
-FIRST, REST = slice(0, 32), slice(32, 999)  # with a leader: at first, and where nothing was free
+NEAREST = slice(0, 32)  # which of a label's candidates are looked at, by distance
+REST = slice(32, 999)  # the same where nothing was free
+FEW, MANY = 12, 32  # how many of these are offered at first, the cheapest ones
 
 SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
 UNPLACED = 1000.0  # a label without a place
@@ -30,6 +33,7 @@ DEAR = 7.4  # what a label may pay before places with a leader are looked for
 BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD = 8  # how many labels are settled anew for one without a place
 PUSH = 4.0  # what it is reckoned to cost to push a label aside
+SHORT, LONG, LONGEST = 8, 150, 400  # how many labels are pushed about in a chase
 WEAR = 4.0  # what a place costs more each time that it is taken in a chase
 
 
@@ -74,14 +78,19 @@ def place(
         return []
     board = _Board(wishes, Page(_subjects(wishes), lines, boxes, field, clearance))
     board.settle(board.order())
-    board.chase(board.sorry(BAD), 8)
+    board.chase(board.sorry(BAD), SHORT)
     if board.widen([j for i in board.homeless() for j in board.crowd(i)] + board.dear()):
-        board.chase(board.sorry(BAD), 8)
-    board.chase(board.homeless(), 60)
-    if crowd := [j for i in board.homeless() for j in board.crowd(i)]:
-        board.widen(crowd)
-        board.widen(crowd, REST)
-        board.chase(board.homeless(), 60)
+        board.chase(board.sorry(BAD), SHORT)
+    board.chase(board.homeless(), LONG)
+    if homeless := board.homeless():
+        board.widen(j for i in homeless for j in board.crowd(i))
+        board.widen_more(homeless)
+        board.chase(board.homeless(), LONG)
+    if homeless := board.homeless():
+        crowd = [j for i in homeless for j in board.crowd(i)]
+        board.widen_more(crowd)
+        board.offer_rest(crowd)
+        board.chase(homeless, LONGEST)
     board.settle(board.sorry(0.2))
     return [board.spot(i) for i in range(len(wishes))]
 
@@ -100,34 +109,40 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
 
 
 class _Board:
-    """Which label has which place, and how many placed labels rule out each place."""
+    """Which label has which place, and which places are taken, as bits of a number."""
 
     def __init__(self, wishes: Sequence[Wish], page: Page) -> None:
         self.page = page
         self.fine = [UNPLACED * 1.2**wish.priority for wish in wishes]
-        self.pick = np.full(len(wishes), -1)
+        self.pick = [-1] * len(wishes)
         self.paid = [*self.fine]
+        self.taken = 0
         near = tries(page.subjects, NEAR)
-        self.hope = near.centre[:, 0]
+        self.hope = np.stack([near.x[:, 0], near.y[:, 0]], axis=1)
         self.middle = (page.subjects.ends[:, :2] + page.subjects.ends[:, 2:]) / 2
-        self.wide: dict[int, set[int]] = {FIRST.start: set(), REST.start: set()}
-        self.clashes = Clashes()
-        self._offer(page.places(np.arange(len(wishes)), near, NEAREST, led=False))
+        self.wide: set[int] = set()
+        self.wider: set[int] = set()
+        self.clashes, self.rest = Clashes(), NO_PLACES
+        self._offer(page.near(page.open(np.arange(len(wishes)), near, NEAREST)), FEW)
         self.widen(i for i, best in enumerate(self.best) if best > DEAR)
-        self.clashes.find(int(menu[0]) for menu in self.menus if len(menu))
 
-    def _offer(self, more: Places) -> None:
-        """Offer more places; those of a label that cost the same keep their order."""
-        self.clashes.add(more.take(np.lexsort((more.cost, more.label))))
+    def _offer(self, more: Places, most: int = MANY) -> None:
+        """Offer the cheapest of some places, at most so many for each label; the rest is kept.
+
+        Those of a label that cost the same keep their order.
+        """
+        order = np.lexsort((more.cost, more.label))
+        label = more.label.take(order)
+        cheap = np.arange(len(order)) - np.searchsorted(label, label) < most
+        self.clashes.add(more.take(order.take(np.flatnonzero(cheap))))
+        self.rest = self.rest.joined(more.take(order.take(np.flatnonzero(~cheap))))
         self.places = self.clashes.places
         order = np.lexsort((self.places.cost, self.places.label))
         bounds = np.searchsorted(self.places.label[order], np.arange(1, len(self.pick)))
-        self.menus = [order[a:b] for a, b in pairwise([0, *bounds.tolist(), len(order)])]
-        self.cost = self.places.cost.tolist()
-        self.best = [self.cost[menu[0]] if len(menu) else inf for menu in self.menus]
-        self.load = np.zeros(len(order), dtype=np.int64)
-        for k in self.pick[self.pick >= 0].tolist():
-            self.load += self.clashes.of(k)
+        ranked = order.tolist()
+        self.menus = [ranked[a:b] for a, b in pairwise([0, *bounds.tolist(), len(order)])]
+        self.cost, self.label = self.places.cost.tolist(), self.places.label.tolist()
+        self.best = [self.cost[menu[0]] if menu else inf for menu in self.menus]
 
     def order(self) -> list[int]:
         """Return the labels, those with few places first, then by priority."""
@@ -142,11 +157,11 @@ class _Board:
 
     def settle(self, which: Iterable[int]) -> None:
         """Give each of the labels the cheapest place that is left, if there is one."""
+        rows = self.clashes.rows()
         for i in which:
             self._lift(i)
-            left = self.menus[i][self.load[self.menus[i]] == 0]
-            if len(left):
-                self._put(i, int(left[0]))
+            left = (k for k in self.menus[i] if not rows[k] & self.taken)
+            self._put(i, next(left, -1))
 
     def dear(self) -> list[int]:
         """Return the labels that pay more than a leader would cost."""
@@ -154,7 +169,7 @@ class _Board:
 
     def homeless(self) -> list[int]:
         """Return the labels without a place."""
-        return np.flatnonzero(self.pick < 0).tolist()
+        return [i for i, k in enumerate(self.pick) if k < 0]
 
     def crowd(self, i: int) -> list[int]:
         """Return a label and those with the nearest subjects within 20 mm, nearest first."""
@@ -162,27 +177,42 @@ class _Board:
         near = np.argsort(apart, kind="stable")[:CROWD].tolist()
         return [i, *(j for j in near if j != i and apart[j] < 20.0)]
 
-    def widen(self, labels: Iterable[int], span: slice = FIRST) -> bool:
+    def widen(self, labels: Iterable[int]) -> bool:
         """Offer places with a leader to those of the labels that had none of these yet, if any."""
-        which = np.array(sorted({*labels} - self.wide[span.start]), dtype=np.intp)
-        if not len(which):
-            return False
-        self.wide[span.start].update(which.tolist())
-        far = FAR if span == FIRST else FARTHEST
-        some = tries(self.page.subjects.take(which), NEAR, far)
-        self._offer(self.page.places(which, some, span, led=True))
-        if (self.pick >= 0).any():
-            self.settle(i for i in self.order() if i in which)
-        return True
+        which = sorted({*labels} - self.wide)
+        self.wide.update(which)
+        if which:
+            self._offer(self._led(which, FAR, NEAREST), FEW)
+            if self.taken:
+                self.settle(i for i in self.order() if i in which)
+        return bool(which)
+
+    def widen_more(self, labels: Iterable[int]) -> None:
+        """Offer the same to them at other and at longer distances."""
+        which = sorted({*labels} - self.wider)
+        self.wider.update(which)
+        if which:
+            self._offer(self._led(which, FARTHEST, REST))
+
+    def _led(self, which: Sequence[int], far: Array, span: slice) -> Places:
+        """Return places with a leader of some labels, at some distances in mm."""
+        rows = np.array(which, dtype=np.intp)
+        some = tries(self.page.subjects.take(rows), NEAR, far)
+        return self.page.led(self.page.open(rows, some, span))
+
+    def offer_rest(self, labels: Iterable[int]) -> None:
+        """Offer all the places of these labels that cost too much to be offered before."""
+        wanted = np.isin(self.rest.label, list(labels))
+        rest = self.rest.take(np.flatnonzero(wanted))
+        self.rest = self.rest.take(np.flatnonzero(~wanted))
+        self._offer(rest, len(wanted))
 
     def chase(self, labels: Iterable[int], steps: int) -> None:
         """Let each of the labels push others aside and those others in turn, if it pays in all."""
         for i in labels:
-            saved = self.pick.copy(), [*self.paid], self.load.copy()
+            saved = [*self.pick], [*self.paid], self.taken
             limit = sum(self.paid) - 0.01
-            worn = np.zeros(len(self.load))
-            if self.pick[i] >= 0:
-                worn[self.pick[i]] = WEAR
+            worn = {self.pick[i]: WEAR}
             queue = [i]
             for _ in range(steps):
                 queue += self._push(queue.pop(0), worn)
@@ -190,36 +220,45 @@ class _Board:
                 if not queue or hope > limit:
                     break
             if sum(self.paid) > limit:
-                self.pick, self.paid, self.load = saved
+                self.pick, self.paid, self.taken = saved
 
-    def _push(self, i: int, worn: Array) -> list[int]:
+    def _push(self, i: int, worn: dict[int, float]) -> list[int]:
         """Put a label on the place with the best price, and return those it pushed aside."""
         self._lift(i)
-        menu = self.menus[i]
-        if not len(menu):
+        rows, taken, best, chosen = self.clashes.rows(), self.taken, inf, -1
+        for k in self.menus[i]:
+            price = self.cost[k]
+            if price >= best:  # and so are those after it
+                break
+            price += PUSH * (rows[k] & taken).bit_count() + worn.get(k, 0.0)
+            if price < best:
+                best, chosen = price, k
+        if chosen < 0:
             return []
-        price = self.places.cost[menu] + PUSH * self.load[menu] + worn[menu]
-        k = int(menu[price.argmin()])
-        others: list[int] = []
-        if self.load[k]:
-            clash = self.clashes.of(k)[self.pick] & (self.pick >= 0)
-            others = clash.nonzero()[0].tolist()
+        others = sorted(self._on(rows[chosen] & taken))
         for j in others:
             self._lift(j)
-        self._put(i, k)
-        worn[k] += WEAR
+        self._put(i, chosen)
+        worn[chosen] = worn.get(chosen, 0.0) + WEAR
         return others
 
+    def _on(self, places: int) -> Iterator[int]:
+        """Yield the labels of some places, which are the bits of a number."""
+        while places:
+            k = places.bit_length() - 1
+            places ^= 1 << k
+            yield self.label[k]
+
     def _put(self, i: int, k: int) -> None:
-        """Put a label on a place."""
-        self.pick[i], self.paid[i] = k, self.cost[k]
-        self.load += self.clashes.of(k)
+        """Put a label on a place, if there is one."""
+        if k >= 0:
+            self.pick[i], self.paid[i] = k, self.cost[k]
+            self.taken |= 1 << k
 
     def _lift(self, i: int) -> None:
         """Take a label off the page."""
-        k = int(self.pick[i])
-        if k >= 0:
-            self.load -= self.clashes.of(k)
+        if self.pick[i] >= 0:
+            self.taken ^= 1 << self.pick[i]
         self.pick[i], self.paid[i] = -1, self.fine[i]
 
     def spot(self, i: int) -> Spot:

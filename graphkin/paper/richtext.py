@@ -172,11 +172,29 @@ def words_of(markup: str) -> list[str]:
 def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:
     """Pieces of markup joined by a mark into lines no wider than a width in mm."""
     lines: list[str] = []
+    blank = laid(" ", height)[1]
+    reached: float | None = None  # how far the last line goes, where that is known
     for i, piece in enumerate(pieces):
         text = piece + (mark.rstrip() if i < len(pieces) - 1 else "")
-        longer = f"{lines[-1]} {text}" if lines else text
-        if lines and extent(longer, height)[0] <= width:
-            lines[-1] = longer
-        else:
-            lines.append(text)
+        alone = width_alone(text, height)
+        if lines:
+            longer = f"{lines[-1]} {text}"
+            if reached is None or alone is None:
+                end = extent(longer, height)[0]
+            else:
+                end = reached + blank + alone
+            if end <= width:
+                lines[-1], reached = longer, end
+                continue
+        lines.append(text)
+        reached = alone
     return lines
+
+
+@lru_cache(maxsize=4096)
+def width_alone(markup: str, height: float) -> float | None:
+    """Tell the width of a piece of markup; None where only those beside it make it whole."""
+    try:
+        return laid(markup, height)[1]
+    except PageError:
+        return None

@@ -17,6 +17,7 @@ from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.members import members
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
 from graphkin.paper.richtext import escape, extent, flowed, words_of
@@ -201,7 +202,9 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
         marks += listed(drawing, left, top + 10.5, width, bottom)
     else:
         marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
-        for i, line in enumerate(flowed(asked(drawing), "; ", width - 5, 2.5)):
+        lines = flowed(asked(drawing), "; ", width - 5, 2.5)
+        lines += ["", *flowed(members(drawing).split(" "), " ", width - 5, 2.5)]
+        for i, line in enumerate(lines):
             marks.append(Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5))
     marks += tables(drawing, TABLES, empty=view == "task")
     worst = words.significant(drawing.verdict.largest_difference, 2)
@@ -241,15 +244,18 @@ def asked(drawing: Drawing) -> list[str]:
 
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The numbered sentences of the construction, in lettering that fits."""
-    said = sentences(drawing)
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     looks = ((2.5, 5.6), (2.5, LEADING), (2.5, 4.0), (1.8, 3.4))
     spaces = ((width, MARKED[1]), (MARKED[0] - x, bottom))
+    found: dict[tuple[float, float], list[tuple[int | str, str]]] = {}
     for (height, leading), (across, lowest) in product(looks, spaces):
-        lines = [
-            (number if i == 0 else "", line)
-            for number, sentence in enumerate(said, 1)
-            for i, line in enumerate(flowed(words_of(sentence.markup), " ", across - 7, height))
-        ]
+        if (height, across) not in found:
+            found[height, across] = [
+                (number if i == 0 else "", line)
+                for number, words in enumerate(said, 1)
+                for i, line in enumerate(flowed(words, " ", across - 7, height))
+            ]
+        lines = found[height, across]
         if y + (len(lines) - 1) * leading <= lowest:
             break
     else:

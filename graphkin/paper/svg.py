@@ -28,11 +28,16 @@ def pairs(points: Iterable[Point]) -> str:
     return " ".join(f"{number(x)},{number(y)}" for x, y in points)
 
 
+@lru_cache(maxsize=4096)
+def called(cls: str, name: str) -> str:
+    """Write a mark's class and its name, if it has one."""
+    return f'class="{escape(cls)}"' + (f' data-name="{escape(name)}"' if name else "")
+
+
 def about(mark: Mark) -> str:
     """Write the attributes that tell what a mark is: class, name and step."""
-    name = f' data-name="{escape(mark.name)}"' if mark.name else ""
     step = f' data-step="{mark.step}"' if mark.step is not None else ""
-    return f'class="{escape(mark.cls)}"{name}{step}'
+    return called(mark.cls, mark.name) + step
 
 
 def arc_path(arc: Arc) -> str:

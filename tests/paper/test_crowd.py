@@ -11,7 +11,7 @@ from graphkin.handout import drawings_of, hand_out, proved
 from graphkin.paper.crowd import in_turn
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.labels import Board, Label
-from graphkin.paper.marks import Page, Text
+from graphkin.paper.marks import Line, Page, Text
 from graphkin.paper.richtext import plain
 from graphkin.paper.sentences import sentences
 from graphkin.plane import Vector
@@ -63,7 +63,7 @@ def test_a_crowded_position_is_drawn_with_every_point_named(name, setting):
 
 
 def test_names_of_vectors_without_room_are_noted():
-    small = varied("stephenson-1", ("[ask]", "[sheet]\nscale = 20\n[ask]"))
+    small = varied("stephenson-1", ("[ask]", "[sheet]\nscale = 100\n[ask]"))
     page = hand_out(small, language="en")[1].pages[0]
     assert "no room for the names of:" in notes(page)
     _, _, names = notes(page).partition("no room for the names of: ")
@@ -146,3 +146,17 @@ def test_turning_is_read_off_only_where_the_sheet_states_it():
     for name, stated in (("crank-fixed-slot", False), ("four-bar-crank-rocker", True)):
         _, drawing = drawings(name)
         assert ("tangential component" in told(drawing).rpartition("|")[2]) is stated
+
+
+def test_labels_stay_where_they_were_when_one_in_a_crowd_gets_a_key_number():
+    board = Board((0.0, 0.0, 90.0, 60.0))
+    board.marks = [Line(5, 20, 30, 20, "velocity", "oa")]
+    board.taken = [(54.0, 4.0, 66.0, 16.0), (60.0, 0.0, 90.0, 50.0), (45.0, 13.0, 90.0, 50.0)]
+    wide = Label("*v*_{ABCDEFGHIJKLMNOPQRSTUVWXYZABCDEFGHIJKLMNOPQRSTUVWXYZ}", "", (62.0, 11.0))
+    board.labels = [replace(POINT, subject=(25.0, 40.0)), VECTOR, wide]
+    first = board.spots()
+    assert [spot.free for spot in first] == [True, True, False]
+    marks = board.finish()
+    found = {mark.name: mark for mark in marks if isinstance(mark, Text)}
+    for label, spot in zip(board.labels[:2], first, strict=False):
+        assert found[label.name] == label.text(spot)

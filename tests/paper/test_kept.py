@@ -7,16 +7,17 @@ import io
 import pypdf
 import pytest
 
-from graphkin.paper import labels, marks, pdf, richtext, svg
+from graphkin.paper import chords, marks, pdf, richtext, svg
 from graphkin.paper.marks import Arc, Circle, Line, Page, Polyline, Text
 from graphkin.paper.pdf import write_pdf
 from graphkin.paper.svg import write_svg
 
 KEPT = (
-    labels.arc_chords,
+    chords.arc_chords,
     marks.fault,
     pdf.lettering,
     pdf.outline,
+    svg.called,
     svg.element,
     *(richtext.laid, richtext.spaced_runs, richtext.runs, richtext.extent),
 )

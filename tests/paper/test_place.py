@@ -12,9 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, MultiLineString, Point, box
 
-from graphkin.paper.candidates import LOOSE, Blots, merged, segments, separation
-from graphkin.paper.clearance import PAD
+from graphkin.paper.candidates import Blots
+from graphkin.paper.clashes import PAD
 from graphkin.paper.place import CLEAR, Spot, Wish, place
+from graphkin.paper.shapes import LOOSE, merged, segments, separation
 
 FIELD = (0.0, 0.0, 80.0, 60.0)
 NONE = np.empty((0, 4))

@@ -1,9 +1,11 @@
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from reportlab.pdfbase.ttfonts import TTFont
 
 from graphkin.errors import PageError
 from graphkin.paper.glyphs import advance, capital, font_file, measures
-from graphkin.paper.richtext import escape, extent, plain, runs, spaced_runs, words_of
+from graphkin.paper.richtext import escape, extent, flowed, plain, runs, spaced_runs, words_of
 
 
 def test_capitals_have_the_height_asked_for():
@@ -120,3 +122,21 @@ def test_lines_do_not_end_between_a_number_and_its_unit_or_before_a_bar():
         "*k* = 0.1 (m/s)/mm,",
         "3·10^{−3} m",
     ]
+
+
+PIECES = st.sampled_from(
+    ["*v*_{BA}^{ν}", "= 2,5", "m/s^2", "∥ *OA*_1", "x^2", "_2", "a_{ABC}^2", "din *o*′ se ia"]
+)
+
+
+@given(st.lists(PIECES, max_size=14), st.sampled_from([" ", "; "]), st.floats(1, 90))
+def test_lines_are_filled_with_whole_pieces_as_far_as_they_go(pieces, mark, width):
+    lines = flowed(pieces, mark, width, 2.5)
+    left = [piece + mark.rstrip() for piece in pieces[:-1]] + pieces[-1:]
+    for line in lines:
+        count = next(k for k in range(1, len(left) + 1) if " ".join(left[:k]) == line)
+        assert count == 1 or extent(line, 2.5)[0] <= width + 1e-9
+        if left[count:]:
+            assert extent(f"{line} {left[count]}", 2.5)[0] > width - 1e-9
+        left = left[count:]
+    assert not left
