@@ -32,6 +32,8 @@ class Scales(Protocol):
     def seconds(self) -> float: ...  # noqa: D102
     @property
     def triangles(self) -> bool: ...  # noqa: D102
+    @property
+    def apart(self) -> float: ...  # noqa: D102
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class Original:
     paper: Paper
     targets: tuple[Target, ...]
     triangles: bool = True
+    apart: bool = False
 
     @property
     def program(self) -> Program:
@@ -84,9 +87,15 @@ class Original:
     def by_hand(self, number: int) -> int | None:
         """The step that gives a composite one by hand, where the drawing has it."""
         step = self.program.steps[number]
-        computed = not self.triangles and step.action is not None and step.action.key == "coriolis"
+        computed = step.action is not None and step.action.key in self.computed
         hand = step.by_hand
         return hand if hand is not None and hand in self.trace.values and not computed else None
+
+    @cached_property
+    def computed(self) -> frozenset[str]:
+        """The components that the sheets give by number: their triangles are not drawn."""
+        given = {"coriolis": not self.triangles, "normal": self.apart}
+        return frozenset(key for key, is_given in given.items() if is_given)
 
     @cached_property
     def tails(self) -> Mapping[int, int]:
@@ -124,7 +133,7 @@ def original(
     wanted = tuple(mechanism.asked() if targets is None else targets)
     trace = mechanism.trace(wanted, by_hand=True, seconds=scales.seconds)
     paper = Paper(scales.kL, scales.kv, scales.ka)
-    return Original(trace, paper, wanted, scales.triangles)
+    return Original(trace, paper, wanted, scales.triangles, scales.apart > 0)
 
 
 def is_read(action: Any) -> bool:

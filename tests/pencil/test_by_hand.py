@@ -154,3 +154,31 @@ def test_the_flatter_coupler_and_rocker_cross_the_larger_the_error():
     assert sines[0] < 0.21
     assert sines[-1] > 0.8
     assert errors[0] > 10 * errors[-1]
+
+
+# --- a stated ka -------------------------------------------------------------------------------
+
+
+def at_ka(factor: float):
+    """What a four-bar asks with its acceleration plan drawn so many times as large."""
+    mechanism = mechanism_of(FOUR_BAR.format(coupler=0.11), f=70)
+    return original(mechanism, Scales(1.0, 1.0, apart=factor**0.5))
+
+
+def test_where_ka_is_stated_normal_components_have_no_triangles():
+    """They are laid off by number, so no error of a triangle is foretold for what they lead to."""
+    by_number, by_hand = at_ka(1.0), four_bar(70)
+    edges = {n for n, s in enumerate(by_hand.program.steps) if s.part is Part.NORMAL and s.by_hand}
+    assert {by_hand.by_hand(n) for n in edges} != {None}
+    assert {by_number.by_hand(n) for n in edges} == {None}
+    target = ("acceleration", "B")
+    errors = [forecast(exact, Pencil(0.25))[target].error for exact in (by_number, by_hand)]
+    assert errors[0] < 0.85 * errors[1]
+
+
+def test_what_is_foretold_at_a_stated_ka_is_drawn():
+    exact = at_ka(2.0)
+    found = forecast(exact, Pencil(0.25)).index
+    many = simulated(exact, Pencil(0.25), 4000)
+    for target, each in found.items():
+        assert each.error == pytest.approx(many.error(target), rel=0.5), target
