@@ -29,11 +29,12 @@ NEAREST = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """The scales of a drawing: kL, and kL over kv in seconds."""
+    """The scales of a drawing: kL, kL over kv in seconds, and a time that gives ka apart."""
 
     kL: float  # noqa: N815
     seconds: float
     triangles: bool = True
+    apart: float = 0.0
 
     @property
     def kv(self) -> float:
@@ -43,7 +44,7 @@ class Paper:
     @property
     def ka(self) -> float:
         """Acceleration that one metre of paper stands for."""
-        return self.kv / self.seconds
+        return self.kL / (self.apart or self.seconds) ** 2
 
 
 def pencil_rows(mechanism: Mechanism, reference: Reference, scales: Scales) -> Iterator[Row]:
@@ -93,7 +94,8 @@ def pencilled(
     measures, errors = [], []
     for row, at in enumerate(reference.places.at):
         growth = float(reference.sizes[row, 1] / first) if first else 1.0
-        paper = Paper(scales.kL, scales.seconds / growth, scales.triangles)
+        apart = scales.apart / growth
+        paper = Paper(scales.kL, scales.seconds / growth, scales.triangles, apart)
         here = Mechanism(course.sweep.with_branches(course.branches, float(at)))
         try:
             exact = original(here, paper, reference.answers.every)
