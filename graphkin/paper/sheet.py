@@ -9,7 +9,7 @@ from graphkin.paper import construct, inputs, mechanism
 from graphkin.paper.areas import A3_AREA, AREA, BELOW, MARKED, TABLES, Rect
 from graphkin.paper.data import given
 from graphkin.paper.desk import Desk, above_foot
-from graphkin.paper.detail import with_detail
+from graphkin.paper.detail import parted
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import flattest_line
 from graphkin.paper.frame import TitleBlock, check_bar, sheet_frame
@@ -40,12 +40,14 @@ LEADING = 4.6
 def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     layout = layout or lay_out(drawing)
-    plan = with_detail(right_board(drawing, layout, view))
+    boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
+    (left, detail), (right, other) = parted(*boards)
+    if view != "task":
+        detail += insets(drawing, layout.mechanism, [*left, *detail])
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
         *heading(drawing),
-        *mechanism_marks(drawing, layout, view),
-        *plan,
+        *(*left, *detail, *right, *other),
         *panels(layout),
         *below(drawing, view),
     ]
@@ -132,12 +134,6 @@ def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]
     )
 
 
-def mechanism_marks(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
-    """The mechanism's field with its labels, and insets for centres that lie off it."""
-    marks = with_detail(left_board(drawing, layout, view))
-    return marks if view == "task" else [*marks, *insets(drawing, layout.mechanism, marks)]
-
-
 def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     """The mechanism's field."""
     field = layout.mechanism
@@ -204,8 +200,11 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
         marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
         lines = flowed(asked(drawing), "; ", width - 5, 2.5)
         lines += ["", *flowed(members(drawing).split(" "), " ", width - 5, 2.5)]
-        for i, line in enumerate(lines):
-            marks.append(Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5))
+        marks += [
+            Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5)
+            for i, line in enumerate(lines)
+            if line
+        ]
     marks += tables(drawing, TABLES, empty=view == "task")
     worst = words.significant(drawing.verdict.largest_difference, 2)
     text = words("page.verified", difference=worst)
