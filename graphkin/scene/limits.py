@@ -8,6 +8,7 @@ from pathlib import Path
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.expression import unit_hint
+from graphkin.scene.faults import advice
 from graphkin.scene.findings import visible
 from graphkin.scene.measures import FloatText
 
@@ -89,7 +90,9 @@ def syntax_problem(message: str, text: str) -> Problem:
     lines = text.split("\n")
     if int(line) <= len(lines):
         column = int(where[2]) if where and where[2] else 0
-        hint = value_hint(lines[int(line) - 1], column - 1) or hint
+        written = lines[int(line) - 1]
+        known = hint or value_hint(written, column - 1)
+        hint = advice(found, written, column - 1, known)
     return Problem(f"line {line}", f"not TOML: {found}", hint=hint)
 
 

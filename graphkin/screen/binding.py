@@ -22,6 +22,7 @@ from graphkin.paper.areas import Rect
 from graphkin.paper.field import XY, Field
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text
 from graphkin.paper.richtext import extent
+from graphkin.screen.extents import room_of
 from graphkin.screen.places import Places
 from graphkin.screen.poses import Pose
 from graphkin.screen.shelf import NOWHERE, Shelf
@@ -62,6 +63,11 @@ class Bench:
     def shelf(self) -> Shelf:
         """The outputs."""
         return self.places.shelf
+
+    @property
+    def room(self) -> Rect:
+        """What the field can grow to, where lines are cut."""
+        return room_of(self.field.rect)
 
     def page(self, point: Any) -> Any:
         """Where a traced point of the drawing falls on the page: x to the right, y down."""

@@ -130,7 +130,7 @@ def of_sides(
 ) -> Iterator[tuple[Mark, Binding]]:
     """Both sides of a guide of the frame, and the strokes outside them."""
     at, way = complex(*bench.field(rail.zero)), complex(*bench.field.way(rail.along))
-    half, rect = BLOCK[1] / 2, bench.field.rect
+    half, rect = BLOCK[1] / 2, bench.room
     rest = moved - (moved * (1 / SPACING)).do("round") * SPACING
     strokes = bench.on(Pose(at + way * (moved - rest), bench.shelf.lifted(1 + 0j)))
     for mark in marks:
@@ -193,7 +193,7 @@ def of_rail(bench: Bench, rail: Rail) -> Told:
     for mark in whole:
         found[mark] = carried
     if bars:
-        found[bars[-1]] = bench.between(zero + along * low, zero + along * high, field.rect)
+        found[bars[-1]] = bench.between(zero + along * low, zero + along * high, bench.room)
     return found | dict(slots)
 
 

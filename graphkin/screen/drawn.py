@@ -117,7 +117,7 @@ class Steps(Seen):
             mm, lift = self.bench.field.mm, self.bench.shelf.lifted
             size = lift(value.radius) * mm
             centre = self.bench.page(value.centre)
-            rect = self.bench.rect(above_foot(self.bench.field.rect))
+            rect = self.bench.rect(above_foot(self.bench.room))
             shown = smaller(size - TINY, STRAIGHT - size)
             shelf = self.bench.shelf
             return lambda _: [
@@ -218,7 +218,7 @@ class Steps(Seen):
         return mark.cls == "construction" and high - low <= 2 * BEYOND + TINY
 
     def part(self, number: int, which: int) -> Binding:
-        """A part of a construction line, cut at the edge of its field."""
+        """A part of a construction line, cut at the edge of what its field can grow to."""
         bench, line = self.bench, self.value(number)
         origin = bench.page(line.point)
         way = bench.places.way(number).conjugate()
@@ -226,7 +226,7 @@ class Steps(Seen):
         shown = self.seen(number)
         if self.key(number) == "bar-line":
             shown = high - low - (2 * BEYOND + TINY)
-        shelf, rect = bench.shelf, bench.rect(above_foot(bench.field.rect))
+        shelf, rect = bench.shelf, bench.rect(above_foot(bench.room))
         return lambda _: [
             "s",
             bench.condition(shown),

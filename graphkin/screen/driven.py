@@ -11,7 +11,7 @@ from graphkin.motion.sweep import SYMBOLS, TURN, What, chosen, law_of_time, stat
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
-from graphkin.screen.shelf import ran
+from graphkin.screen.shelf import runner
 from graphkin.steps.graph import Graph
 from graphkin.steps.program import Program
 from graphkin.steps.traced import Number
@@ -21,10 +21,12 @@ INPUT = "driver"
 """The name of the input: the driver's position, or the time."""
 GRID = 720
 """Positions at which it is looked whether the mechanism closes: every half degree of a turn."""
-FINER = 33
+FINER = 65
 """Positions tried between two of them for the end of a range, again and again."""
-ROUNDS = 9
-"""How often: the last places lie a thousand millionth of a millionth of a range apart."""
+ROUNDS = 7
+"""How often: the last places lie some 1e-13 of the first distance apart."""
+LEAST = 1e-6
+"""The least part of what is looked at that is a range and no mere place."""
 PARTS = 360
 """How many moves of a slider lead through a range that is not one of many degrees."""
 
@@ -149,8 +151,10 @@ def reach_of(driven: Driven, graph: Graph, closed: Sequence[int]) -> Reach | Non
     low, high = window(driven)
     at = np.linspace(low, high, 2 * GRID + 1)
 
+    run = runner(graph, closed)
+
     def closes(places: Any) -> Any:
-        found = ran(graph, closed, {INPUT: places})
+        found = run({INPUT: places})
         good = np.ones(len(places), dtype=bool)
         for values in found:
             good &= np.isfinite(values)
@@ -183,4 +187,4 @@ def around(driven: Driven, at: Any, closes: Any) -> Reach | None:
             inside, outside = between[last], between[min(last + 1, FINER - 1)]
         ends.append(float(inside))
     low, high = ends
-    return Reach(low, high, False) if high - low > 1e-6 * max(1.0, abs(high)) else None
+    return Reach(low, high, False) if high - low > LEAST * float(at[-1] - at[0]) else None

@@ -114,9 +114,9 @@ def dimension(bench: Bench, mark: Mark, lines: list[Line], way: Way) -> Binding:
     off = (complex(whole.x1, whole.y1) - shelf.now(ends[0])) * shelf.now(along).conjugate()
     low, high = (place + along * (1j * off.imag) for place in ends)
     if mark is whole:
-        return bench.joining(low, high, bench.field.rect)
+        return bench.joining(low, high, bench.room)
     if isinstance(mark, Line):
-        return bench.on(Pose(ends[lines.index(mark)], along), bench.field.rect)
+        return bench.on(Pose(ends[lines.index(mark)], along), bench.room)
     assert isinstance(mark, Polyline)
     tip = complex(*mark.points[0])
     if abs(tip - shelf.now(high)) > abs(tip - shelf.now(low)):

@@ -8,6 +8,7 @@ from html import escape
 from graphkin.grading.html import marked_up
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.members import members
 from graphkin.paper.sheet import asked
 from graphkin.paper.standing import lettered
 from graphkin.paper.tables import Row, slide_rows, slide_sense, turning_rows, vector_rows
@@ -93,14 +94,16 @@ def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
     }
 
 
-def data(drawing: Drawing) -> str:
-    """What is given, piece by piece."""
-    return listed(given(drawing))
+def data(drawing: Drawing, datum: str = "") -> str:
+    """What is given, piece by piece; a script finds the datum with the symbol ``datum``."""
+    start = marked_up(f"{datum} = ")
+    pieces = listed(given(drawing))
+    return pieces.replace(f"<li>{start}", f'<li id="datum">{start}', 1) if datum else pieces
 
 
 def wanted(drawing: Drawing) -> str:
     """What a sheet asks for, piece by piece."""
-    return listed(asked(drawing))
+    return listed([*asked(drawing), members(drawing)])
 
 
 def listed(markups: Iterable[str]) -> str:

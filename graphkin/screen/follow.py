@@ -12,6 +12,7 @@ from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import Layout
 from graphkin.paper.marks import Circle, Line, Mark, Text
+from graphkin.paper.mechanism import stretched
 from graphkin.paper.symbols import VECTORS
 from graphkin.plane import Line as Carrier
 from graphkin.plane import Ratio, Vector
@@ -19,6 +20,7 @@ from graphkin.screen.binding import Bench, Binding, Record, Told, only_at_start,
 from graphkin.screen.bodies import told
 from graphkin.screen.drawn import BEYOND_BOTH, FAR, Steps
 from graphkin.screen.drivers import of_driver
+from graphkin.screen.extents import must_be_seen
 from graphkin.screen.places import place_of
 from graphkin.screen.poses import Pose, unit
 
@@ -28,6 +30,8 @@ PINS = ("pin", "hinge", "fixed-pivot")
 """The classes of marks at the point whose name they bear."""
 FIXED = ("caption", "guide", "ground", "centre-line", "fixed-pivot", "title", "panel")
 """The classes of marks that stay, where nothing else is known of them."""
+ACROSS = ("guide ", "track ")
+"""The beginnings of the names of lines that go across a whole field."""
 CURVES = ("trajectory", "fixed-centrode")
 """The curves that stay; the locus of a group that is tried is another at each place."""
 
@@ -75,6 +79,26 @@ class Following:
             if record is not None:
                 yield k, record
 
+    def in_sight(self, mark: Mark, record: Record) -> bool:
+        """Whether what is at a mark's place must be in sight: all but what may be endlessly far, as
+        are centres, poles and the lines to them."""
+        if record[0] in "sioa" or not must_be_seen(mark):
+            return False
+        value = None if mark.step is None else self.drawing.trace.values.get(mark.step)
+        if isinstance(value, Carrier):
+            return not self.on_mechanism
+        return not isinstance(value, Ratio)
+
+    def has_sides(self, k: int, record: Record) -> bool:
+        """Whether a label can as well stand on the other side of what it names: that of a vector or
+        a line, or a letter at a point, unless a leader or a circle goes with it."""
+        before = {mark.cls.split()[0] for mark in self.marks[max(k - 2, 0) : k]}
+        if before & {"leader", "number"}:
+            return False
+        graph, outputs = self.bench.shelf.graph, self.bench.shelf.outputs
+        way = [outputs[record[3] + i] for i in (0, 1)]
+        return record[0] == "b" or all(graph.constant(node) is not None for node in way)
+
     def more(self) -> Iterator[tuple[int, str, str, Record]]:
         """Marks that are not drawn where the scene stands, after those of the same step: number of
         that one, element, class, record.
@@ -118,10 +142,18 @@ class Following:
             return self.bench.carried_by(places.pose(mark.name))
         if first in PINS and mark.name in places.positions:
             return self.bench.with_point(places.positions[mark.name])
+        if isinstance(mark, Line) and mark.name.startswith(ACROSS):
+            return self.across(mark)
         if first == "moving-centrode":
             return self.bench.carried_by(places.pose(mark.name.partition(" ")[2]))
         is_fixed = first in FIXED or first in CURVES or mark.name in self.drawing.scene.frame.points
         return still if is_fixed else only_at_start
+
+    def across(self, mark: Line) -> Binding:
+        """A line across the field, which stays and goes on where the field grows."""
+        ends = stretched((mark.x1, mark.y1), (mark.x2, mark.y2))
+        start, end = (self.bench.shelf.lifted(complex(*place)) for place in ends)
+        return self.bench.joining(start, end, self.bench.room)
 
     # --- labels --------------------------------------------------------------------------------
 

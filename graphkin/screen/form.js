@@ -9,6 +9,8 @@
   const RUNS = /^[=+\-@]/; // what a spreadsheet takes for a formula
   const HEADS = ["field", "value"];
   const SHOWN = 30;
+  const NAMED = 8; // fields that are named in one sentence
+  const memory = `${told.memory} ${location.origin}${location.pathname}`; // a copy elsewhere has its own
   const fields = [...form.querySelectorAll("[name]")];
   const own = form.querySelector("#answers-id");
   const status = form.querySelector(".status");
@@ -76,7 +78,7 @@
 
   function keep() {
     try {
-      localStorage.setItem(told.memory, JSON.stringify({ id: own?.value ?? "", ...answers() }));
+      localStorage.setItem(memory, JSON.stringify({ id: own?.value ?? "", ...answers() }));
       return true;
     } catch {
       return false; // a browser that keeps nothing, as told when the page opens
@@ -85,7 +87,7 @@
 
   function recall() {
     try {
-      const kept = JSON.parse(localStorage.getItem(told.memory) ?? "{}");
+      const kept = JSON.parse(localStorage.getItem(memory) ?? "{}");
       if (own && typeof kept.id === "string") own.value = kept.id;
       fill(Object.fromEntries(Object.entries(kept).filter(([, text]) => typeof text === "string")));
     } catch {
@@ -123,10 +125,18 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);
     keep();
     const bad = fields.filter(judge);
-    const count = fields.filter((field) => clean(field.value)).length;
+    const empty = fields.filter((field) => !clean(field.value));
+    const count = fields.length - empty.length;
     const words = [say("saved", { file: name, count, all: fields.length })];
+    if (count && empty.length) words.push(say("empty", { list: named(empty) }));
     if (bad.length) words.push(say("unread", { list: bad.map((f) => f.name).join(", ") }));
     status.textContent = words.join(" ");
+  }
+
+  // Some fields by their names in the file.
+  function named(some) {
+    const list = some.slice(0, NAMED).map((field) => field.name).join(", ");
+    return some.length > NAMED ? `${list}, …` : list;
   }
 
   // The rows of a CSV text, whatever stands between its cells.
@@ -157,12 +167,12 @@
     const given = found.find(([name]) => name === "id")?.[1] ?? "";
     const values = Object.fromEntries(found.filter(([name]) => known.has(name)));
     const strange = found.map(([name]) => name).filter((n) => n !== "id" && !known.has(n));
-    const count = Object.keys(values).length;
+    const count = Object.values(values).filter(Boolean).length;
     const said = { file: chosen.name, id: shown(given), count };
     const ours = HEADS.every((head, i) => rows[0][i] === head);
     if (ours && told.id && given && given !== told.id) {
       status.textContent = say("other", said);
-    } else if (!ours || !count) {
+    } else if (!ours || !Object.keys(values).length) {
       status.textContent = say("no_file", said);
     } else if (!differs(values) || confirm(say("replace", said))) {
       if (own && given) mark(Object.assign(own, { value: given }), "");
@@ -192,8 +202,10 @@
   form.addEventListener("input", (event) => {
     keep();
     const field = event.target;
-    if (field === own) mark(own, "");
-    else if (field.getAttribute("aria-invalid")) judge(field);
+    if (field === own) {
+      mark(own, "");
+      if (id() && status.textContent === say("no_id")) status.textContent = "";
+    } else if (field.getAttribute("aria-invalid")) judge(field);
   });
   form.addEventListener("change", (event) => {
     if (fields.includes(event.target)) judge(event.target);

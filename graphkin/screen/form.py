@@ -31,7 +31,7 @@ class Identity:
     """Whose a form is: the id as the class list has it, and the name that is shown beside it.
 
     Without an id the student writes it in. ``stem`` begins the name of the saved file; ``memory``
-    tells this form from all others that the same browser keeps.
+    tells this form from others that the same browser keeps, copies elsewhere by their addresses.
     """
 
     stem: str
@@ -51,6 +51,7 @@ TURNING, ALONG = ("ccw", "cw"), ("forward", "backward")
 """How a file says the senses of a turning link and of a block, the positive one first."""
 SAID = (
     "answers.saved",
+    "answers.empty",
     "answers.unread",
     "answers.no_number",
     "answers.no_unit",

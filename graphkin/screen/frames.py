@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.motion.sweep import TURN
@@ -13,40 +13,47 @@ from graphkin.paper.drawing import METRES, Drawing
 from graphkin.paper.field import Field
 from graphkin.paper.marks import Line, Mark, Polyline, Text
 from graphkin.paper.richtext import escape, extent
-from graphkin.paper.scale import Extent, extent_of, preferred
+from graphkin.paper.scale import extent_of, preferred
 from graphkin.paper.sheet import title_of
-from graphkin.plane import Vector
 from graphkin.screen.grounds import standing
+from graphkin.screen.lettered import FAR, LETTER, Rule, lettering, rules_over
 from graphkin.screen.moments import Moment, Motion, goes_round
-from graphkin.screen.pictured import LETTER, mechanism_marks, plan_marks
+from graphkin.screen.panes import (
+    CAPTION,
+    HEAD,
+    PICTURE,
+    WAYS,
+    arrangements,
+    leaves,
+    placed,
+    posed,
+    seated,
+    worth,
+)
+from graphkin.screen.pictured import cut, driver_marks, mechanism_seen, plan_box, plan_seen
 from graphkin.text import Words
 
-PICTURE = (240.0, 140.0)
-"""Width and height of a picture in mm."""
-HEAD = 11.0
-"""Room for the title above the fields, in mm."""
-AREA: Rect = (3.0, HEAD, PICTURE[0] - 3, PICTURE[1] - 3)
-"""The part of a picture for all fields."""
-ROOM = 13.0
-"""Room around a drawing within its field, for letters and ground, in mm."""
-CAPTION = 4.0
-"""Room for the caption of a field, in mm, more than there is around its drawing."""
 BAR = 30.0
 """Longest bar of a scale, in mm."""
+WIDE = 85.0
+"""Width of a field, in mm, in which caption and bar stand side by side."""
 STEEPEST = 2.5
 """Ratio of two round numbers that follow one another, at most."""
 SMALL = 2.5
 """Height of captions, in mm."""
 UNITS = {"velocity": "m/s", "acceleration": "m/s²"}
-SHARES = (0.4, 0.5, 0.6, 0.7)
-"""Parts of a picture that the mechanism may take."""
+TRIED = 16
+"""Moments over which the places of letters are chosen."""
+MECHANISM = "mechanism"
+"""The name of the field of the mechanism, beside those of the kinds of plans."""
 
 
 @dataclass(frozen=True)
 class Stage:
-    """Where mechanism and plans stand in every picture, and how large, so that nothing leaves.
+    """Where mechanism and plans stand in every picture, and how large.
 
-    ``plans`` are the fields by kind. ``paths`` are those of points over the motion, in metres.
+    ``plans`` are the fields by kind, where the pole need not move aside. ``paths`` are those of
+    points over the motion, in metres.
     """
 
     motion: Motion
@@ -57,11 +64,51 @@ class Stage:
 
     def moving(self, moment: Moment) -> list[Mark]:
         """The marks of one picture that another does not have."""
-        marks = list(self.heading(moment))
-        marks += mechanism_marks(moment.alone, self.mechanism)
-        for kind, drawing in moment.drawings.items():
-            marks += plan_marks(drawing, self.plans[kind])
+        marks = [*self.heading(moment), *self.mechanism_marks(moment.alone)]
+        for drawing in moment.drawings.values():
+            field, box = self.seated(drawing), plan_box(drawing)
+            marks += cut(self.plan_marks(drawing, field), field.rect)
+            if leaves(field, box):
+                marks.append(self.larger(field))
         return marks
+
+    def seated(self, drawing: Drawing) -> Field:
+        """The field of a plan at its moment."""
+        return seated(self.plans[drawing.kind], plan_box(drawing))
+
+    def mechanism_marks(self, drawing: Drawing) -> list[Mark]:
+        """The mechanism at one moment with its letters."""
+        seen = mechanism_seen(drawing, self.mechanism)
+        return [*seen.marks, *lettering(seen, self.rules[MECHANISM], self.mechanism.rect)]
+
+    def plan_marks(self, drawing: Drawing, field: Field) -> list[Mark]:
+        """A plan at one moment with its letters."""
+        seen = plan_seen(drawing, field)
+        return [*seen.marks, *lettering(seen, self.rules[drawing.kind], field.rect)]
+
+    def larger(self, field: Field) -> Text:
+        """The word at the foot of a plan that is larger than its pane."""
+        return Text(field.rect[0] + 3, field.rect[3] - 2, self.beyond, "caption", SMALL)
+
+    @property
+    def beyond(self) -> str:
+        """That a plan leaves its pane, as markup."""
+        return escape(self.words("animation.beyond"))
+
+    @cached_property
+    def rules(self) -> dict[str, dict[str, Rule]]:
+        """Where letters stand, for the mechanism and for each kind of plan."""
+        some = self.motion.moments[:: max(len(self.motion.moments) // TRIED, 1)]
+        own, ground = self.mechanism, [*self.ground]
+        seen = [mechanism_seen(moment.alone, own) for moment in some]
+        about = [[*ground, *driver_marks(moment.alone, own)] for moment in some]
+        seen = [replace(s, marks=[*s.marks, *a]) for s, a in zip(seen, about, strict=True)]
+        found = {MECHANISM: rules_over(seen, free_in(own), FAR)}
+        for kind, field in self.plans.items():
+            drawings = [moment.drawings[kind] for moment in some]
+            seen = [plan_seen(drawing, self.seated(drawing)) for drawing in drawings]
+            found[kind] = rules_over(seen, free_in(field), FAR[:2])
+        return found
 
     @cached_property
     def still(self) -> list[Mark]:
@@ -107,41 +154,34 @@ class Stage:
         yield Text(PICTURE[0] - 45, 7.5, text, "caption", LETTER)
 
 
-def stage(motion: Motion, words: Words, *, beside: bool = False) -> Stage:
-    """Fields and scales that hold for a whole motion, as large as one arrangement lets them be.
+def free_in(field: Field) -> Rect:
+    """The part of a field for letters, below its caption."""
+    left, top, right, bottom = field.rect
+    return left, top + CAPTION, right, bottom
 
-    ``beside`` keeps the plans one above the other at the right of the mechanism.
+
+def stage(motion: Motion, words: Words, *, beside: bool = False) -> Stage:
+    """The stage of a motion: fields and scales that stay as they are over all of it.
+
+    The picture is parted in the way in which the drawings are largest; ``beside`` has the
+    mechanism beside its plans in any case.
     """
     paths = tuple(paths_of(motion))
     places = [p for path in paths for p in path]
     box = extent_of([*places, *(p for moment in motion.moments for p in taken(moment.alone))])
     kinds = tuple(motion.moments[0].drawings)
-    plans = {kind: plan_extent(motion, kind) for kind in kinds}
-    boxes = [box, *plans.values()]
+    boxes = {kind: [plan_box(m.drawings[kind]) for m in motion.moments] for kind in kinds}
     ways = list(arrangements(len(kinds)))
     ways = ways[:: len(WAYS)] if beside else ways
-    found = max(ways, key=lambda rects: worth(rects, boxes))
-    fields = [placed(rect, extent) for rect, extent in zip(found, boxes, strict=True)]
-    return Stage(motion, words, fields[0], dict(zip(kinds, fields[1:], strict=True)), paths)
+    own, *others = max(ways, key=lambda rects: worth(rects, box, [*boxes.values()]))
+    plans = {kind: posed(rect, boxes[kind]) for kind, rect in zip(kinds, others, strict=True)}
+    return Stage(motion, words, placed(own, box), plans, paths)
 
 
 def taken(drawing: Drawing) -> Iterator[complex]:
     """The points that a mechanism takes up, with the corners of its wheels and blocks."""
     yield from drawing.positions.values()
     yield from drawing.corners()
-
-
-def plan_extent(motion: Motion, kind: str) -> Extent:
-    """The box of a plan over a whole motion, in its own unit."""
-    points: list[complex] = []
-    for moment in motion.moments:
-        drawing = moment.drawings[kind]
-        for _, step, value in drawing.steps(drawing.plane):
-            if isinstance(value, Vector) and step.arrow:
-                points += [value.tail, value.tip]
-            elif step.name and isinstance(value, complex):
-                points.append(value)
-    return extent_of(points)
 
 
 def paths_of(motion: Motion) -> Iterator[tuple[complex, ...]]:
@@ -160,79 +200,16 @@ def paths_of(motion: Motion) -> Iterator[tuple[complex, ...]]:
         yield tuple(complex(z) for z in (np.append(path, path[:1]) if closes else path))
 
 
-def arrangements(plans: int) -> Iterator[list[Rect]]:
-    """Ways to part a picture, the mechanism first, in the order of WAYS for each of its shares."""
-    if not plans:
-        yield [AREA]
-        return
-    for share in SHARES:
-        for way in WAYS:
-            yield way(share, plans)
-
-
-def beside_plans(share: float, plans: int) -> list[Rect]:
-    """The mechanism beside its plans, which stand one above the other."""
-    left, top, right, bottom = AREA
-    x, down = left + share * (right - left), (bottom - top) / plans
-    return [
-        (left, top, x, bottom),
-        *((x, top + i * down, right, top + (i + 1) * down) for i in range(plans)),
-    ]
-
-
-def above_plans(share: float, plans: int) -> list[Rect]:
-    """The mechanism above its plans, which stand side by side."""
-    left, top, right, bottom = AREA
-    y, across = top + share * (bottom - top), (right - left) / plans
-    return [
-        (left, top, right, y),
-        *((left + i * across, y, left + (i + 1) * across, bottom) for i in range(plans)),
-    ]
-
-
-def in_a_row(share: float, plans: int) -> list[Rect]:
-    """The mechanism and its plans side by side."""
-    left, top, right, bottom = AREA
-    x = left + share * (right - left)
-    across = (right - x) / plans
-    return [
-        (left, top, x, bottom),
-        *((x + i * across, top, x + (i + 1) * across, bottom) for i in range(plans)),
-    ]
-
-
-WAYS = (beside_plans, above_plans, in_a_row)
-
-
-def worth(rects: Sequence[Rect], boxes: Sequence[Extent]) -> float:
-    """How large all drawings are together; the mechanism counts twice."""
-    mm, *others = (scale_in(rect, box) for rect, box in zip(rects, boxes, strict=True))
-    found = mm * mm
-    for other in others:
-        found *= other
-    return found
-
-
-def scale_in(rect: Rect, box: Extent) -> float:
-    """Millimetres for each unit of a drawing at which it fits a field."""
-    width, height = rect[2] - rect[0] - 2 * ROOM, rect[3] - rect[1] - 2 * ROOM - CAPTION
-    size = max(box.width / width, box.height / height)
-    return 1 / size if size > 0 else 1.0
-
-
-def placed(rect: Rect, box: Extent) -> Field:
-    """The field of a drawing, in the middle of its room below the caption."""
-    middle = (rect[0] + rect[2]) / 2, (rect[1] + CAPTION + rect[3]) / 2
-    return Field(rect, scale_in(rect, box), box.middle, middle)
-
-
 def scale_bar(field: Field, unit: str, size: float, words: Words) -> Iterator[Mark]:
-    """The bar of a field's scale at its foot, the longest round one."""
-    left, _, right, bottom = field.rect
+    """The bar of a field's scale at its upper right, the longest round one.
+
+    It stands beside the caption, or below where that leaves no room.
+    """
+    left, top, right, _ = field.rect
     longest = min(BAR, (right - left) / 2 - 4) / field.mm / size
     number = next(preferred(longest / STEEPEST))
     length = number * size * field.mm
-    x, y = right - 4 - length, bottom - 3.5
+    x, y = right - 4 - length, top + (3.5 if right - left > WIDE else 8)
     yield Line(x, y, x + length, y, "frame")
     for end in (x, x + length):
         yield Line(end, y - 1, end, y + 1, "border")

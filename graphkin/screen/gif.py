@@ -5,8 +5,9 @@ from __future__ import annotations
 import io
 from typing import TYPE_CHECKING, Any
 
-from graphkin.screen.frames import PICTURE, Stage, stage
+from graphkin.screen.frames import Stage, stage
 from graphkin.screen.moments import Motion
+from graphkin.screen.panes import PICTURE
 from graphkin.text import Words
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 // Marks that follow the driver. `run(x, y)` is the construction itself, printed from its trace; `data`
 // says of each mark from which of the results in y its coordinates are laid off (see binding.py).
-const BEYOND = 7, HEAD = 3.2, SHORT = 2, TINY = 0.5, RING = 240, DIGITS = 4, NOTHING = 1e-6;
+const BEYOND = 7, HEAD = 3.2, SHORT = 2, TINY = 0.5, RING = 240, DIGITS = 4, NOTHING = 1e-6, OVER = 0.5;
 const y = new Float64Array(data.size), x = new Float64Array(data.inputs);
 let reckoned = NaN, closes = false;
 
@@ -25,19 +25,24 @@ const secant = (miss, start, step) => {
   }
   return Math.abs(after) < CLOSED * data.reach && trial[1] > 0;
 };
+const closedNear = (state) => {
+  state.forEach((number, i) => { x[i + 1] = number; });
+  return closings.every((miss, i) => {
+    const place = data.course.places[i], start = x[place], step = TRIAL * data.course.sizes[i];
+    const missed = (tried) => { x[place] = tried; miss(x, trial); return trial[0]; };
+    return secant(missed, start, step) || secant(missed, start, -step);
+  });
+};
 const closeAll = () => {
   if (!closings.length) return true;
-  const { at, states, sizes, turn } = data.course;
+  const { at, states, turn } = data.course;
   const place = turn ? at[0] + ((((x[0] - at[0]) % turn) + turn) % turn) : x[0];
   let k = 1;
   while (k < at.length - 1 && at[k] < place) k++;
-  const part = (place - at[k - 1]) / (at[k] - at[k - 1]);
-  states[k - 1].forEach((before, i) => { x[i + 1] = before + part * (states[k][i] - before); });
-  return closings.every((miss, i) => {
-    const start = x[i + 1], step = TRIAL * sizes[i];
-    const missed = (tried) => { x[i + 1] = tried; miss(x, trial); return trial[0]; };
-    return secant(missed, start, step) || secant(missed, start, -step);
-  });
+  const part = (place - at[k - 1]) / (at[k] - at[k - 1]), before = states[k - 1], after = states[k];
+  // between these two a dyad is stretched
+  if (before.some((number, i) => number === -after[i])) return closedNear(before) || closedNear(after);
+  return closedNear(before.map((number, i) => number + part * (after[i] - number)));
 };
 
 const written = (number) => String(Number(number.toFixed(DIGITS)));
@@ -116,15 +121,78 @@ const shapes = {
     }
     return { points: listed(points) };
   },
-  t: (o, d, a, b, u, v) => shifted(laid(o, d, a, b), u, v),
+  t: (o, d, a, b, u, v) => shifted(middles.t(o, d, a, b), u, v),
+  b: (o, d, a, b, u, v, ...box) => shifted(middles.b(o, d, a, b, u, v, ...box), u, v),
+  o: () => (Math.abs(reckoned - data.start) < 1e-9 ? {} : null),
+};
+const middles = {
+  t: (o, d, a, b) => laid(o, d, a, b),
   b: (o, d, a, b, u, v, width, height, room) => {
     // beside a segment: as far off it as the box of the text, which stays upright, now reaches
     const reach = Math.abs(y[d + 1]) * width + Math.abs(y[d]) * height;
-    return shifted(laid(o, d, a, Math.sign(b) * (room + reach)), u, v);
+    return laid(o, d, a, Math.sign(b) * (room + reach));
   },
-  o: () => (Math.abs(reckoned - data.start) < 1e-9 ? {} : null),
 };
 const shifted = ([u, v], fromU, fromV) => ({ transform: `translate(${written(u - fromU)} ${written(v - fromV)})` });
+
+// The places at which a mark lies.
+const corners = {
+  l: (p, q) => [point(p), point(q)],
+  f: (o, d, a, b, e, f) => [laid(o, d, a, b), laid(o, d, e, f)],
+  r: (o, d, ...at) => at.filter((_, i) => i % 2 === 0).map((a, i) => laid(o, d, a, at[2 * i + 1])),
+  x: (...at) => at.filter((_, i) => i % 4 === 0).map((_, i) => laid(...at.slice(4 * i, 4 * i + 4))),
+  g: (...places) => places.map(point),
+  h: (tail, tip) => [point(tip)],
+  m: (o, d, a, b) => [laid(o, d, a, b)],
+  e: (o, d, a, b, r) => [[-r, -r], [r, r]].map(([du, dv]) => [laid(o, d, a, b)[0] + du, laid(o, d, a, b)[1] + dv]),
+  t: (o, d, a, b) => [laid(o, d, a, b)],
+  b: (o, d, a, b) => [laid(o, d, a, b)],
+};
+
+const extent = (at, sheet, side) => {
+  if (!reckon(at)) return null;
+  const { room, still, seen } = data.fields[sheet][side];
+  const box = still ? [...still] : [Infinity, Infinity, -Infinity, -Infinity];
+  for (const [i, across, down] of seen) {
+    const [, kind, shown, ...rest] = data.marks[i];
+    if (shown >= 0 && !(y[shown] > 0)) continue;
+    for (const [u, v] of corners[kind](...rest)) {
+      if (!Number.isFinite(u) || !Number.isFinite(v)) continue;
+      box[0] = Math.min(box[0], u - across);
+      box[1] = Math.min(box[1], v - down);
+      box[2] = Math.max(box[2], u + across);
+      box[3] = Math.max(box[3], v + down);
+    }
+  }
+  const [left, top, right, bottom] = [0, 1, 2, 3].map((k) => Math.min(Math.max(box[k], room[k % 2]), room[2 + k % 2]));
+  return right >= left ? [left, top, right - left, bottom - top] : null;
+};
+
+// A label that would lie on one drawn before it stands on the other side of what it names; where
+// that is no better, the letter of a point stays and what names a vector is hidden.
+const overturned = ([kind, shown, o, d, a, b, ...rest]) => [kind, shown, o, d, kind === "b" ? a : -a, -b, ...rest];
+const free = (record, [, across, down], placed) => {
+  const [u, v] = middles[record[0]](...record.slice(2));
+  const hit = ([x, z, w, h]) => Math.abs(u - x) < w + across - OVER && Math.abs(v - z) < h + down - OVER;
+  return placed.some(hit) ? null : [u, v, across, down];
+};
+const arranged = () => {
+  const found = new Map();
+  if (Math.abs(reckoned - data.start) < 1e-9) return found;
+  for (const { labels } of data.fields.flat()) {
+    const placed = [];
+    for (const label of labels) {
+      const [i, across, down, sides] = label, [, ...own] = data.marks[i], other = overturned(own);
+      if (own[1] >= 0 && !(y[own[1]] > 0)) continue;
+      let box = free(own, label, placed);
+      if (!box && sides && (box = free(other, label, placed))) found.set(i, other);
+      else if (!box && own[0] === "b") found.set(i, null);
+      placed.push(box || [...middles[own[0]](...own.slice(2)), across, down]);
+      if (found.get(i) === null) placed.pop();
+    }
+  }
+  return found;
+};
 
 const made = (id, element) => {
   // what is not drawn where the scene stands, such as the head of a vector that is too short there
@@ -140,10 +208,12 @@ const made = (id, element) => {
 
 const draw = (at, element) => {
   if (!reckon(at)) return { ok: false };
-  for (const [id, kind, shown, ...rest] of data.marks) {
+  const turned = arranged();
+  for (const [i, [id, ...own]] of data.marks.entries()) {
     const mark = element(id) || made(id, element);
     if (!mark) continue;
-    const found = shown < 0 || y[shown] > 0 ? shapes[kind](...rest) : null;
+    const [kind, shown, ...rest] = turned.get(i) || own, hidden = turned.get(i) === null;
+    const found = !hidden && (shown < 0 || y[shown] > 0) ? shapes[kind](...rest) : null;
     const good = found && Object.values(found).every((text) => !text.includes("NaN") && !text.includes("Infinity"));
     if (!good) mark.setAttribute("visibility", "hidden");
     else {
@@ -164,7 +234,7 @@ const settled = (found) => {
 
 return {
   name: data.name, unit: data.unit, low: data.low, high: data.high, start: data.start, whole: data.whole, step: data.step,
-  set: draw,
+  set: draw, extent,
   values: (at) => (reckon(at) ? settled({}) : {}),
   margins: (at) => (reckon(at) ? Object.fromEntries(data.margins.map(([step, i]) => [step, y[i]])) : {}),
 };

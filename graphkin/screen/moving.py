@@ -17,11 +17,13 @@ from graphkin.errors import GraphkinError
 from graphkin.mechanism import Mechanism
 from graphkin.motion.sweep import TURN, reach_of
 from graphkin.paper.areas import Rect
+from graphkin.paper.marks import Text
 from graphkin.plane import Vector
 from graphkin.screen.binding import Bench, Record
-from graphkin.screen.closings import Course
 from graphkin.screen.driven import Driven, Reach, driven_by
+from graphkin.screen.extents import box_of, half
 from graphkin.screen.follow import Following
+from graphkin.screen.passage import Course
 from graphkin.screen.places import Places
 from graphkin.screen.tracing import Tracing
 from graphkin.steps.crossings import is_drawn
@@ -41,8 +43,10 @@ class Moving:
     """JavaScript that moves the marks of a page.
 
     ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step,
-    set(x, element), values(x), margins(x)}: ``set`` writes the coordinates of all marks, which
-    ``element`` finds by their ids, and tells {ok: false} where the mechanism does not close;
+    set(x, element), extent(x, sheet, field), values(x), margins(x)}: ``set`` writes the coordinates
+    of all marks, which ``element`` finds by their ids, and tells {ok: false} where the mechanism
+    does not close; ``extent`` is the box (x, y, width, height) that must be in sight of a field, 0
+    the mechanism or 1 the plan;
     ``values`` are in SI by the names of the rows of the tables, ``margins`` sines of crossings by
     the step. ``data`` is what it knows of the marks, ``tracing`` what it reckons.
     """
@@ -94,10 +98,10 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
     driven, (reach, course) = tracing.driven, found
     rects: list[Rect] = []
     more: dict[str, tuple[str, str, str]] = {}
-    marks = [
-        record
+    marks: list[Record] = []
+    fields = [
+        followed(s, sheet, here, rects, marks, more, tracing)
         for s, (sheet, here) in enumerate(zip(sheets, places, strict=True))
-        for record in followed(s, sheet, here, rects, more, tracing)
     ]
     data = {
         "name": driven.name,
@@ -112,6 +116,7 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         "marks": marks,
         "more": more,
         "rects": rects,
+        "fields": fields,
         "values": list(read_outs(places)),
         "margins": list(crossings(tracing, sheets[0])),
         "reach": size,
@@ -125,24 +130,42 @@ def followed(
     sheet: ScreenSheet,
     places: Places,
     rects: list[Rect],
+    records: list[Record],
     more: dict[str, tuple[str, str, str]],
     tracing: Tracing,
-) -> Iterator[Record]:
-    """The records of a sheet's marks, each with the id of its mark.
+) -> list[dict[str, Any]]:
+    """What must be in sight of both fields of a sheet.
 
-    ``more`` takes the marks that a page makes itself: by id after which one, element and class.
+    ``records`` takes those of its marks, each with the id of its mark, ``more`` the marks that a
+    page makes itself: by id after which one, element and class. A field has its room, the box of
+    what stands still in it, of each mark that must be in sight the place of its record and how far
+    it reaches across and down, and the same of its labels, as their steps are drawn, with 1 where
+    one may stand on the other side of what it names.
     """
     angles, first = tracing.driven.angles(tracing.x), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
+    found = []
     for marks, field in fields:
-        following = Following(Bench(places, field, rects), sheet.layout, marks, angles)
+        bench = Bench(places, field, rects)
+        following = Following(bench, sheet.layout, marks, angles)
+        still, seen = set(marks), []
+        labels: list[tuple[int, list[float]]] = []
         for k, record in following.records():
-            yield [f"m{s}-{first + k}", *record]
+            still.discard(marks[k])
+            if following.in_sight(marks[k], record):
+                seen.append([len(records), *half(marks[k])])
+            if record[0] in "tb" and isinstance(marks[k], Text):
+                own = [len(records), *half(marks[k]), int(following.has_sides(k, record))]
+                labels.append((-1 if (step := marks[k].step) is None else step, own))
+            records.append([f"m{s}-{first + k}", *record])
         for k, element, cls, record in following.more():
             before = f"m{s}-{first + k}"
             more[f"{before}h"] = (before, element, cls)
-            yield [f"{before}h", *record]
+            records.append([f"{before}h", *record])
+        found.append({"room": bench.room, "still": box_of(still), "seen": seen})
+        found[-1]["labels"] = [own for _, own in sorted(labels)]
         first += len(marks)
+    return found
 
 
 def read_outs(places: Sequence[Places]) -> Iterator[tuple[str, int, str, int]]:
@@ -208,9 +231,16 @@ def misses(tracing: Tracing) -> Iterator[str]:
 
 def way_through(course: Course, tracing: Tracing, reach: Reach) -> dict[str, Any]:
     """The way of groups of higher class through the range, as a page knows it."""
+    places = [tracing.inputs[each.names[0]] for each in tracing.closings]
     sizes = [each.size for each in tracing.closings]
     turn = TURN if reach.whole else 0
-    return {"at": course.at, "states": course.states, "sizes": sizes, "turn": turn}
+    return {
+        "at": course.at,
+        "states": course.states,
+        "places": places,
+        "sizes": sizes,
+        "turn": turn,
+    }
 
 
 @lru_cache(maxsize=1)

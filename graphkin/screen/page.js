@@ -8,13 +8,16 @@
   const SVG = "http://www.w3.org/2000/svg";
   const READABLE = 3.2; // dots to the millimetre at which lettering of 2.5 mm can be read
   const EDGE = 7, LEAST = 60; // mm about what is looked at, and its least width
-  const MOST = 1.6; // times that a field grows for what leaves it
+  const AIR = 3, MOST = 3.5; // mm about what a field is shifted or grows for; parts of a field beyond its edges that are shown
   const NARROW = 640; // dots of the screen below which reasons are folded
-  const DEAD = 1e-4; // sine of a crossing below which nothing is drawn fairly
-  const SMALL = 2.4; // and below which larger letters would not do
-  const UNMARKED = ".later,[visibility],.arrowhead,.leader,.square-mark,.caption,.detail,[data-aside]";
-  const SEEN = ".lettering:not(:has(.later,[visibility])),*:not(g,text,tspan,.later,[visibility],.centre-line)"; // a group holds its shift
-  const state = { step: 1, x: motion ? motion.start : 0, timer: 0, kept: 0, address: location.hash, follow: null, over: null };
+  const DEAD = Math.sin(Math.PI / 180), FAR = 1e-4; // sines of crossings below which no hand can tell where; those of far centres and poles
+  const TINTS = 4; // colours that tell apart what one sentence draws for several points
+  const ARROW = 12, CORNER = 2.2, NONE = 0.5; // mm of a velocity at its pin, of a right angle, of no velocity
+  const UNMARKED = ".later,.void,[visibility],.arrowhead,.leader,.square-mark,.caption,.detail,[data-aside]";
+  const marksBut = gone => `.lettering:not(:has(${gone})),*:not(g,text,tspan,.centre-line,${gone})`; // a group holds its shift
+  const SEEN = marksBut(".later,.void,[visibility]"), PLACED = marksBut(".void,[visibility]");
+  const MOVED = marksBut(".void,[visibility],.halo *,[data-aside]");
+  const state = { step: 1, x: motion ? motion.start : 0, timer: 0, kept: 0, address: location.hash, follow: null, over: null, dead: false };
 
   page.classList.add("js");
   motion?.set(motion.start, byId); // what moves may add marks
@@ -33,12 +36,13 @@
   for (const [step, at] of Object.entries(data.at)) own[at].push(step);
   const places = sentences();
 
-  /** A field: its picture, the box that it shows whole, and the group of what is marked. */
+  /** A field: its picture, the group of what is marked, its box, and that of all that is drawn. */
   function field(svg) {
     const halo = svg.insertBefore(document.createElementNS(SVG, "g"), svg.firstChild);
     halo.setAttribute("class", "halo");
     const { x, y, width, height } = svg.viewBox.baseVal;
-    return { svg, halo, whole: [x, y, width, height] };
+    svg.style.aspectRatio = `${width} / ${height}`; // whatever part of it is shown
+    return { svg, halo, whole: [x, y, width, height], drawn: extent(svg, PLACED) };
   }
 
   /** Make each sentence of the list a link to its step. */
@@ -54,8 +58,15 @@
         pause();
         show(i + 1);
       });
+      const parts = own[i + 1].some(step => data.tints[step]) ? link.querySelectorAll("[data-for]") : [];
+      for (const part of parts) part.className = `tint ${tint(part.dataset.for)}`;
       return { link, say: link.querySelector(".say"), why: link.querySelector(".why"), crossings: [...link.querySelectorAll(".crossing")] };
     });
+  }
+
+  /** The class of the colour of a step. */
+  function tint(step) {
+    return `t${(data.tints[step] ?? 0) % TINTS}`;
   }
 
   // --- a step ------------------------------------------------------------------------------------
@@ -90,10 +101,8 @@
     const count = data.count.replace("{number}", state.step).replace("{all}", last);
     byId("count").textContent = count;
     slider.setAttribute("aria-valuetext", count);
-    byId("sentence").replaceChildren(...copies(places[state.step - 1].say));
-    const { why } = places[state.step - 1];
-    byId("reason").replaceChildren(...(why ? copies(why) : []));
-    byId("because").hidden = !why;
+    tell(byId("told"), state.step);
+    byId("told").scrollTop = 0;
     places.forEach(({ link }, i) => {
       if (i + 1 === state.step) link.setAttribute("aria-current", "step");
       else link.removeAttribute("aria-current");
@@ -104,18 +113,27 @@
       list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
     }
     for (const stop of document.querySelectorAll("#stops button")) {
-      if (Number(stop.dataset.stop) === state.step) stop.setAttribute("aria-current", "step");
+      const { stop: first, end } = stop.dataset;
+      if (first <= state.step && state.step <= end) stop.setAttribute("aria-current", "true");
       else stop.removeAttribute("aria-current");
     }
-    warn();
   }
 
-  /** The flattest crossing of the step. */
-  function warn() {
+  /** Write the sentence of a step, why, and its flattest crossing. */
+  function tell(told, step) {
+    const { say: words, why } = places[step - 1];
+    told.querySelector("#sentence").replaceChildren(...copies(words));
+    told.querySelector("#reason").replaceChildren(...(why ? copies(why) : []));
+    told.querySelector("#because").hidden = !why;
+    warn(told, step);
+  }
+
+  /** Write the flattest crossing of a step. */
+  function warn(told, step) {
     const factor = line => Number(line.querySelector(".factor").textContent.replace(data.mark, "."));
-    const lines = places[state.step - 1].crossings;
+    const lines = places[step - 1].crossings;
     const worst = lines.reduce((a, b) => (a && factor(a) >= factor(b) ? a : b), null);
-    byId("crossing").replaceChildren(...(worst ? copies(worst) : []));
+    told.querySelector("#crossing").replaceChildren(...(worst ? copies(worst) : []));
   }
 
   /** Copies of what an element holds. */
@@ -128,16 +146,23 @@
   /** Mark what some steps draw, and what that is drawn from. */
   function trace(steps) {
     const sheet = sheets[sheetAt(state.step)];
-    const from = new Set(steps.flatMap(step => data.from[step] ?? []).map(String));
-    steps.forEach(step => from.delete(step));
+    const from = sources(steps);
     const done = state.step === data.bounds[sheets.indexOf(sheet)][1] && !state.over;
     sheet.element.classList.toggle("growing", !done);
     for (const mark of sheet.marks) {
       mark.classList.toggle("rest", !mark.classList.contains("now") && !from.has(mark.dataset.of));
     }
     halos(sheet, steps, from);
-    names(steps, from);
+    names(byId("from"), from);
+    byId("from-key").hidden = !from.size;
     look();
+  }
+
+  /** What some steps are drawn from. */
+  function sources(steps) {
+    const from = new Set(steps.flatMap(step => data.from[step] ?? []).map(String));
+    steps.forEach(step => from.delete(step));
+    return from;
   }
 
   /** Draw the marker pen's strokes beneath the marks. */
@@ -158,17 +183,18 @@
           strokes.push(between(...ends));
         }
       }
+      for (const step of steps) strokes.push(...squares(sheet, svg, data.squares[step] ?? []));
       for (const step of from) for (const mark of sheet.of.get(step) ?? []) stroke(mark, "old");
       const fresh = state.over ? steps.flatMap(step => sheet.of.get(step) ?? []) :
         sheet.marks.filter(mark => mark.classList.contains("now"));
-      for (const mark of fresh) stroke(mark, "new");
+      for (const mark of fresh) stroke(mark, `new ${tint(mark.dataset.of)}`);
       halo.replaceChildren(...strokes);
     }
   }
 
   /** The circle that a point is drawn as. */
   function pin(sheet, point) {
-    return (sheet.of.get(String(point)) ?? []).find(mark => mark.tagName === "circle");
+    return (sheet.of.get(String(point)) ?? []).find(mark => mark.matches("circle:not(.void)"));
   }
 
   /** A stroke from one pin to another. */
@@ -181,14 +207,36 @@
     return line;
   }
 
-  /** Name what the step is drawn from, with the steps that drew it. */
-  function names(steps, from) {
+  /** A velocity at its pin, with the right angle in which a line stands to it; in its plan a stroke. */
+  function squares(sheet, svg, points) {
+    const [at, pole, image] = points.map(point => pin(sheet, point));
+    if (!image || !pole || !at) return [];
+    if (svg.contains(pole)) return [between(pole, image)];
+    const [[x, y], tail, tip] = [at, pole, image].map(circle => ["cx", "cy"].map(name => Number(circle.getAttribute(name))));
+    const size = Math.hypot(tip[0] - tail[0], tip[1] - tail[1]);
+    if (size < NONE) return [];
+    const [u, v] = [(tip[0] - tail[0]) / size, (tip[1] - tail[1]) / size];
+    const place = (along, across) => `${x + along * u - across * v},${y + along * v + across * u}`;
+    const drawn = (name, points, look) => {
+      const line = document.createElementNS(SVG, name);
+      line.setAttribute("points", points.join(" "));
+      line.setAttribute("class", look);
+      return line;
+    };
+    return [
+      drawn("polyline", [place(0, 0), place(ARROW, 0)], "aid"),
+      drawn("polygon", [place(ARROW, 0), place(ARROW - 3, 0.6), place(ARROW - 3, -0.6)], "aid head"),
+      drawn("polyline", [place(CORNER, 0), place(CORNER, CORNER), place(0, CORNER)], "aid"),
+    ];
+  }
+
+  /** Name in a list what is drawn from, with the steps that drew it. */
+  function names(list, from) {
     const told = new Map();
     for (const step of from) {
       const name = data.letters[step];
       if (name && !told.has(name)) told.set(name, data.at[step]);
     }
-    const list = byId("from");
     list.replaceChildren();
     for (const [name, at] of [...told].sort((a, b) => a[1] - b[1])) {
       if (list.childNodes.length) list.append(", ");
@@ -200,25 +248,46 @@
       }
       list.append(part);
     }
-    byId("from-key").hidden = !told.size;
   }
 
   // --- what is looked at -------------------------------------------------------------------------
 
-  /** Show each field whole, or what is marked in it so large that its lettering can be read. */
-  function look() {
+  /** Keep as much room for words and values as the longest of them need, so that nothing jumps. */
+  function fit() {
+    const told = byId("told").cloneNode(true), read = byId("read")?.cloneNode(true);
+    const tallest = (part, name, cases, write) => {
+      part.classList.add("measured");
+      byId(name).after(part);
+      const sizes = cases.map(one => (write(one), part.offsetHeight));
+      part.remove();
+      style(page, `--${name}`, `${Math.max(...sizes)}px`);
+    };
+    tallest(told, "told", places.map((_, i) => i + 1), step => {
+      tell(told, step);
+      names(told.querySelector("#from"), sources(own[step]));
+    });
+    if (read) {
+      read.querySelector("#place").textContent = byId("place").dataset.dead;
+      tallest(read, "read", sheets.map(sheet => sheet.element.dataset.kind), kind => {
+        read.querySelector("#values").replaceChildren(...all_asked(kind));
+      });
+    }
     style(page, "--dock", `${dock.offsetHeight}px`);
-    const words = byId("say");
-    words.tabIndex = words.scrollHeight > words.clientHeight + 1 ? 0 : -1;
+    const box = byId("told");
+    box.tabIndex = told.scrollHeight > box.clientHeight + 1 ? 0 : -1;
+    look();
+  }
+
+  /** Show all that is drawn in each field, or what is marked in it so large that it can be read. */
+  function look() {
     const sheet = sheets[sheetAt(state.step)];
     const sizes = sheet.fields.map(({ svg }) => [svg.clientWidth, svg.clientHeight]); // read, then written
-    const small = sheet.fields.some(({ whole }, i) => dots(sizes[i], whole) < SMALL);
-    const near = state.follow ?? small;
+    const near = state.follow ?? innerWidth <= NARROW;
     const done = !sheet.element.classList.contains("growing");
     follow.setAttribute("aria-pressed", near);
     const boxes = sheet.fields.map((one, i) => {
-      const room = roomy(one);
-      return near ? closer(sizes[i], room, extent(done ? one.svg : one.halo)) : room;
+      const room = roomy(one, sizes[i], sheets.indexOf(sheet), i);
+      return near ? closer(sizes[i], room, extent(done ? one.svg : one.halo, SEEN)) : room;
     });
     sheet.fields.forEach(({ svg }, i) => {
       svg.setAttribute("viewBox", boxes[i].map(number => number.toFixed(2)).join(" "));
@@ -239,25 +308,30 @@
   }
 
   /** The box of what is drawn in a picture or a part of it. */
-  function extent(part) {
-    const boxes = [...part.querySelectorAll(SEEN)].map(mark => mark.getBBox());
+  function extent(part, marks) {
+    const boxes = [...part.querySelectorAll(marks)].map(mark => mark.getBBox());
     const [left, top] = ["x", "y"].map(axis => Math.min(...boxes.map(box => box[axis])));
     const right = Math.max(...boxes.map(box => box.x + box.width));
     const bottom = Math.max(...boxes.map(box => box.y + box.height));
     return boxes.length ? [left, top, right - left, bottom - top] : null;
   }
 
-  /** A field, larger where what has moved leaves it. */
-  function roomy({ svg, whole }) {
-    const found = state.x !== (motion?.start ?? 0) && extent(svg);
-    if (!found) return whole;
-    const [lows, highs] = [[], []];
+  /** The part of a field in which all is drawn, shifted for what has moved out of it, and larger where that is not enough. */
+  function roomy({ svg, whole, drawn }, picture, sheet, side) {
+    const base = closer(picture, whole, drawn);
+    const known = () => svg.clientWidth ? extent(svg, MOVED) : null; // without what has no place
+    const found = moved() && (state.dead ? known() : motion.extent(state.x, sheet, side));
+    if (!found) return base;
+    const [starts, sizes] = [[], []];
     for (const axis of [0, 1]) {
-      const [low, size] = [whole[axis], whole[axis + 2]], most = (MOST - 1) * size;
-      lows.push(Math.max(Math.min(low, found[axis] - EDGE), low - most));
-      highs.push(Math.min(Math.max(low + size, found[axis] + found[axis + 2] + EDGE), low + size + most));
+      const reach = MOST * whole[axis + 2];
+      const low = Math.max(found[axis] - AIR, whole[axis] - reach);
+      const high = Math.min(found[axis] + found[axis + 2] + AIR, whole[axis] + whole[axis + 2] + reach);
+      const size = Math.max(base[axis + 2], high - low);
+      starts.push(Math.min(Math.max(base[axis], high - size), low));
+      sizes.push(size);
     }
-    return [...lows, highs[0] - lows[0], highs[1] - lows[1]];
+    return [...starts, ...sizes];
   }
 
   /** The part of a field about a box, in the shape of its picture and not beyond the field. */
@@ -278,29 +352,78 @@
 
   // --- the driver --------------------------------------------------------------------------------
 
-  const driver = motion && byId("driver");
+  const driver = motion && byId("driver"), datum = motion && byId("datum");
+  const given = [...(datum?.childNodes ?? [])];
+  const notes = motion ? [...document.querySelectorAll(".sheet h2, #given-name")].map(name => {
+    const one = document.createElement("small");
+    one.className = "moved-note";
+    name.after(one);
+    return one;
+  }) : [];
+
+  /** Whether the driver has left the drawn position. */
+  function moved() {
+    return motion !== null && state.x !== motion.start;
+  }
+
+  /** The place of the driver that is meant by a number: an angle may be whole turns off. */
+  function meant(x) {
+    const { low, high, unit } = motion, off = x < low || x > high;
+    const turned = off && unit === "deg" ? x - 360 * Math.round((x - (low + high) / 2) / 360) : x;
+    return Math.min(Math.max(turned, low), high);
+  }
 
   /** Set the driver, and with it all that follows. */
   function drive(x) {
-    const whole = Math.min(Math.max(x, motion.low), motion.high);
+    const whole = meant(x);
     const there = Math.abs(whole - motion.start) < 1e-6 * motion.step;
     state.x = Number.isFinite(whole) && !there ? whole : motion.start;
     driver.value = state.x;
-    const shown = written(state.x, 1) + byId("driven").dataset.unit;
+    const shown = place_of(state.x);
     byId("driven").textContent = shown;
     driver.setAttribute("aria-valuetext", shown);
     const { ok } = motion.set(state.x, byId);
-    const moved = state.x !== motion.start;
-    page.classList.toggle("moved", moved);
-    byId("back").disabled = !moved;
-    const sines = ok ? Object.values(motion.margins(state.x)) : [];
-    const dead = Math.min(...sines, 1) < DEAD;
+    page.classList.toggle("moved", moved());
+    byId("back").disabled = !moved();
+    note(shown);
+    const sines = Object.entries(ok ? motion.margins(state.x) : {}).map(([step, sine]) => [Number(step), sine]);
+    const flat = sines.filter(([step, sine]) => sine < (data.aside.includes(step) ? FAR : DEAD)).map(([step]) => step);
+    const dead = flat.some(step => !data.aside.includes(step));
+    state.dead = !ok || dead;
+    clear_off(step => !ok || flat.some(crossing => data.hangs[step].includes(crossing)));
     byId("place").textContent = !ok ? byId("place").dataset.open : dead ? byId("place").dataset.dead : "";
     if (ok && !dead) read();
     page.classList.toggle("silent", !ok || dead);
-    warn();
+    warn(byId("told"), state.step);
     trace(state.over ? [state.over] : own[state.step]);
     remember();
+  }
+
+  /** A place of the driver in words. */
+  function place_of(x) {
+    return written(x, 1) + byId("driven").dataset.unit;
+  }
+
+  /** Take what hangs on lines that do not cross off the drawings. */
+  function clear_off(hangs) {
+    for (const { of } of sheets) {
+      for (const [step, marks] of of) {
+        const gone = step in data.hangs && hangs(step);
+        for (const mark of marks) mark.classList.toggle("void", gone);
+      }
+    }
+  }
+
+  /** Say beside drawings and data where the driver now is, and what they were given and checked for. */
+  function note(shown) {
+    const { name, moved: words } = byId("read").dataset, start = `${name} = ${place_of(motion.start)}`;
+    const here = `${name} = ${shown}`; // markup of a symbol, escaped where it was made
+    for (const one of notes) {
+      one.innerHTML = words.replace("{place}", here).replace("{start}", start);
+      one.hidden = !moved();
+    }
+    if (datum && moved()) datum.innerHTML = here;
+    else datum?.replaceChildren(...given);
   }
 
   /** A number with so many places after the mark, as the page's language writes it. */
@@ -342,9 +465,13 @@
 
   /** Tell in the line below the slider what the sheet in sight asks for. */
   function read_out() {
-    const kind = sheets[sheetAt(state.step)].element.dataset.kind;
+    byId("values").replaceChildren(...all_asked(sheets[sheetAt(state.step)].element.dataset.kind));
+  }
+
+  /** All that is asked on a sheet, each in one line. */
+  function all_asked(kind) {
     const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
-    byId("values").replaceChildren(...[...rows].map(row => asked([...row.cells])));
+    return [...rows].map(row => asked([...row.cells]));
   }
 
   /** How each kind of table tells a value. */
@@ -434,6 +561,10 @@
 
   const toggle = () => (state.timer ? pause() : start());
   const go = step => { pause(); show(step); };
+  const zoom = () => {
+    state.follow = follow.getAttribute("aria-pressed") !== "true";
+    look();
+  };
 
   function key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -447,6 +578,7 @@
       Home: range ? null : () => go(1),
       End: range ? null : () => go(last),
       " ": pressed ? null : toggle,
+      z: zoom,
     }[event.key] ?? (stop ? () => go(stop) : null);
     if (!act) return;
     event.preventDefault();
@@ -458,10 +590,7 @@
   byId("previous").addEventListener("click", () => go(state.step - 1));
   byId("next").addEventListener("click", () => go(state.step + 1));
   play.addEventListener("click", toggle);
-  follow.addEventListener("click", () => {
-    state.follow = follow.getAttribute("aria-pressed") !== "true";
-    look();
-  });
+  follow.addEventListener("click", zoom);
   for (const stop of document.querySelectorAll("#stops button")) {
     stop.addEventListener("click", () => go(Number(stop.dataset.stop)));
   }
@@ -491,13 +620,15 @@
     byId("back").addEventListener("click", () => drive(motion.start));
   }
   addEventListener("hashchange", follow_address);
-  addEventListener("resize", look);
+  addEventListener("resize", fit);
   byId("because").open = innerWidth > NARROW;
-  byId("because").addEventListener("toggle", look);
-  const whole = () => {
-    for (const sheet of sheets) for (const { svg, whole: box } of sheet.fields) svg.setAttribute("viewBox", box.join(" "));
-  };
-  addEventListener("beforeprint", whole);
+  byId("because").addEventListener("toggle", fit);
+  const print = () => sheets.forEach(({ fields }, s) => fields.forEach((one, i) => {
+    const box = roomy(one, one.whole.slice(2), s, i);
+    one.svg.setAttribute("viewBox", box.map(number => number.toFixed(2)).join(" "));
+  }));
+  addEventListener("beforeprint", print);
   addEventListener("afterprint", look);
   follow_address();
+  fit();
 })();

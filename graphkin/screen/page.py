@@ -16,7 +16,6 @@ from graphkin.paper.marks import Mark
 from graphkin.paper.sheet import title_of
 from graphkin.paper.style import Ink
 from graphkin.paper.svg import number
-from graphkin.paper.symbolic import symbol
 from graphkin.screen import facts
 from graphkin.screen.buttons import button
 from graphkin.screen.fields import field_picture, headline, ink_sheet
@@ -38,7 +37,7 @@ STOP_NAMES = {
     Part.ACCELERATION: "screen.acceleration",
     Part.POLE: "screen.pole",
 }
-"""What the buttons say that go to the ends of the parts of the work."""
+"""What the buttons say that go to the parts of the work."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +66,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
             *chain.from_iterable(figures(sheets, told, place) for place in range(len(sheets))),
             "</div>",
             *construction(sheets, told),
-            *outcome(sheets),
+            *outcome(sheets, moves.datum),
             "</main>",
             *foot(sheets),
             dock(sheets[0].drawing.words, told, moves),
@@ -200,15 +199,18 @@ def construction(sheets: Sequence[ScreenSheet], told: Telling) -> Iterator[str]:
 
 def sentence(words: Words, place: int, said: Said) -> str:
     """A sentence, below it why, and the crossings of its lines."""
-    lines = "".join(crossing(words, found) for found in said.crossings)
+    named = zip(said.crossings, said.letters, strict=True)
+    lines = "".join(crossing(words, found, name) for found, name in named)
     text = f'<span class="say">{marked_up(said.markup)}</span>'
-    why = f'<small class="why">{marked_up("; ".join(said.why))}</small>' if said.why else ""
+    pairs = zip(said.why, said.of, strict=True)
+    parts = [f'<span data-for="{step}">{marked_up(why)}</span>' for why, step in pairs]
+    why = f'<small class="why">{"; ".join(parts)}</small>' if parts else ""
     return f'<li id="step-{place}" value="{place}">{text}{why}{lines}</li>'
 
 
-def crossing(words: Words, found: Crossing) -> str:
+def crossing(words: Words, found: Crossing, name: str) -> str:
     """How flat two lines cross, and what a millimetre of pencil becomes there."""
-    markup = words("page.crossing", name=symbol(found.name), angle=ANGLE, factor=FACTOR)
+    markup = words("page.crossing", name=name, angle=ANGLE, factor=FACTOR)
     angle, factor = words.fixed(degrees(found.angle), 0), words.significant(found.factor, 2)
     text = marked_up(markup)
     text = text.replace(ANGLE, f'<span class="angle">{angle}</span>')
@@ -216,8 +218,8 @@ def crossing(words: Words, found: Crossing) -> str:
     return f'<small class="crossing" data-of="{found.number}">{text}</small>'
 
 
-def outcome(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
-    """The tables of results, and the data."""
+def outcome(sheets: Sequence[ScreenSheet], datum: str) -> Iterator[str]:
+    """The tables of results, and the data; ``datum`` is the symbol of the one that is moved."""
     words = sheets[0].drawing.words
     yield '<section id="results" aria-labelledby="results-name"><h2 id="results-name">'
     yield f"{escape(words('screen.results'))}</h2>"
@@ -227,15 +229,15 @@ def outcome(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
         yield from facts.results(sheet.drawing)
         yield "</div>"
     yield "</section>"
-    yield from given(sheets)
+    yield from given(sheets, datum)
 
 
-def given(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+def given(sheets: Sequence[ScreenSheet], datum: str = "") -> Iterator[str]:
     """The data of the scene."""
     drawing = sheets[0].drawing
     name = escape(drawing.words("page.data"))
     yield f'<section id="given" aria-labelledby="given-name"><h2 id="given-name">{name}</h2>'
-    yield f"{facts.data(drawing)}</section>"
+    yield f"{facts.data(drawing, datum)}</section>"
 
 
 def foot(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
@@ -252,11 +254,11 @@ def foot(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
 
 def dock(words: Words, told: Telling, moves: Slider) -> str:
     """The controls, in a template: a page without a script does not show them."""
-    last = len(told.said)
+    steps = len(told.said)
     stops = [
-        f'<button type="button" data-stop="{at}"><kbd>{place}</kbd> '
+        f'<button type="button" data-stop="{first}" data-end="{last}"><kbd>{place}</kbd> '
         f"{escape(words(STOP_NAMES[stop]))}</button>"
-        for place, (at, stop) in enumerate(told.stops(), 1)
+        for place, (first, last, stop) in enumerate(told.stops(), 1)
     ]
     play = (
         f'data-play="{escape(words("screen.play"))}" data-pause="{escape(words("screen.pause"))}"'
@@ -265,19 +267,21 @@ def dock(words: Words, told: Telling, moves: Slider) -> str:
         (
             '<template id="controls">',
             f'<div id="dock" role="group" aria-label="{escape(words("screen.controls"))}">',
+            '<div id="told">',
             '<div id="say" aria-live="polite" aria-atomic="true"><p id="count"></p>'
             '<p id="sentence"></p></div>',
-            f'<details id="because" open><summary>{escape(words("screen.because"))}</summary>'
-            '<p id="reason"></p></details>',
-            '<p id="crossing"></p>',
             f'<p id="behind"><span id="new-key">{escape(words("screen.new"))}</span> '
             f'<span id="from-key">{escape(words("screen.from"))}</span> ',
             '<span id="from"></span></p>',
+            '<p id="crossing"></p>',
+            f'<details id="because" open><summary>{escape(words("screen.because"))}</summary>'
+            '<p id="reason"></p></details>',
+            "</div>",
             '<div id="keys">',
             button("previous", words("screen.previous")),
             button("play", words("screen.play"), play),
             button("next", words("screen.next")),
-            f'<input type="range" id="step" min="1" max="{last}" step="1" value="1"'
+            f'<input type="range" id="step" min="1" max="{steps}" step="1" value="1"'
             f' aria-label="{escape(words("screen.step"))}">',
             button("follow", words("screen.follow"), 'aria-pressed="false"'),
             "</div>",
@@ -285,7 +289,7 @@ def dock(words: Words, told: Telling, moves: Slider) -> str:
             *stops,
             "</div>",
             *moves.controls(words),
-            f'<p id="help">{escape(words("screen.help"))}</p>',
+            f'<p id="help"><span>{escape(words("screen.help"))}</span> {moves.limits(words)}</p>',
             "</div>",
             "</template>",
         )
@@ -300,8 +304,12 @@ def record(sheets: Sequence[ScreenSheet], told: Telling) -> dict[str, object]:
         "at": told.at,
         "from": told.sources,
         "sides": told.sides,
-        "letters": {step: marked_up(symbol(name)) for step, name in told.letters.items()},
-        "stops": [at for at, _ in told.stops()],
+        "letters": {step: marked_up(name) for step, name in told.letters.items()},
+        "tints": told.tints,
+        "hangs": told.hangs,
+        "aside": told.aside,
+        "squares": told.squares,
+        "stops": [first for first, _, _ in told.stops()],
         "count": words("page.step_of", number="{number}", all="{all}"),
         "mark": words("decimal_mark"),
         "sense": [words("page.anticlockwise"), words("page.clockwise")],

@@ -1,83 +1,88 @@
-"""The marks of one moment of a motion: the mechanism and its plans with their letters.
+"""The marks of one moment of a motion: the mechanism and its plans, and what their letters name.
 
-Nothing of the construction is among them, and nothing that is placed by what stands around it:
-letters go smoothly with their points.
+Nothing of the construction is among them, and nothing that is placed by what stands around it at
+this moment alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from math import hypot
+from dataclasses import replace
 
+from graphkin.paper.areas import Rect
 from graphkin.paper.construct import draw_plan_steps
 from graphkin.paper.desk import Desk
 from graphkin.paper.drawing import TAGS, Drawing
-from graphkin.paper.field import XY, Field
+from graphkin.paper.field import Field, clipped
+from graphkin.paper.inputs import draw_drivers
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
-from graphkin.paper.marks import Mark, Text
-from graphkin.paper.mechanism import draw_bars, draw_ground, draw_pins, draw_plates, outward
-from graphkin.paper.richtext import extent
+from graphkin.paper.marks import Line, Mark, Polyline, reach
+from graphkin.paper.mechanism import draw_bars, draw_ground, draw_pins, draw_plates
+from graphkin.paper.scale import Extent, extent_of
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import VECTORS
+from graphkin.plane import Vector
 from graphkin.screen.grounds import travelling
+from graphkin.screen.lettered import Letter, Seen
 
-LETTER = 3.5
-"""Height of letters, in mm."""
-ASIDE = 4.2
-"""How far a letter stands from what it names, in mm."""
-LEFT: XY = (-0.8, -0.6)
-"""Where it stands when nothing else says so: to the left, above."""
-NEAR = 4.0
-"""Letters keep so far from one another, in mm."""
 SHOWN = (*VECTORS, "relative-acceleration", "arrowhead", "point", "pole")
 """The first class of the marks of a plan that are shown, without what constructs them."""
+MOST = 4
+"""Points by which the letter of another may be led, at most."""
 
 
-def mechanism_marks(drawing: Drawing, field: Field) -> list[Mark]:
-    """Bars, plates, pins and ground, with the letters of the points."""
+def mechanism_seen(drawing: Drawing, field: Field) -> Seen:
+    """Bars, plates, pins and ground, and the points with their letters."""
     board, away_with = Board(field.rect), travelling(drawing, field)
     draw_plates(board, drawing, field)
     draw_ground(board, drawing, field)
     draw_bars(board, drawing, field)
     draw_pins(board, drawing, field)
-    marks: list[Mark] = [mark for mark in board.marks if mark not in away_with]
-    taken: list[XY] = []
-    for name, place in drawing.positions.items():
-        fixed = name in drawing.scene.frame.points
-        away = LEFT if fixed else outward(drawing, field, name) or LEFT
-        marks += letter(Letter(name, symbol(name), field(place), away), taken)
-    return marks
+    marks = [mark for mark in board.marks if mark not in away_with]
+    places = {name: field(place) for name, place in drawing.positions.items()}
+    letters = {name: Letter(symbol(name)) for name in places}
+    return Seen(letters, places, marks, {name: linked(drawing, name) for name in places})
 
 
-def plan_marks(drawing: Drawing, field: Field) -> list[Mark]:
-    """The vectors and points of a plan with their letters, without what constructs them."""
+def driver_marks(drawing: Drawing, field: Field) -> list[Mark]:
+    """The angle or the way of each driver and its sense, without the number of one position."""
+    if drawing.kind != "velocity":
+        return []
+    board = Board(field.rect)
+    draw_drivers(board, drawing, field)
+    return list(board.marks)
+
+
+def linked(drawing: Drawing, name: str) -> tuple[str, ...]:
+    """The points of the links of a point that moves, except itself."""
+    scene = drawing.scene
+    if name in scene.frame.points:
+        return ()
+    links = [link for link in scene.links.values() if name in link.points]
+    others = dict.fromkeys(other for link in links for other in link.points if other != name)
+    return tuple(other for other in others if other in drawing.positions)[:MOST]
+
+
+def plan_seen(drawing: Drawing, field: Field) -> Seen:
+    """The vectors and points of a plan, without what constructs them, and its letters."""
     board = Board(field.rect)
     draw_plan_steps(Desk(board, field, drawing, Layout(field, field, Free())))
     marks = [mark for mark in board.marks if is_shown(mark)]
-    places = {
-        number: field(value)
-        for number, step, value in drawing.steps(drawing.plane)
-        if step.name and step.name[-1] not in TAGS and isinstance(value, complex)
-    }
-    taken: list[XY] = []
-    pole = field(0j)
-    for number, at in places.items():
-        name = drawing.trace.program.steps[number].name
-        away = off(at, list(places.values()) if name == drawing.pole else [pole])
-        own = Letter(name, symbol(name), at, away, drawing.kind, number)
-        marks += letter(own, taken)
-    return marks
+    letters, places = dict[str, Letter](), {}
+    for number, step, value in drawing.steps(drawing.plane):
+        if is_point(step.name) and isinstance(value, complex):
+            letters[step.name] = Letter(symbol(step.name), drawing.kind, number)
+            places[step.name] = field(value)
+    return Seen(letters, places, marks, {name: joined(drawing, name, letters) for name in letters})
 
 
-def off(at: XY, others: Sequence[XY]) -> XY:
-    """The way from some places to another, all of them alike; to the left where none tells it."""
-    ways = [(at[0] - x, at[1] - y) for x, y in others]
-    ways = [(u / hypot(u, v), v / hypot(u, v)) for u, v in ways if hypot(u, v) > 1]
-    u, v = sum(u for u, _ in ways), sum(v for _, v in ways)
-    size = hypot(u, v)
-    return (u / size, v / size) if size > 0.1 else LEFT
+def joined(drawing: Drawing, name: str, letters: dict[str, Letter]) -> tuple[str, ...]:
+    """The points of a plan that a vector joins with one of them, the pole first."""
+    steps = drawing.trace.program.steps
+    ends = [(steps[tail].name, steps[tip].name) for tail, tip in drawing.joins]
+    found = {a if b == name else b for a, b in ends if name in (a, b)} & letters.keys()
+    return tuple(sorted(found - {name}, key=lambda each: (each != drawing.pole, each))[:MOST])
 
 
 class Free(dict[int, tuple[float, float]]):
@@ -87,41 +92,39 @@ class Free(dict[int, tuple[float, float]]):
         return 0.0, 0.0
 
 
+def is_point(name: str) -> bool:
+    """Whether a step of a plan gives a point of the plan itself, by its name."""
+    return bool(name) and name[-1] not in TAGS
+
+
 def is_shown(mark: Mark) -> bool:
     """Whether a mark of a plan is a vector or a point of the plan itself."""
     first = mark.cls.split()[0]
     return first in SHOWN and not (mark.name and mark.name[-1] in TAGS)
 
 
-@dataclass(frozen=True, slots=True)
-class Letter:
-    """The letter of a point at a place of the picture, which way it stands off, and its look."""
-
-    name: str
-    markup: str
-    at: XY
-    away: XY
-    look: str = ""
-    step: int | None = None
-
-    def text(self, x: float, y: float) -> Text:
-        """The letter with the middle of its ink at a place."""
-        width, top, bottom = extent(self.markup, LETTER)
-        look = f"label {self.look}".strip()
-        x, y = x - width / 2, y - (top + bottom) / 2
-        return Text(x, y, self.markup, look, LETTER, "start", self.name, self.step)
+def plan_box(drawing: Drawing) -> Extent:
+    """The box of a plan in its own unit, its pole with it."""
+    points = [0j]
+    for _, step, value in drawing.steps(drawing.plane):
+        if isinstance(value, Vector) and step.arrow:
+            points += [value.tail, value.tip]
+        elif is_point(step.name) and isinstance(value, complex):
+            points.append(value)
+    return extent_of(points)
 
 
-def letter(own: Letter, taken: list[XY]) -> Iterator[Text]:
-    """A letter beside its point; on another side where one stands there.
-
-    Where letters stand on all sides it is left out.
-    """
-    far = ASIDE + extent(own.markup, LETTER)[0] / 4
-    u, v = own.away
-    for way in ((u, v), (-v, u), (v, -u), (-u, -v)):
-        x, y = own.at[0] + way[0] * far, own.at[1] + way[1] * ASIDE
-        if all(hypot(x - other[0], y - other[1]) > NEAR for other in taken):
-            taken.append((x, y))
-            yield own.text(x, y)
-            return
+def cut(marks: Sequence[Mark], rect: Rect) -> Iterator[Mark]:
+    """What of the marks of a plan lies in its pane: lines up to its edge, all else if within."""
+    left, top, right, bottom = rect
+    for mark in marks:
+        if isinstance(mark, Line):
+            if part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), rect):
+                (x1, y1), (x2, y2) = part
+                yield replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
+            continue
+        low, high = reach(mark)[:2], reach(mark)[2:]
+        if isinstance(mark, Polyline):
+            low = high = mark.points[0]
+        if left <= low[0] and top <= low[1] and high[0] <= right and high[1] <= bottom:
+            yield mark

@@ -9,25 +9,27 @@ from typing import TYPE_CHECKING
 from graphkin.errors import Problem, SceneError
 from graphkin.grading.html import marked_up
 from graphkin.mechanism import Mechanism
+from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.field import Field
-from graphkin.paper.inputs import draw_drivers
-from graphkin.paper.labels import Board
+from graphkin.paper.field import XY, Field
 from graphkin.paper.layout import Layout, spans
 from graphkin.paper.marks import Circle, Mark, Text
 from graphkin.paper.richtext import escape as markup
-from graphkin.paper.richtext import extent
 from graphkin.paper.scale import Scales
 from graphkin.paper.sheet import title_of
+from graphkin.paper.svg import number
 from graphkin.paper.symbolic import symbol
 from graphkin.scaling import WANTED, natural_seconds, targets_of
 from graphkin.screen.buttons import button
-from graphkin.screen.facts import asked_rows
-from graphkin.screen.fields import field_picture, ink_sheet
-from graphkin.screen.frames import Stage, scale_bar, stage
+from graphkin.screen.facts import asked_rows, senses
+from graphkin.screen.fields import ink_sheet
+from graphkin.screen.fields import placed as drawn
+from graphkin.screen.frames import MECHANISM, Stage, scale_bar, stage
+from graphkin.screen.lettered import GAP, LEFT, LETTER
 from graphkin.screen.moments import Motion, made, place_in
 from graphkin.screen.moving import Moving, moving
-from graphkin.screen.pictured import ASIDE, NEAR, mechanism_marks, plan_marks
+from graphkin.screen.panes import AIR, room_in
+from graphkin.screen.pictured import driver_marks
 from graphkin.screen.sheets import ScreenSheet
 from graphkin.screen.skeleton import data_block, offline_page, part
 from graphkin.screen.telling import Timed
@@ -63,7 +65,7 @@ def player_page(motion: Motion, words: Words) -> str:
             *controls(words, moved, sheets),
             *shortened(motion, moved, words),
             "</main>",
-            data_block("run", record(motion, moved, sheets, words)),
+            data_block("run", record(set_up, moved, sheets)),
         )
     )
     marks = [mark for sheet in sheets for mark in (*sheet.left, *sheet.right)]
@@ -86,17 +88,14 @@ def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
     scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
     kinds = [kind for kind in WANTED if targets_of(mechanism, kind)]
     found = []
-    for number, kind in enumerate(kinds or ["velocity"]):
+    for place, kind in enumerate(kinds or ["velocity"]):
         drawing = drawing_of(mechanism, kind, scales, set_up.words)
         layout = layout_of(drawing, set_up.mechanism, set_up.plans.get(kind))
         left, right = list[Mark](), list[Mark]()
-        if number == 0:
-            left = [
-                *mechanism_marks(drawing, layout.mechanism),
-                *drivers(drawing, layout.mechanism),
-            ]
+        if place == 0:
+            left = [*set_up.mechanism_marks(drawing), *driver_marks(drawing, layout.mechanism)]
         if kinds:
-            right = plan_marks(drawing, layout.plan)
+            right = set_up.plan_marks(drawing, layout.plan)
         found.append(ScreenSheet(drawing, layout, tuple(left), tuple(right)))
     return found
 
@@ -113,28 +112,41 @@ def layout_of(drawing: Drawing, mechanism: Field, plan: Field | None) -> Layout:
     return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
 
 
-def drivers(drawing: Drawing, field: Field) -> list[Mark]:
-    """The angle or the way of each driver and its sense, without the number of one position."""
-    if drawing.kind != "velocity":
-        return []
-    board = Board(field.rect)
-    draw_drivers(board, drawing, field)
-    return list(board.marks)
-
-
 def figures(
     set_up: Stage, sheets: Sequence[ScreenSheet], fixed: Sequence[Sequence[Mark]]
 ) -> Iterator[str]:
     """The fields as pictures, each under its name."""
     fields = [(0, 0, sheets[0].left)]
     fields += [(s, len(sheet.left), sheet.right) for s, sheet in enumerate(sheets) if sheet.right]
-    for number, ((field, name, _, _), (s, first, marks), below) in enumerate(
+    for place, ((field, name, _, _), (s, first, marks), below) in enumerate(
         zip(set_up.captions, fields, fixed, strict=True)
     ):
-        placed = [("", Timed(mark, 0, None)) for mark in below]
-        placed += [(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)]
-        yield f'<figure id="field-{number}"><figcaption id="name-{number}">{marked_up(name)}'
-        yield f"</figcaption>{field_picture(placed, field.rect, f'name-{number}')}</figure>"
+        shift, told = (0.0, 0.0), ""
+        if place:
+            at = set_up.seated(sheets[s].drawing).at
+            shift = at[0] - field.at[0], at[1] - field.at[1]
+            told = f' <span class="beyond" hidden>– {marked_up(set_up.beyond)}</span>'
+        moves = [drawn(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)]
+        yield f'<figure id="field-{place}"><figcaption><span id="name-{place}">{marked_up(name)}'
+        yield f"</span>{told}</figcaption>"
+        yield from picture(field.rect, shift, below, moves, f"name-{place}")
+        yield "</figure>"
+
+
+def picture(
+    rect: Rect, shift: XY, below: Sequence[Mark], moves: Sequence[str], named_by: str
+) -> Iterator[str]:
+    """A field whose plan is moved aside: the window goes the other way, and what is fixed with it.
+
+    The script does the same at each place of the driver.
+    """
+    left, top, right, bottom = rect
+    (u, v), window = shift, (left - shift[0], top - shift[1], right - left, bottom - top)
+    box = " ".join(map(number, window))
+    yield f'<svg viewBox="{box}" role="img" aria-labelledby="{named_by}">'
+    yield f'<g class="fixed" transform="translate({number(-u)} {number(-v)})">'
+    yield from (drawn("", Timed(mark, 0, None)) for mark in below)
+    yield from ("</g>", *moves, "</svg>")
 
 
 def controls(words: Words, moved: Moving, sheets: Sequence[ScreenSheet]) -> Iterator[str]:
@@ -158,7 +170,8 @@ def controls(words: Words, moved: Moving, sheets: Sequence[ScreenSheet]) -> Iter
         for row in sorted(asked_rows(sheet.drawing)):
             name, unit = row_words(row, sheet.drawing)
             yield f'<div data-row="{escape(row)}"><dt>{marked_up(name)}</dt>'
-            yield f"<dd><span></span> {marked_up(unit)}</dd></div>"
+            yield f'<dd><span class="size"></span> {marked_up(unit)}<span class="sense"></span>'
+            yield "</dd></div>"
     yield f'</dl><p id="help" hidden>{escape(words("animation.help"))}</p>'
 
 
@@ -187,10 +200,9 @@ def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
     return symbol(row), words(f"table.{kind}")
 
 
-def record(
-    motion: Motion, moved: Moving, sheets: Sequence[ScreenSheet], words: Words
-) -> dict[str, object]:
+def record(set_up: Stage, moved: Moving, sheets: Sequence[ScreenSheet]) -> dict[str, object]:
     """What the script has to know: what is shown of the motion, and how it is told."""
+    motion, words = set_up.motion, set_up.words
     driven, sweep = moved.driven, motion.cycle.sweep
     low, high = moved.reach.low, moved.reach.high
     if not moved.reach.whole:
@@ -206,19 +218,43 @@ def record(
         "once": sweep.what == "time",
         "unit": unit,
         "mark": words("decimal_mark"),
-        "letters": [own for s, sheet in enumerate(sheets) for own in letters(sheet, s)],
-        "aside": [ASIDE, NEAR],
+        "letters": [own for s, sheet in enumerate(sheets) for own in letters(set_up, sheet, s)],
+        "letter": [LETTER, GAP, *LEFT],
+        "panes": [panes(set_up, sheet, s) for s, sheet in enumerate(sheets) if sheet.right],
+        "senses": worded(sheets, words),
     }
 
 
-def letters(sheet: ScreenSheet, s: int) -> Iterator[list[list[object]]]:
-    """The letters of each field that stand off from other points, as pictured.letter sets them.
+def worded(sheets: Sequence[ScreenSheet], words: Words) -> dict[str, Sequence[str]]:
+    """For each row with a sense the words of both, the positive one first."""
+    turns = [escape(words(f"page.{key}")) for key in ("anticlockwise", "clockwise")]
+    rows = {row for sheet in sheets for row in asked_rows(sheet.drawing) if row[0] in "ωε"}
+    return {**dict.fromkeys(sorted(rows), turns), **senses(sheets[0].drawing)}
+
+
+def panes(set_up: Stage, sheet: ScreenSheet, s: int) -> dict[str, object]:
+    """The pane of a plan: its figure, its edges, the room for the plan, and its pole's circle."""
+    rect, pole = sheet.layout.plan.rect, sheet.drawing.pole
+    places = [k for k, m in enumerate(sheet.right) if isinstance(m, Circle) and m.name == pole]
+    return {
+        "figure": f"field-{s + 1}",
+        "rect": rect,
+        "room": room_in(rect, AIR),
+        "pole": f"m{s}-{len(sheet.left) + places[0]}",
+    }
+
+
+def letters(set_up: Stage, sheet: ScreenSheet, s: int) -> Iterator[list[list[object]]]:
+    """The letters of each field by their rules, as lettered.lettering sets them.
 
     Each has the ids of its text and of its point's circle, the middle of its ink as drawn, its
-    width, and the ids of the circles that it stands off from.
+    width, how far it stands off, its turn, and the ids of the circles that lead it.
     """
-    first, pole = 0, sheet.drawing.pole
-    for marks in (sheet.left, sheet.right):
+    first, kind = 0, sheet.drawing.kind
+    for rules, marks in (
+        (set_up.rules[MECHANISM], sheet.left),
+        (set_up.rules.get(kind), sheet.right),
+    ):
         circles = {
             mark.name: f"m{s}-{first + k}"
             for k, mark in enumerate(marks)
@@ -226,25 +262,14 @@ def letters(sheet: ScreenSheet, s: int) -> Iterator[list[list[object]]]:
         }
         found: list[list[object]] = []
         for k, mark in enumerate(marks):
-            if isinstance(mark, Text) and mark.name in circles:
-                width, top, bottom = extent(mark.markup, mark.height)
-                middle = [mark.x + width / 2, mark.y + (top + bottom) / 2]
-                others = list(circles) if mark.name == pole else off(sheet, mark.name)
-                near = [circles[name] for name in others if name in circles]
-                found.append([f"m{s}-{first + k}", circles[mark.name], *middle, width, near])
+            if rules and isinstance(mark, Text) and mark.name in circles:
+                rule, box = rules[mark.name], mark.corners()
+                middle = [(box[0][i] + box[2][i]) / 2 for i in (0, 1)]
+                near = [circles[name] for name in rule.others if name in circles]
+                own = [f"m{s}-{first + k}", circles[mark.name], *middle, box[1][0] - box[0][0]]
+                found.append([*own, rule.far, *rule.turn, near])
         yield found
         first += len(marks)
-
-
-def off(sheet: ScreenSheet, name: str) -> list[str]:
-    """The points from which the letter of another stands off: of its links, or the plan's pole."""
-    scene = sheet.drawing.scene
-    if name in scene.frame.points:
-        return []
-    links = [link for link in scene.links.values() if name in link.points]
-    if not links:
-        return [sheet.drawing.pole]
-    return [other for link in links for other in link.points if other != name]
 
 
 def shape(set_up: Stage) -> str:

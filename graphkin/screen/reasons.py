@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from string import Formatter
 
 from graphkin.paper.drawing import Drawing
@@ -10,6 +10,7 @@ from graphkin.paper.flattest import OWN
 from graphkin.paper.naming import names_in
 from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.screen.labelled import as_labelled
 from graphkin.steps.program import Part, Plane, Step
 from graphkin.text import Words
 
@@ -44,24 +45,42 @@ WHY = {
 """The key of the reason for an action in a part of the work; others need none."""
 EACH = ("why.square", "why.along")
 """The reasons that are given for each line, not only for the first of its kind."""
+AGAIN = {"why.height": "why.height_again"}
+"""What is said of the second and each further one of a kind."""
 LAST = "why.meet"
 """The reason that is given at the end."""
 BY_HAND = {Plane.MECHANISM: "why.arcs"}
 """The reason for a point of a plate that is found by two lines or arcs; in a plan they meet."""
 
 
-def reasons(drawing: Drawing, numbers: Iterable[int]) -> list[str]:
-    """The reasons for some steps as markup, in their order, none of them twice."""
+def reasons(
+    drawing: Drawing, numbers: Iterable[int], labels: Mapping[str, str]
+) -> list[tuple[str, int]]:
+    """The reasons for some steps as markup, each with its step, in their order, none twice.
+
+    ``labels`` are those of the drawing, by the names of what they stand at.
+    """
     parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
-    found: dict[str, str] = {}
+    found: dict[str, tuple[str, int]] = {}
     for number in sorted(numbers):
         step = drawing.trace.program.steps[number]
         key, known = reason(drawing, step), fields(step)
         if step.part in parts and key and all(known[gap] for gap in gaps(drawing.words, key)):
-            text = drawing.words(key, **known)
-            found.setdefault(text if key in EACH else key, text)
+            key = AGAIN.get(key, key) if key in found else key
+            text = as_labelled(drawing.words(key, **known), alike(step, labels), labels)
+            own = key in EACH or key in AGAIN.values()
+            found.setdefault(text if own else key, (text, number))
     found |= {LAST: found.pop(LAST)} if LAST in found else {}
     return list(found.values())
+
+
+def alike(step: Step, names: Iterable[str]) -> Iterator[str]:
+    """The names with the letter and the index of a step: those of its right triangle."""
+    letter, _, index = step.name.partition("_")
+    for name in names:
+        base, _, own = name.partition("_")
+        if index and own == index and base[:1] == letter[:1]:
+            yield name
 
 
 def reason(drawing: Drawing, step: Step) -> str:

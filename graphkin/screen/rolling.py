@@ -65,25 +65,25 @@ def of_track(bench: Bench, touch: Touch, pose: Pose) -> Told:
     pitch = pi * touch.disc.module * mm if touch.disc.module else SPACING
     rest = since - (since * (1 / pitch)).do("round") * pitch
     teeth = Pose(page.origin - page.way * rest, page.way)
-    line = bench.joining(page.origin + page.way * low, page.origin + page.way * high, field.rect)
+    line = bench.joining(page.origin + page.way * low, page.origin + page.way * high, bench.room)
     body = rack_span(bench, touch, pose, low, high) if touch.disc.module else (low, high)
     for mark in marks:
         if isinstance(mark, Polyline):
             found[mark] = rack_binding(bench, touch, teeth, page, body)
         elif mark.cls == "pitch":
             first, last = (page.origin + page.way * end for end in body)
-            found[mark] = bench.joining(first, last, field.rect)
+            found[mark] = bench.joining(first, last, bench.room)
         elif mark.cls == "ground":
             found[mark] = bench.on(teeth)
         elif mark.cls == "guide" and not touch.disc.module:
             reach = (low, high) if touch.rolling.side > 0 else (high, low)
             first, last = (page.origin + page.way * end for end in reach)
-            found[mark] = bench.joining(first, last, field.rect)
+            found[mark] = bench.joining(first, last, bench.room)
         elif mark.cls == "guide":
             side, back = touch.rolling.side, rack_back(touch, mm)
             reach = body if side > 0 else body[::-1]
             first, last = (page.origin + page.way * (end + 1j * back) for end in reach)
-            found[mark] = bench.joining(first, last, field.rect)
+            found[mark] = bench.joining(first, last, bench.room)
         elif abs(float(cross(page_way(field, touch), direction(mark)))) < 1e-6:
             found[mark] = line
         else:

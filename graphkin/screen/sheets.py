@@ -56,8 +56,8 @@ def screened(drawings: Sequence[Drawing], view: str = "key") -> list[ScreenSheet
 
 def screen_sheet(drawing: Drawing, layout: Layout, view: str = "key") -> ScreenSheet:
     """The fields of one drawing."""
-    left, detail = parted(left_board(drawing, layout, view))
-    right, other = parted(right_board(drawing, layout, view))
+    boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
+    (left, detail), (right, other) = parted(*boards)
     if view == "key":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
     return ScreenSheet(drawing, layout, tuple(left), tuple(right), tuple(detail), tuple(other))

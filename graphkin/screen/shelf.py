@@ -90,22 +90,31 @@ def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> 
 
 def ran(graph: Graph, outputs: Sequence[int], inputs: Mapping[str, Any]) -> list[Any]:
     """The values of outputs for arrays of inputs, each array of the same length."""
+    return runner(graph, outputs)(inputs)
+
+
+def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
+    """Some outputs as a function of arrays of inputs, each array of the same length."""
     import numpy as np
 
     from graphkin.steps.emit import ARRAYS
     from graphkin.steps.emit import TRUTHS as CONDITIONS
 
-    found: dict[int, Any] = {}
-    with np.errstate(all="ignore"):
-        for number in graph.needed(outputs):
-            node = graph.nodes[number]
-            if node.op == "number":
-                found[number] = node.value
-            elif node.op == "input":
-                found[number] = inputs[node.name]
-            elif node.op == "over":
-                found[number] = np.divide(1.0, found[node.args[0]])
-            else:
-                name = "where" if node.op == "choose" else (ARRAYS | CONDITIONS)[node.op]
-                found[number] = getattr(np, name)(*(found[arg] for arg in node.args))
-    return [found[number] for number in outputs]
+    known = {**ARRAYS, **CONDITIONS, "choose": "where", "over": "reciprocal"}
+    order = [(number, graph.nodes[number]) for number in graph.needed(outputs)]
+    calls = [
+        (number, node, getattr(np, known[node.op]) if node.op in known else None)
+        for number, node in order
+    ]
+
+    def found(inputs: Mapping[str, Any]) -> list[Any]:
+        values: dict[int, Any] = {}
+        with np.errstate(all="ignore"):
+            for number, node, call in calls:
+                if call is not None:
+                    values[number] = call(*[values[arg] for arg in node.args])
+                else:
+                    values[number] = inputs[node.name] if node.name else np.float64(node.value)
+        return [values[number] for number in outputs]
+
+    return found

@@ -8,7 +8,9 @@ from html import escape
 
 from graphkin.grading.html import marked_up
 from graphkin.mechanism import Mechanism
+from graphkin.paper.data import angle_symbol
 from graphkin.screen.buttons import button
+from graphkin.screen.driven import Driven, Reach, window
 from graphkin.screen.moving import moving, still
 from graphkin.screen.sheets import ScreenSheet
 from graphkin.text import Words
@@ -18,31 +20,52 @@ from graphkin.text import Words
 class Slider:
     """The script that moves a mechanism and its plans by ``name``, markup of the driver's symbol.
 
-    ``unit`` is that of its place. Without a script, ``why`` is the key of the sentence why they
-    stand still.
+    ``datum`` is that symbol as the data have it, ``unit`` that of its place, ``ends`` the least
+    and the greatest, ``stops`` those of them beyond which nothing closes. Without a script, ``why``
+    is the key of the sentence why they stand still.
     """
 
     source: str = ""
     name: str = ""
+    datum: str = ""
     unit: str = ""
+    ends: tuple[float, float] = (0.0, 0.0)
+    stops: tuple[float, ...] = ()
     why: str = ""
 
     def controls(self, words: Words) -> Iterator[str]:
         """The slider with what stands beside it, or the sentence that says why there is none."""
         if self.source:
+            low, high = (
+                f'<span class="end">{escape(self.place(words, at))}</span>' for at in self.ends
+            )
             yield '<div id="move"><label for="driver">'
             yield f"<span>{escape(words('screen.driver'))}</span> {marked_up(self.name)}</label>"
-            yield '<input type="range" id="driver">'
-            unit = words("unit.deg") if self.unit == "deg" else f" {self.unit}"
-            yield f'<output id="driven" for="driver" data-unit="{escape(unit)}"></output>'
+            yield f'{low}<input type="range" id="driver">{high}'
+            unit = escape(self.place(words, None))
+            yield f'<output id="driven" for="driver" data-unit="{unit}"></output>'
             yield button("back", words("screen.back")) + "</div>"
+            told, moved = escape(words("screen.results")), escape(words.sentences["screen.moved"])
+            yield f'<div id="read" data-moved="{moved}"'
+            yield f' data-name="{escape(marked_up(self.datum))}">'
+            yield f'<p id="values" role="group" tabindex="0" aria-label="{told}"></p>'
             yield '<p id="place" role="status"'
             yield f' data-open="{escape(words("screen.open"))}"'
-            yield f' data-dead="{escape(words("screen.dead"))}"></p>'
-            told = escape(words("screen.results"))
-            yield f'<p id="values" role="group" tabindex="0" aria-label="{told}"></p>'
+            yield f' data-dead="{escape(words("screen.dead"))}"></p></div>'
         elif self.why:
             yield f'<p id="still">{marked_up(words(self.why))}</p>'
+
+    def place(self, words: Words, at: float | None) -> str:
+        """A place of the driver in words, or its unit alone."""
+        unit = words("unit.deg") if self.unit == "deg" else f" {self.unit}"
+        return unit if at is None else words.fixed(at, 1) + unit
+
+    def limits(self, words: Words) -> str:
+        """Why the driver goes no farther; nothing where it turns freely, or as far as is shown."""
+        if not self.stops:
+            return ""
+        places = " / ".join(self.place(words, at) for at in self.stops)
+        return f'<span id="limits">{escape(words("screen.limits", list=places))}</span>'
 
 
 def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
@@ -50,4 +73,13 @@ def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
     found = moving(mechanism, sheets)
     if found is None:
         return Slider(why=still(mechanism) or "")
-    return Slider(found.source, found.driven.name, found.driven.unit)
+    driven, reach = found.driven, found.reach
+    datum = angle_symbol(driven.scene, driven.driver) if driven.driver else driven.name
+    ends = (reach.low, reach.high)
+    return Slider(found.source, driven.name, datum, driven.unit, ends, stopped(driven, reach))
+
+
+def stopped(driven: Driven, reach: Reach) -> tuple[float, ...]:
+    """The ends of a range beyond which nothing closes, not those of what is looked at."""
+    pairs = zip((reach.low, reach.high), window(driven), strict=True)
+    return () if reach.whole else tuple(end for end, edge in pairs if abs(end - edge) > 1e-9)

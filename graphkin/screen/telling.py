@@ -10,10 +10,12 @@ from graphkin.paper.flattest import crossings_on
 from graphkin.paper.marks import Mark
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import sentences
-from graphkin.paper.stages import stage_of, stages
+from graphkin.paper.stages import behind, stage_of, stages
+from graphkin.paper.symbolic import symbol
+from graphkin.screen.labelled import as_labelled, labels_of
 from graphkin.screen.reasons import reasons
 from graphkin.screen.sheets import ScreenSheet
-from graphkin.steps.crossings import Crossing
+from graphkin.steps.crossings import Crossing, crossings
 from graphkin.steps.program import Part, Plane, Program, Step
 
 STOPS = (
@@ -24,7 +26,7 @@ STOPS = (
     Part.ACCELERATION,
     Part.POLE,
 )
-"""The parts of the work at whose ends one may stop."""
+"""The parts of the work to whose beginnings one may go."""
 GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
 DETAIL = "detail"
@@ -35,13 +37,16 @@ DETAIL = "detail"
 class Said:
     """A sentence of the run: its sheet, its markup, why, the crossings of its lines.
 
-    ``ends`` are the parts of the work that it completes on its sheet.
+    ``of`` are the steps to which the reasons belong, ``letters`` the names of the crossings as the
+    labels have them; ``ends`` are the parts of the work that it completes on its sheet.
     """
 
     sheet: int
     markup: str
     why: tuple[str, ...]
+    of: tuple[int, ...]
     crossings: tuple[Crossing, ...]
+    letters: tuple[str, ...]
     ends: tuple[Part, ...]
 
 
@@ -60,7 +65,10 @@ class Telling:
 
     ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;
     ``sources`` the steps with marks that it is drawn from; ``sides`` the two points of the
-    mechanism to whose bar it is square or parallel; ``letters`` its name.
+    mechanism to whose bar it is square or parallel; ``letters`` its name as markup. ``tints`` tells
+    apart what one sentence draws for several points; ``hangs`` gives the crossings without which a
+    step cannot be, and to which a line is drawn; ``aside`` those of centres and poles; ``squares``
+    the pin, pole and image of a line square to a velocity.
     """
 
     said: tuple[Said, ...]
@@ -69,16 +77,25 @@ class Telling:
     sources: Mapping[int, tuple[int, ...]]
     sides: Mapping[int, tuple[int, int]]
     letters: Mapping[int, str]
+    tints: Mapping[int, int]
+    hangs: Mapping[int, tuple[int, ...]]
+    aside: tuple[int, ...]
+    squares: Mapping[int, tuple[int, ...]]
 
     def bounds(self, sheet: int) -> tuple[int, int]:
         """The first and the last sentence of a sheet."""
-        own = [number for number, said in enumerate(self.said, 1) if said.sheet == sheet]
-        return own[0], own[-1]
+        return bounds_of(self.said, sheet)
 
-    def stops(self) -> Iterator[tuple[int, Part]]:
-        """The sentences that complete a part of the work, in their order."""
-        for number, said in enumerate(self.said, 1):
-            yield from ((number, part) for part in said.ends)
+    def stops(self) -> Iterator[tuple[int, int, Part]]:
+        """The first and last sentence of each part of the work, in the order of their ends.
+
+        A part begins where on its sheet the one before it ends.
+        """
+        ends = [(number, said) for number, said in enumerate(self.said, 1) if said.ends]
+        for last, said in ends:
+            before = [number for number, one in ends if one.sheet == said.sheet and number < last]
+            first = max(before, default=self.bounds(said.sheet)[0] - 1) + 1
+            yield from ((first, last, part) for part in said.ends)
 
 
 def telling(sheets: Sequence[ScreenSheet]) -> Telling:
@@ -86,6 +103,8 @@ def telling(sheets: Sequence[ScreenSheet]) -> Telling:
     said: list[Said] = []
     timed: list[tuple[Timed, ...]] = []
     at: dict[int, int] = {}
+    names: dict[str, str] = {}
+    tints: dict[int, int] = {}
     for place, sheet in enumerate(sheets):
         own = sentences(sheet.drawing)
         staged = stages(sheet.drawing, own)
@@ -93,7 +112,13 @@ def telling(sheets: Sequence[ScreenSheet]) -> Telling:
         for step, stage in staged.items():
             if not at.get(step):
                 at[step] = len(said) + stage + 1 if stage >= 0 else 0
-        said += spoken(place, sheet.drawing, own, staged)
+        labels = labels_of(sheet)
+        names |= labels
+        said += spoken(place, sheet.drawing, own, staged, labels)
+        first = bounds_of(said, place)[0]
+        for step, stage, tint in tinted(sheet.drawing, own, staged):
+            if at.get(step) == first + stage:
+                tints.setdefault(step, tint)
     shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
     ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
     program = sheets[0].drawing.trace.program
@@ -104,12 +129,66 @@ def telling(sheets: Sequence[ScreenSheet]) -> Telling:
         {step: at.get(step, 0) for step in shown},
         {step: sources(program, step, frozenset(shown), ran) for step in shown},
         pairs,
-        {step: name for step in shown if (name := letter(program.steps[step]))},
+        {
+            step: names.get(name, symbol(name))
+            for step in shown
+            if (name := letter(program.steps[step]))
+        },
+        {step: tint for step, tint in tints.items() if tint and step in shown},
+        hanging(sheets, shown),
+        tuple(found.number for found in lines_of(sheets) if found.part in (Part.CENTRE, Part.POLE)),
+        {step: args for step in shown if (args := square_to(program.steps[step]))},
     )
 
 
+def bounds_of(said: Sequence[Said], sheet: int) -> tuple[int, int]:
+    """The first and the last sentence of a sheet."""
+    own = [number for number, one in enumerate(said, 1) if one.sheet == sheet]
+    return own[0], own[-1]
+
+
+def tinted(
+    drawing: Drawing, own: Sequence[Sentence], staged: Mapping[int, int]
+) -> Iterator[tuple[int, int, int]]:
+    """The steps that one sentence draws for several points: step, stage, number of the point."""
+    program = drawing.trace.program
+    for stage, sentence in enumerate(own):
+        if len(sentence.all_steps) > 1:
+            for tint, number in enumerate(sentence.all_steps):
+                fresh = (step for step in behind(program, [number]) if staged.get(step) == stage)
+                yield from ((step, stage, tint) for step in fresh)
+
+
+def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:
+    """For the steps of plans the crossings without which they cannot be; not those of positions."""
+    program = sheets[0].drawing.trace.program
+    lines = {found.number for found in lines_of(sheets) if found.part is not Part.POSITION}
+    found = {step: lines & behind(program, [step]) for step in shown}
+    for line in lines:
+        for step in program.steps[line].args:
+            if step in found and not program.steps[step].name:
+                found[step] |= {line}
+    return {step: tuple(sorted(needed)) for step, needed in found.items() if needed}
+
+
+def lines_of(sheets: Sequence[ScreenSheet]) -> Iterator[Crossing]:
+    """Every crossing of some sheets."""
+    for sheet in sheets:
+        yield from crossings(sheet.drawing.trace)
+
+
+def square_to(step: Step) -> tuple[int, ...]:
+    """The pin, the pole and the image of its velocity to which a line is drawn square."""
+    key = step.action.key if step.action is not None else ""
+    return step.args if key == "velocity-normal" else ()
+
+
 def spoken(
-    place: int, drawing: Drawing, own: Sequence[Sentence], staged: Mapping[int, int]
+    place: int,
+    drawing: Drawing,
+    own: Sequence[Sentence],
+    staged: Mapping[int, int],
+    labels: Mapping[str, str],
 ) -> Iterator[Said]:
     """The sentences of one sheet."""
     steps = drawing.trace.program.steps
@@ -117,11 +196,17 @@ def spoken(
     last = {part: stage for stage, found in enumerate(parts) for part in found}
     lines = crossings_on(drawing)
     for stage, sentence in enumerate(own):
+        fresh = [step for step, at in staged.items() if at == stage]
+        why = reasons(drawing, fresh, labels)
+        found = [crossing for crossing in lines if staged.get(crossing.number) == stage]
+        drawn = [steps[step].name for step in fresh if steps[step].part is Part.NORMAL]
         yield Said(
             place,
-            sentence.markup,
-            tuple(reasons(drawing, (step for step, at in staged.items() if at == stage))),
-            tuple(crossing for crossing in lines if staged.get(crossing.number) == stage),
+            as_labelled(sentence.markup, drawn, labels),
+            tuple(text for text, _ in why),
+            tuple(step for _, step in why),
+            tuple(found),
+            tuple(labels.get(crossing.name, symbol(crossing.name)) for crossing in found),
             tuple(part for part in STOPS if last.get(part) == stage),
         )
 
@@ -160,14 +245,14 @@ def sources(
     while waiting:
         step = program.steps[waiting.pop()]
         by_hand = () if step.by_hand is None else (step.by_hand,)
-        for behind in (*step.args, *by_hand):
-            if behind in seen or behind not in ran:
+        for source in (*step.args, *by_hand):
+            if source in seen or source not in ran:
                 continue
-            seen.add(behind)
-            if behind in shown:
-                found.add(behind)
+            seen.add(source)
+            if source in shown:
+                found.add(source)
             else:
-                waiting.append(behind)
+                waiting.append(source)
     return tuple(sorted(found))
 
 

@@ -8,17 +8,9 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.mechanism import Mechanism
-from graphkin.screen.closings import (
-    Closing,
-    Course,
-    around,
-    closing,
-    drawn_value,
-    name_of,
-    solver,
-    tried,
-)
+from graphkin.screen.closings import Closing, closing, drawn_state, names_of, solver, tried
 from graphkin.screen.driven import INPUT, Driven, Reach, reach_of, window
+from graphkin.screen.passage import Course, around
 from graphkin.screen.shelf import Shelf
 from graphkin.steps.batch import made_ready, run_moving
 from graphkin.steps.graph import Graph
@@ -57,7 +49,7 @@ class Tracing:
     @property
     def inputs(self) -> dict[str, int]:
         """The places of the inputs: the driver, then what closes groups."""
-        names = [INPUT, *(each.name for each in self.closings)]
+        names = [INPUT, *(name for each in self.closings for name in each.names)]
         return {name: place for place, name in enumerate(names)}
 
     def traced(self, drawn: Trace) -> Trace:
@@ -85,20 +77,21 @@ class Tracing:
         """The steps that close groups, with a traced trial in their place."""
         found = {}
         for number, closer in closing_steps(drawn):
-            name, value = name_of(number), drawn.values[number]
-            self.shelf.inputs[name] = drawn_value(closer, value)
-            found[number] = tried(name, self.graph, closer, value)
+            names = names_of(number, drawn.values[number])
+            state = drawn_state(closer, drawn.values[number])
+            self.shelf.inputs.update(zip(names, state, strict=True))
+            found[number] = tried(names, self.graph, closer)
         return found
 
     def add_closings(self, drawn: Trace, trace: Trace) -> None:
         """What closes the groups that no sheet before has, traced on what is known of them."""
         steps = trace.program.steps
         for number, closer in closing_steps(drawn):
-            name = name_of(number)
-            if any(each.name == name for each in self.closings):
+            names = names_of(number, drawn.values[number])
+            if any(each.names == names for each in self.closings):
                 continue
             known = [trace.values[arg] for arg in steps[number].args]
-            each = closing(name, self.shelf, closer, known, drawn.values[number])
+            each = closing(names, self.shelf, closer, known, drawn.values[number])
             self.closings.append(each)
             parts = (later for later in trace.values if number in steps[later].args)
             self.margins.update({n: each.sine for n in parts if steps[n].extra == (0,)})
@@ -140,7 +133,7 @@ class Tracing:
             return None if reach is None else (reach, Course())
         solve = solver(self.graph, INPUT, self.closings, size)
         turning, start = self.driven.what == "turn", self.driven.start
-        return around(solve, self.closings, start, window(self.driven), turning=turning)
+        return around(solve, start, window(self.driven), turning=turning)
 
 
 def closing_steps(trace: Trace) -> Iterator[tuple[int, Any]]:

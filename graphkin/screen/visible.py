@@ -85,8 +85,8 @@ class Seen:
         return abs(self.bench.shelf.lifted(one - other)) * self.bench.field.mm
 
     def within(self, point: Any, margin: float = 2.0) -> Any:
-        """How far a point lies within the field less a margin, in mm."""
-        left, top, right, bottom = self.bench.field.rect
+        """How far a point lies within what the field can grow to, less a margin, in mm."""
+        left, top, right, bottom = self.bench.room
         place = self.bench.page(point)
         x, y = place.real, place.imag
         across = smaller(x - left, right - x)

@@ -13,6 +13,7 @@ from graphkin.paper.glyphs import FOLDER as FONTS
 from graphkin.studio.desk import Desk
 from graphkin.studio.orders import MOST_BYTES, Order, OrderError
 from graphkin.studio.page import page
+from graphkin.text import LANGUAGES
 
 HERE = Path(__file__).parent / "web"
 KINDS = {
@@ -63,12 +64,15 @@ def start_page(desk: Desk) -> Any:
     """The page with the text that its address names."""
     from bottle import request
 
-    scene, lab = (str(request.query.getunicode(key, "")) for key in ("scene", "lab"))
+    scene, lab, language = (
+        str(request.query.getunicode(key, "")) for key in ("scene", "lab", "lang")
+    )
     try:
         opened = desk.open(scene, lab)
     except GraphkinError as error:
         return answer(404, "text/plain", f"{error}\n".encode())
-    return answer(200, "text/html", page(opened, desk).encode())
+    words = desk.words(opened.text, language if language in LANGUAGES else "")
+    return answer(200, "text/html", page(opened, words).encode())
 
 
 def static(name: str) -> Any:

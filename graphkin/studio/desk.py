@@ -14,7 +14,7 @@ from graphkin.errors import GraphkinError, SceneError
 from graphkin.lab.new import START
 from graphkin.scene.limits import tables_of
 from graphkin.studio.folder import ENDING, Folder, shipped, shipped_text, stem_of
-from graphkin.studio.look import Sight, look, spoken_in, told
+from graphkin.studio.look import Sight, look, mistakes, spoken_in, told
 from graphkin.studio.orders import Order
 from graphkin.studio.panels import Memory, StaleError
 from graphkin.studio.places import marked
@@ -59,9 +59,9 @@ class Desk:
         self.newest: OrderedDict[str, int] = OrderedDict()
         self.memories: dict[str, Memory] = {}
 
-    def words(self, text: str) -> Words:
-        """The words of the page: those that were asked for, else the scene's own."""
-        return spoken_in(self.language or language_of(text))
+    def words(self, text: str, chosen: str = "") -> Words:
+        """The words of the page: those chosen on it or at the start, else the scene's own."""
+        return spoken_in(chosen or self.language or language_of(text))
 
     def address_of(self, name: str) -> dict[str, str]:
         """How the page is told what to open: a shipped lab, or a scene of the folder, by its path.
@@ -128,14 +128,22 @@ class Desk:
         return self.memories.setdefault(tab, Memory())
 
     def write(self, order: Order) -> dict[str, Any]:
-        """The changes of a text that put the values of the sliders into it."""
-        return {"edits": [asdict(edit) for edit in edits(order.scene(), order.settings())]}
+        """The changes of a text that put the values of the sliders into it, or why they cannot."""
+        text, settings = order.scene(), order.settings()
+        try:
+            return {"edits": [asdict(edit) for edit in edits(text, settings)], "problems": []}
+        except GraphkinError as error:
+            return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
 
     def save(self, order: Order) -> dict[str, Any]:
-        """Save the text of a scene."""
+        """Save the text of a scene, whatever is wrong with it: what is so is told beside."""
         name, mark, replace = order.text("name"), order.text("mark"), order.flag("replace")
         text = order.scene()
-        return self.saving(lambda: save_scene(self.folder, name, text, mark, replace=replace), text)
+        done = self.saving(lambda: save_scene(self.folder, name, text, mark, replace=replace), text)
+        if not done["files"]:
+            return done
+        with self.alone:
+            return done | {"mistakes": [told(each) for each in mistakes(text, stem_of(name))]}
 
     def sheets(self, order: Order) -> dict[str, Any]:
         """Draw and save the sheets of a text."""

@@ -21,6 +21,8 @@ LONGEST, DEEPEST = 200, 6
 """Signs of a name, and its parts."""
 FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
 """Signs that some file system takes for something else."""
+WORD = re.compile(r"\w[\w-]{0,60}")
+"""A name that is good everywhere."""
 OTHERS = frozenset((labs.LAB, "pyproject.toml"))
 """Files that are no scenes."""
 
@@ -39,7 +41,7 @@ class Folder:
         problem = doubt(name)
         target = None if problem else (self.root / name)
         if target is None or not target.resolve().is_relative_to(self.root):
-            expected = "a name within the folder in which the studio was started"
+            expected = f"a name within this folder, ending in {ENDING}, such as {meant(name)}"
             raise SceneError(Problem("file", problem or "leads out of the folder", expected))
         return target
 
@@ -70,6 +72,12 @@ class Folder:
             hint = f"start the studio in {found.parent}"
             raise SceneError(Problem(str(path), "lies outside this folder", str(self.root), hint))
         return found.relative_to(self.root).as_posix()
+
+
+def meant(name: str) -> str:
+    """A name that would do, as near to a given one as it can be."""
+    stem = name.replace("\\", "/").rpartition("/")[2].removesuffix(ENDING)
+    return f"{stem if WORD.fullmatch(stem) else 'pump'}{ENDING}"
 
 
 def doubt(name: str) -> str:

@@ -57,6 +57,17 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
     return found
 
 
+def mistakes(text: str, name: str) -> list[Mark]:
+    """What is wrong with a text as it stands, so that no sheet could be drawn of it."""
+    try:
+        mechanism = Mechanism(read_text(text, name))
+        solution = shown(mechanism)
+        problems = doubts(solution.margin, mechanism.witness(solution))
+    except GraphkinError as error:
+        problems = list(error.problems)
+    return marked(problems, text)
+
+
 def read(sight: Sight) -> Scene:
     """The scene of a text; values of sliders that it has no longer are dropped."""
     try:
@@ -125,6 +136,7 @@ def told(mark: Mark) -> dict[str, Any]:
         "expected": problem.expected,
         "hint": problem.hint,
         "line": mark.line,
+        "column": mark.column,
         "start": mark.start,
         "end": mark.end,
         "setting": setting,

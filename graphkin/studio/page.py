@@ -9,18 +9,22 @@ from html import escape
 from pathlib import Path
 
 from graphkin import __version__
-from graphkin.studio.desk import Desk, Opened
-from graphkin.text import Words
+from graphkin.studio.desk import Opened
+from graphkin.studio.look import spoken_in
+from graphkin.text import LANGUAGES, Words
 
 FRAME = Path(__file__).parent / "web" / "page.html"
 GAP = re.compile(r"\{\{([\w.]+)\}\}")
 SPOKEN = (
+    "studio.language",
+    "studio.sheet_language",
     "studio.text",
     "studio.problems",
     "studio.none_wrong",
     "studio.one_wrong",
     "studio.some_wrong",
     "studio.line",
+    "studio.column",
     "studio.file_name",
     "studio.new",
     "studio.open",
@@ -35,6 +39,14 @@ SPOKEN = (
     "studio.exist",
     "studio.leave",
     "studio.go_on",
+    "studio.moved",
+    "studio.write_save",
+    "studio.save_text",
+    "studio.with_values",
+    "studio.as_text",
+    "studio.not_drawable",
+    "studio.mend_first",
+    "studio.drawn_for",
     "studio.saved",
     "studio.unsaved",
     "studio.drawing_sheets",
@@ -66,13 +78,14 @@ SPOKEN = (
 """The sentences of the page, those that stand in it and those that it says later."""
 
 
-def page(opened: Opened, desk: Desk) -> str:
-    """The whole page, to begin with a text."""
-    words = desk.words(opened.text)
-    said = {key: words(key, **gaps(words, key)) for key in SPOKEN}
+def page(opened: Opened, words: Words) -> str:
+    """The whole page, to begin with a text; the words of all languages go with it."""
+    spoken = {language: spoken_in(language) for language in LANGUAGES}
+    said = {language: said_in(each) for language, each in spoken.items()}
     start = {"language": words.language, "words": said}
     filled = {
-        **said,
+        **said[words.language],
+        **{f"name.{language}": each("language") for language, each in spoken.items()},
         "language": words.language,
         "version": __version__,
         "name": opened.name,
@@ -80,6 +93,11 @@ def page(opened: Opened, desk: Desk) -> str:
         "start": json.dumps(start, ensure_ascii=False),
     }
     return GAP.sub(lambda gap: escape(filled[gap[1]]), frame())
+
+
+def said_in(words: Words) -> dict[str, str]:
+    """The sentences of the page in one language."""
+    return {key: words(key, **gaps(words, key)) for key in SPOKEN}
 
 
 def gaps(words: Words, key: str) -> dict[str, str]:

@@ -15,6 +15,14 @@ PART = re.compile(r'"(?:\\.|[^"\\])*"|\[(\d+)\]|[^.\[\]"]+')
 LINE = re.compile(r"line (\d+)")
 SETTING = re.compile(r"(?:setting|parameter) (\S+)")
 ABOUT = re.compile(r"[A-Za-z ]+ of (?:links? )?(.+)")
+LONE = re.compile(r"only one link has the points (\w+) \((the frame|[^)]+)\)")
+"""A pin that is missing, as the hint of too few drivers names it: a point and its link."""
+SHORTER = re.compile(r"(\S+-\S+) shorter than")
+"""The side of a triangle that is too long, as it is expected."""
+POSITION = "position"
+"""The place of what is wrong with the position as a whole."""
+SOLID = ("frame", "links")
+"""The tables whose keys hold points."""
 VERSION = ("graphkin",)
 DRIVERS = ("drivers",)
 
@@ -23,13 +31,15 @@ DRIVERS = ("drivers",)
 class Mark:
     """A problem with where it stands: its line from 1, 0 where it has none, and what to select.
 
-    ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two.
+    ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two. ``column``,
+    from 1, is where the text fails to be TOML.
     """
 
     problem: Problem
     line: int = 0
     start: int = 0
     end: int = 0
+    column: int = 0
 
 
 def marked(problems: Iterable[Problem], text: str) -> list[Mark]:
@@ -47,7 +57,11 @@ def mark_of(problem: Problem, text: str, span: Span | None) -> Mark:
     start, end = span
     stop = text.find("\n", start)
     end = min(end, len(text) if stop < 0 else stop)
-    return Mark(problem, text.count("\n", 0, start) + 1, units(text[:start]), units(text[:end]))
+    line = text.count("\n", 0, start) + 1
+    told = LINE.fullmatch(problem.place)
+    column = failing(text, line) if told else None
+    column = 0 if column is None else column + 1
+    return Mark(problem, line, units(text[:start]), units(text[:end]), column)
 
 
 def units(text: str) -> int:
@@ -62,31 +76,61 @@ def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | N
         return span_of_line(text, int(line[1]))
     if not problem.place:
         return found.get(VERSION, Span(0, 0))
-    for path in paths(problem.place, found):
+    for path in paths(problem, found):
         for length in range(len(path), 0, -1):
             span = found.get(path[:length]) or found.get((*path[: length - 1], f"{path[-1]}s"))
+            span = span or pinned(path[:length], found)
             if span is not None:
                 return span
     return None
 
 
-def paths(place: str, found: Mapping[Path, Span]) -> Iterator[Path]:
-    """The paths that a place may mean, the likeliest first.
+def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
+    """The paths that a problem may mean, the likeliest first.
 
-    What cannot be found by drawing is settled by a branch, else by where the drivers stand.
+    A pin that is missing is a point that one link alone has; of lengths that make no triangle the
+    longest is meant; what cannot be found by drawing is settled by a branch, else by a length
+    there, else by where the drivers stand.
     """
+    place = problem.place
     setting, about = SETTING.fullmatch(place), ABOUT.fullmatch(place)
+    lone, longest = LONE.search(problem.hint), SHORTER.match(problem.expected)
+    if lone:
+        yield (("frame",) if lone[2] == "the frame" else ("links", lone[2])) + (lone[1],)
     if setting:
         yield "parameters", setting[1]
     elif about:
         names = re.split(r"[,\s-]+", about[1])
-        tried = ((table, name) for name in names for table in ("branches", "links"))
+        tried = [(table, name) for name in names for table in ("branches", "links")]
         yield from (path for path in tried if path in found)
+        yield from (path for name in names for path in holding(name, found))
         yield DRIVERS
-    elif place == "position":
+    elif place == POSITION or place.endswith(f": {POSITION}"):
         yield DRIVERS
     else:
-        yield tuple(parts(place.partition(", ")[0]))
+        path = tuple(parts(place.partition(", ")[0]))
+        if longest and (*path[:-1], longest[1]) in found:
+            yield (*path[:-1], longest[1])
+        yield path
+        if path[0] == "branches":
+            yield from holding(str(path[-1]), found)
+
+
+def pinned(path: Path, found: Mapping[Path, Span]) -> Span | None:
+    """The first key of a link, or of the frame, that holds a point: ``B`` stands in ``A-B``."""
+    if len(path) < 2 or path[0] not in SOLID:
+        return None
+    table = path[:-1]
+    keys = (key for key in found if key[:-1] == table and path[-1] in str(key[-1]).split("-"))
+    return next((found[key] for key in keys), None)
+
+
+def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
+    """The keys of links that hold a point and another: the lengths that place it."""
+    for path in found:
+        names = str(path[-1]).split("-")
+        if path[0] == "links" and len(path) == 3 and len(names) > 1 and point in names:
+            yield path
 
 
 def parts(place: str) -> Iterator[str | int]:
@@ -103,7 +147,8 @@ def span_of_line(text: str, number: int) -> Span:
     line = lines[number - 1]
     first, last = len(line) - len(line.lstrip()), len(line.rstrip())
     column = failing(text, number)
-    if column is not None and first < column < last and line[column] != "#":
+    heading = line.lstrip().startswith("[")
+    if column is not None and first < column < last and line[column] != "#" and not heading:
         first = column
     return Span(start + first, start + last)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
 
@@ -12,8 +13,11 @@ from graphkin import labs
 from graphkin.handout import hand_out
 from graphkin.mechanism import Mechanism
 from graphkin.paper.files import file_stem, rendered, write_all
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import Scene
 from graphkin.scene.read import read_text
 from graphkin.studio.folder import SCENE, Folder, shipped_text, stem_of
+from graphkin.studio.sliders import written
 
 VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
@@ -70,14 +74,15 @@ class Wanted:
 
 
 def sheets_of(folder: Folder, wanted: Wanted) -> dict[str, bytes]:
-    """The files of a scene's sheets by name, as ``graphkin sheet`` writes them.
+    """The files of a scene's sheets by name, as ``graphkin sheet`` writes and names them where the
+    value of every parameter is set.
 
     Raises as the reading of a scene and hand_out do.
     """
     name, settings, view, formats = wanted.name, wanted.settings, wanted.view, wanted.formats
     text, language = wanted.text, wanted.language
     mechanism = Mechanism(read_text(text, stem_of(name), None, settings))
-    stem = file_stem(mechanism.scene.name, settings)
+    stem = file_stem(mechanism.scene.name, values_of(mechanism.scene))
     files: dict[str, bytes] = {}
     if PAGE in formats:
         from graphkin.screen.handed import hand_out_page
@@ -89,6 +94,13 @@ def sheets_of(folder: Folder, wanted: Wanted) -> dict[str, bytes]:
         for part in hand_out(mechanism, view=view, language=language):
             files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, formats)
     return files
+
+
+def values_of(scene: Scene) -> dict[str, str]:
+    """The value of each parameter, as it is set from outside."""
+    return {
+        name: written(Fraction(str(value))) for name, value in scene.values.items() if name != TIME
+    }
 
 
 def lab_of(folder: Folder, name: str, text: str) -> str:

@@ -271,6 +271,54 @@ def test_without_an_id_nothing_is_saved_and_the_field_is_shown(opened: Opened, b
     page.get_by_role("button", name="Save the").click()
     assert page.evaluate("document.activeElement.id") == "answers-id"
     assert page.inner_text("#answers-id-wrong") == words("en")("answers.no_id")
+    status = page.get_by_role("status")
+    assert status.inner_text() == words("en")("answers.no_id")
+    page.keyboard.type("0042")
+    assert status.inner_text() == ""
+    assert page.inner_text("#answers-id-wrong") == ""
+
+
+def test_what_is_still_empty_is_named_and_not_counted_when_opened(
+    opened: Opened,
+    bare: Path,
+    tmp_path: Path,
+):
+    page = opened(bare)
+    page.fill("#answers-id", "0042")
+    for name in UNITS:
+        page.fill(FIELD.format(name), "" if name == "a_D" else "1")
+    with page.expect_download() as coming:
+        page.get_by_role("button", name="Save the").click()
+    path = tmp_path / coming.value.suggested_filename
+    coming.value.save_as(path)
+    status, count = page.get_by_role("status"), len(UNITS)
+    saved = words("en")("answers.saved", file=path.name, count=count - 1, all=count)
+    empty = words("en")("answers.empty", list="a_D")
+    assert status.inner_text() == f"{saved} {empty}"
+    page.set_input_files("input.file", path)
+    said = words("en")("answers.opened", file=path.name, count=count - 1)
+    status.filter(has_text=said).wait_for()
+    page.fill(FIELD.format("a_D"), "2")
+    with page.expect_download():
+        page.get_by_role("button", name="Save the").click()
+    full = words("en")("answers.saved", file=path.name, count=count, all=count)
+    assert status.inner_text() == full
+
+
+def test_a_copy_elsewhere_knows_nothing_of_what_is_written(
+    opened: Opened,
+    bare: Path,
+    tmp_path: Path,
+):
+    page = opened(bare)
+    page.fill(FIELD.format("v_D"), "3")
+    copy = tmp_path / bare.name
+    copy.write_bytes(bare.read_bytes())
+    page.goto(copy.as_uri())
+    assert page.input_value(FIELD.format("v_D")) == ""
+    page.fill(FIELD.format("v_D"), "4")
+    page.goto(bare.as_uri())
+    assert page.input_value(FIELD.format("v_D")) == "3"
 
 
 HOSTILE = '"><script>document.title="taken"</script><b onclick="x">&{id}'

@@ -134,16 +134,15 @@ def test_the_flattest_crossing_of_a_step_is_told(opened: Opened, pages: Path):
 
 def test_a_click_on_a_mark_goes_to_the_step_that_draws_it(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", **DESKTOP)
-    page.keyboard.press("2")
-    assert step_of(page) == 8
-    page.locator("#sheet-0 text[data-name='b']").click()
+    page.locator("#steps a[data-number='8']").click()
+    page.locator("#sheet-0 text.label[data-name='b']").click()
     assert step_of(page) == 6
 
 
 def test_pointing_at_a_mark_shows_what_it_alone_is_drawn_from(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", **DESKTOP)
-    page.keyboard.press("2")
-    page.locator("#sheet-0 text[data-name='a']").hover()
+    page.locator("#steps a[data-number='8']").click()
+    page.locator("#sheet-0 text.label[data-name='a']").hover()
     assert "o (5)" in page.locator("#from").inner_text()
     assert "b (6)" not in page.locator("#from").inner_text()
     page.locator("h1").hover()
@@ -160,7 +159,7 @@ def test_keys_go_through_the_steps(opened: Opened, pages: Path):
     for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "Home", "2", "6"):
         page.keyboard.press(key)
         found.append(step_of(page))
-    assert found == [2, 3, 2, last, last, 1, 8, 19]
+    assert found == [2, 3, 2, last, last, 1, 5, 18]
 
 
 def test_every_control_is_reached_by_tab_and_has_a_name(opened: Opened, pages: Path):
@@ -211,6 +210,9 @@ def test_space_plays_to_the_end_and_stops_there(opened: Opened, pages: Path):
 def test_an_address_leads_to_its_step_and_place(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", **DESKTOP)
     address = (pages / "pump.html").as_uri()
+    for turned in ("330", "-30", "690"):
+        page.goto(f"{address}#step=7&x={turned}")
+        assert page.locator("#driven").inner_text() == "−30.0°"
     page.goto(f"{address}#step=7&x=80")
     assert step_of(page) == 7
     assert page.locator("#driven").inner_text() == "80.0°"
@@ -299,6 +301,117 @@ def test_where_lines_do_not_cross_nothing_is_read_off(opened: Opened, pages: Pat
     page.locator("#back").click()
     assert page.locator("#place").inner_text() == ""
     assert page.locator("#values").is_visible()
+
+
+def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.goto(f"{(pages / 'pump.html').as_uri()}#step=10&x=9999")
+    seen = """name => [...document.querySelectorAll(`.sheet:not([hidden]) [data-name='${name}']`)]
+      .filter(mark => mark.checkVisibility({ visibilityProperty: true })).length"""
+    assert page.evaluate(seen, "v_D") == 0
+    assert page.evaluate(seen, "d") == 0
+    assert page.evaluate(seen, "v_A") > 0
+    assert page.evaluate(seen, "D") > 0
+    page.locator("#back").click()
+    assert page.evaluate(seen, "v_D") > 0
+
+
+NOTES = ".moved-note:not([hidden])"
+
+
+@pytest.mark.parametrize("media", ["screen", "print"])
+def test_away_from_the_drawn_position_the_page_says_so(opened: Opened, pages: Path, media):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.emulate_media(media=media)
+    assert page.locator(NOTES).count() == 0
+    assert "φ = 44°" in page.locator("#given").inner_text().replace("\u00a0", " ")
+    page.evaluate("location.hash = '#step=6&x=120'")
+    page.wait_for_selector(NOTES, state="attached")
+    told = words("en")("screen.moved", place="φ = 120.0°", start=page.evaluate(START))
+    assert [note.text_content() for note in page.locator(NOTES).all()] == [told] * 3
+    assert page.locator("#datum").inner_text() == "φ = 120.0°"
+    assert not page.locator("footer p").is_visible()
+    page.evaluate("location.hash = '#step=6'")
+    page.wait_for_selector(NOTES, state="detached")
+    assert "φ = 44°" in page.locator("#given").inner_text().replace("\u00a0", " ")
+    assert page.locator("footer p").is_visible()
+
+
+START = "`φ = ${graphkinMotion.start.toFixed(1)}°`"
+
+
+@pytest.mark.parametrize("name", FEW)
+@pytest.mark.parametrize("shape", ["desktop", "phone"])
+def test_buttons_and_drawing_stay_where_they_are(opened: Opened, pages: Path, name, shape):
+    page = opened(pages / f"{name}.html", **SHAPES[shape])
+    places = """() => ['.sheet:not([hidden]) .view', '#next', '#stops', '#driver']
+      .map(part => document.querySelector(part).getBoundingClientRect())
+      .map(box => [box.top, box.bottom].map(Math.round).join(' ')).join(', ')"""
+    found = set()
+    for _ in range(page.evaluate(STEPS)):
+        found.add(page.evaluate(places))
+        page.keyboard.press("ArrowRight")
+    for x in (0, 60, 100, 150, 186.94, 250):
+        page.evaluate("x => { location.hash = `#step=6&x=${x}`; }", x)
+        page.wait_for_function("document.getElementById('step').value === '6'")
+        page.wait_for_timeout(150)
+        found.add(page.evaluate(places))
+    assert len(found) == 1
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_zoom_comes_only_when_it_is_asked_for(opened: Opened, pages: Path, name):
+    page = opened(pages / f"{name}.html", **DESKTOP)
+    pressed = "document.getElementById('follow').getAttribute('aria-pressed')"
+    for address in ("step=18&x=216", "step=1", "step=6&x=0"):
+        page.evaluate("address => { location.hash = address; }", address)
+        page.wait_for_timeout(200)
+        assert page.evaluate(pressed) == "false"
+    page.keyboard.press("z")
+    assert page.evaluate(pressed) == "true"
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate(pressed) == "true"
+    page.keyboard.press("z")
+    assert page.evaluate(pressed) == "false"
+
+
+def test_a_part_is_marked_from_its_first_step_to_its_last(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    found = []
+    for _ in range(page.evaluate(STEPS)):
+        marked = page.locator("#stops [aria-current]").all()
+        found.append("".join(one.locator("kbd").inner_text() for one in marked))
+        page.keyboard.press("ArrowRight")
+    assert found == [*"11112222", "3", "", *"444455566", ""]
+
+
+def test_the_slider_says_how_far_it_goes_and_why(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    low, high = page.locator("#move .end").all_inner_texts()
+    assert low == f"−{abs(page.evaluate('graphkinMotion.low')):.1f}°"
+    assert high == f"{page.evaluate('graphkinMotion.high'):.1f}°"
+    told = words("en")("screen.limits", list=f"{low} / {high}")
+    assert page.locator("#limits").inner_text() == told
+    page = opened(pages / "slotted-lever.html", **DESKTOP)
+    assert page.locator("#limits").count() == 0
+
+
+def test_at_a_centre_velocities_stand_square_to_its_lines(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.evaluate("location.hash = '#step=9&x=100'")
+    page.wait_for_selector(".halo .aid", state="attached")
+    arrows = page.locator("#sheet-0 .halo polyline.aid").evaluate_all(
+        "lines => lines.map(line => [...line.points].map(({ x, y }) => [x, y]))"
+    )
+    arrows = [points for points in arrows if len(points) == 2]
+    circles = CIRCLES.replace(":is(.pin,.point,.pole)", "")
+    places = {row[0]: row[1:] for row in page.locator("#sheet-0").evaluate(circles)}
+    letters = page.evaluate("JSON.parse(document.getElementById('run').textContent).letters")
+    of = {re.sub("<.*?>", "", name): int(step) for step, name in letters.items()}
+    (ix, iy) = places[of["I3"]]
+    for name, ((x, y), (u, v)) in zip("AB", arrows, strict=True):
+        assert [x, y] == pytest.approx(places[of[name]], abs=1e-3)
+        assert (u - x) * (ix - x) + (v - y) * (iy - y) == pytest.approx(0, abs=0.05)
 
 
 # --- every reader --------------------------------------------------------------------------------

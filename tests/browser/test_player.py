@@ -11,6 +11,7 @@ import pytest
 
 from graphkin.mechanism import load
 from graphkin.motion import cycle
+from graphkin.paper.marks import Text, reach
 from graphkin.screen.frames import Stage, stage
 from graphkin.screen.moments import Motion, motion
 from graphkin.screen.player import player_page
@@ -106,6 +107,8 @@ def test_points_stay_in_their_fields_all_the_way(page_of, name):
         outside = page.evaluate(
             """() => [...document.querySelectorAll('svg circle[id]')].filter(mark => {
               if (mark.getAttribute('visibility')) return false;
+              const told = mark.closest('figure').querySelector('.beyond');
+              if (told && !told.hidden) return false;  // it says so
               const box = mark.ownerSVGElement.viewBox.baseVal;
               const x = Number(mark.getAttribute('cx')) - box.x;
               const y = Number(mark.getAttribute('cy')) - box.y;
@@ -113,6 +116,70 @@ def test_points_stay_in_their_fields_all_the_way(page_of, name):
             }).map(mark => mark.outerHTML)"""
         )
         assert not outside
+
+
+LETTERS = """() => {
+  const run = JSON.parse(document.getElementById('run').textContent);
+  return run.letters.flat().map(([id, point, x, y]) => {
+    const text = document.getElementById(id);
+    const [u, v] = text.getAttribute('transform').match(/-?[\\d.]+/g).map(Number);
+    return [text.dataset.name, text.closest('figure').id,
+      text.getAttribute('visibility') === 'hidden', x + u, y + v];
+  });
+}"""
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "gears-ring"])
+def test_letters_and_panes_stand_where_python_puts_them(page_of, name):
+    """The window of each plan, and the middle of each letter, against the same place in a GIF."""
+    found, set_up = shown(name)
+    page = page_of(name, **STILL)
+    for moment in found.moments[1:-1:5]:
+        put(page, moment.at)
+        marks = set_up.mechanism_marks(moment.alone)
+        texts = {("field-0", mark.name): mark for mark in marks if isinstance(mark, Text)}
+        for number, (kind, field) in enumerate(set_up.plans.items(), 1):
+            drawing = moment.drawings[kind]
+            at = set_up.seated(drawing).at
+            box = page.get_attribute(f"#field-{number} svg", "viewBox")
+            window = [float(part) for part in box.split()]
+            assert window[0] == pytest.approx(field.rect[0] - (at[0] - field.at[0]), abs=0.05)
+            assert window[1] == pytest.approx(field.rect[1] - (at[1] - field.at[1]), abs=0.05)
+            marks = set_up.plan_marks(drawing, field)
+            texts |= {(f"field-{number}", m.name): m for m in marks if isinstance(m, Text)}
+        seen = 0
+        for letter, figure, hidden, x, y in page.evaluate(LETTERS):
+            mark = texts.get((figure, letter))
+            if hidden or mark is None:
+                continue
+            box = reach(mark)
+            assert (box[0] + box[2]) / 2 == pytest.approx(x, abs=0.05), (moment.at, letter)
+            assert (box[1] + box[3]) / 2 == pytest.approx(y, abs=0.05), (moment.at, letter)
+            seen += 1
+        assert seen >= 0.8 * len(texts)
+
+
+@pytest.mark.parametrize("name", ["pump", "rapid-return"])
+def test_moving_it_leaves_nothing_behind(page_of, name):
+    """As many elements after two hundred moves there and back as after the first of them."""
+    page = page_of(name, **STILL)
+    low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
+    counts = []
+    for way in (np.linspace(0, 1, 100), np.linspace(1, 0, 100), np.linspace(0, 1, 100)):
+        for part in way:
+            put(page, low + part * (high - low))
+        counts.append(page.evaluate("document.querySelectorAll('*').length"))
+    assert counts[0] == counts[1] == counts[2]
+    ids = page.evaluate("[...document.querySelectorAll('[id]')].map(mark => mark.id)")
+    assert len(ids) == len(set(ids))
+
+
+def test_keys_are_told_above_the_fold(page_of):
+    for name in ("pump", "slotted-lever"):
+        page = page_of(name, viewport={"width": 1440, "height": 900}, **STILL)
+        box = page.locator("#help").bounding_box()
+        assert box["y"] + box["height"] <= 900
+        assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
 
 
 def moved(page: Any) -> float:
@@ -168,8 +235,7 @@ def test_what_is_asked_is_told_at_each_place(page_of):
     rows = found.cycle.along([at])
     told = page.evaluate(
         "() => Object.fromEntries([...document.querySelectorAll('[data-row]:not([hidden])')]"
-        ".map(row => [row.dataset.row, Number(row.querySelector('span').textContent"
-        ".replace('−', '-'))]))"
+        ".map(row => [row.dataset.row, Number(row.querySelector('.size').textContent)]))"
     )
     expected = {
         "v_D": abs(rows.solution.points["D"].velocity[0]),
@@ -179,7 +245,12 @@ def test_what_is_asked_is_told_at_each_place(page_of):
     }
     assert told.keys() == expected.keys()
     for name, value in expected.items():
-        assert told[name] == pytest.approx(value, rel=1e-3)
+        assert told[name] == pytest.approx(abs(value), rel=1e-3)
+        sense = page.inner_text(f"[data-row='{name}'] .sense")
+        if name[0] in "ωε":
+            assert sense == ", " + words("en")(f"page.{'anti' if value > 0 else ''}clockwise")
+        else:
+            assert sense == ""
 
 
 @pytest.mark.parametrize("look", ["light", "dark"])

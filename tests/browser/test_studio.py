@@ -145,18 +145,29 @@ def test_the_mark_lies_under_the_words_that_are_wrong(studio):
     """The transparent text beneath has the measures of the one that is written."""
     page = studio()
     write(page, "C-D = 20", "C-D = true")
+    wrong = page.locator("#gutter .wrong")
+    assert page.locator("#under mark").inner_text() == "C-D = true"
     for scroll in (0, 150):
         page.evaluate(f"document.getElementById('text').scrollTop = {scroll}")
         page.wait_for_timeout(50)
-        top = page.evaluate(
-            "document.querySelector('#under mark').getBoundingClientRect().top"
-            " - document.getElementById('text').getBoundingClientRect().top"
-        )
-        height = page.evaluate("parseFloat(getComputedStyle(text).lineHeight)")
-        assert top + scroll == pytest.approx(8 + 29 * height, abs=3)
-        number = page.locator("#gutter .wrong").bounding_box()
-        mark = page.locator("#under mark").bounding_box()
+        number, mark = wrong.bounding_box(), page.locator("#under mark").bounding_box()
         assert number["y"] == pytest.approx(mark["y"], abs=3)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_long_lines_are_wrapped_and_what_lies_beneath_is_wrapped_alike(studio, shape):
+    """As high in all, and so at every line: what is longer takes more lines in both or neither."""
+    page = studio(**SHAPES[shape])
+    height = "document.getElementById('{}').scrollHeight"
+    written, beneath = (page.evaluate(height.format(name)) for name in ("text", "under"))
+    line = page.evaluate("parseFloat(getComputedStyle(text).lineHeight)")
+    assert written > line * (PUMP.count("\n") + 2)
+    assert written == beneath
+    last = [
+        page.locator(f"#{name} > span").last.bounding_box()["y"] for name in ("gutter", "under")
+    ]
+    assert last[0] == pytest.approx(last[1], abs=1)
+    assert page.evaluate("document.getElementById('text').scrollWidth <= text.clientWidth")
 
 
 def test_a_slider_moves_drawings_and_numbers(studio):
@@ -252,6 +263,7 @@ def test_a_scene_is_saved_and_nothing_is_replaced_unasked(studio, place):
     write(page, "C-D = 20", "C-D = 21")
     assert page.inner_text("#status") == "not saved"
     page.click("#save")
+    page.wait_for_selector("#asking[open]")
     assert "mine.toml" in page.inner_text("#question")
     page.click("#no")
     assert (place / "mine.toml").read_text(encoding="utf-8") == PUMP
@@ -266,11 +278,142 @@ def test_a_scene_is_saved_and_nothing_is_replaced_unasked(studio, place):
     assert not page.is_visible("#asking")
 
 
+def moved(page: Any, value: str) -> None:
+    """Give the parameter another value than the text says."""
+    answered(page, lambda: (page.fill("#value-n", value), page.press("#value-n", "Enter")))
+
+
+def said(page: Any, words: str) -> None:
+    """Wait until the page says something at its top."""
+    until(page, f"document.getElementById('status').textContent.includes({words!r})")
+
+
+def test_values_of_sliders_are_saved_or_not_as_it_is_answered(studio, place):
+    page = studio()
+    moved(page, "12")
+    page.click("#save")
+    page.wait_for_selector("#asking[open]")
+    assert "n = 12; the text says n = 7" in page.inner_text("#question")
+    page.click("#no")
+    assert page.input_value("#text") == PUMP
+    page.fill("#file", "text.toml")
+    page.click("#save")
+    page.get_by_role("button", name="Save the text as it is").click()
+    said(page, "Saved: text.toml; as the text says, with n = 7; what the sliders show, n = 12,")
+    assert (place / "text.toml").read_text(encoding="utf-8") == PUMP
+    page.fill("#file", "moved.toml")
+    page.click("#save")
+    page.get_by_role("button", name="Write n = 12 into the text and save").click()
+    said(page, "Saved: moved.toml; n = 12 written into it")
+    text = (place / "moved.toml").read_text(encoding="utf-8")
+    assert text == PUMP.replace("value = 7", "value = 12")
+    assert page.input_value("#text") == text
+    page.keyboard.press("Control+s")
+    page.wait_for_timeout(100)
+    assert not page.is_visible("#asking")
+
+
+def test_a_slider_that_is_back_where_the_text_has_it_is_not_asked_about(studio):
+    page = studio()
+    moved(page, "12")
+    moved(page, "7.0")
+    page.fill("#file", "back.toml")
+    page.click("#save")
+    said(page, "Saved: back.toml")
+    assert page.inner_text("#status") == "Saved: back.toml"
+
+
+def test_mistakes_that_are_saved_are_told(studio, place):
+    page = studio()
+    page.fill("#file", "bad.toml")
+    write(page, "A-B = 40", "A-B = ")
+    page.click("#save")
+    said(page, "Saved: bad.toml; 1 mistake (line 24); as it stands it cannot be drawn")
+    assert "A-B = \n" in (place / "bad.toml").read_text(encoding="utf-8").replace("  ", "")
+    assert "line 24, column 7" in page.inner_text("#problems")
+    assert "the value is missing" in page.inner_text("#problems")
+
+
+def test_sheets_of_what_is_wrong_are_refused_at_once(studio, place):
+    page = studio()
+    page.fill("#text", page.input_value("#text").replace("A-B = 40", "A-B = forty"))
+    page.click("#sheets")
+    page.wait_for_selector("#status.wrong")
+    assert page.inner_text("#status").startswith("No sheets yet, mend first: line 24: ")
+    assert not page.is_visible("#saving")
+    assert page.evaluate("document.activeElement.matches('#problems button')")
+    assert [path.name for path in place.iterdir()] == ["mine.toml"]
+
+
+def test_the_language_is_chosen_on_the_page_and_stays(studio, place):
+    page = studio()
+    write(page, "C-D = 20", "C-D = 21")
+    answered(page, lambda: page.select_option("#language", "it"))
+    assert page.inner_text("#save") == "Salva la scena"
+    assert page.inner_text("#title") == "Meccanismo di pompa"
+    assert page.inner_text("#status") == "non salvato"
+    assert page.inner_text("#count") == "Nessun errore."
+    assert "scala" in page.inner_text("#caption-mechanism")
+    assert page.get_attribute("html", "lang") == "it"
+    assert page.get_attribute("#mechanism .enlarge", "aria-label") == "Ingrandisci: meccanismo"
+    assert page.get_by_label("valore di n").count() == 1
+    assert "C-D = 21" in page.input_value("#text")
+    page.click("#sheets")
+    page.wait_for_selector("#saving[open]")
+    assert page.input_value("#sheet-language") == "it"
+    assert "n = 7" in page.inner_text("#saving-values")
+    page.select_option("#sheet-language", "ro")
+    page.get_by_label("PDF").uncheck()
+    page.click("#draw")
+    page.wait_for_selector("#saving", state="hidden", timeout=20_000)
+    assert "Planul vitezelor" in (place / "mine-n7-velocity-key.svg").read_text(encoding="utf-8")
+    page.click("#new")
+    page.click("#yes")
+    until(page, "document.getElementById('file').value === 'new.toml'")
+    at_rest(page)
+    assert page.inner_text("#save") == "Salva la scena"
+    left = page.locator("[data-say]").evaluate_all("all => all.map(each => each.textContent)")
+    assert not [words for words in left if not words]
+
+
+def test_every_word_of_the_page_changes_with_its_language(studio):
+    """What is written in it is what a page in that language begins with."""
+    begun, changed = studio("?scene=mine.toml&lang=ro"), studio()
+    answered(changed, lambda: changed.select_option("#language", "ro"))
+    words = "document.body.innerText"
+    names = "[...document.querySelectorAll('[aria-label]')].map(e => e.ariaLabel).join()"
+    assert begun.evaluate(words) == changed.evaluate(words)
+    assert begun.evaluate(names) == changed.evaluate(names)
+
+
+def test_after_new_and_open_the_keys_go_to_the_text(studio):
+    page = studio()
+    for _ in range(2):
+        page.focus("#new")
+        with page.expect_navigation():
+            page.keyboard.press("Enter")
+        until(page, "document.activeElement.id === 'text'")
+        at_rest(page)
+        assert page.input_value("#file") == "new.toml"
+    page.reload()
+    at_rest(page)
+    assert page.evaluate("document.activeElement.id") != "text"
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_letters_of_the_mechanism_can_be_read(studio, shape):
+    """Letters of 3 mm are 7 px high where there is room beside the text, 7.8 px in one column."""
+    page = studio(**SHAPES[shape])
+    scale = page.evaluate("document.querySelector('#mechanism .drawing svg').getScreenCTM().a")
+    assert scale > (2.55 if SHAPES[shape] is not DESKTOP else 2.2)
+
+
 def test_a_name_that_leads_elsewhere_is_refused(studio, place):
     page = studio()
     page.fill("#file", "../evil.toml")
     page.click("#save")
     page.wait_for_selector("#status.wrong")
+    assert "ending in .toml, such as evil.toml" in page.inner_text("#status")
     assert not (place.parent / "evil.toml").exists()
 
 
@@ -328,7 +471,8 @@ def test_it_can_be_used_by_keys_alone(studio, place):
 
     tab_to("#text")
     page.keyboard.press("Control+Home")
-    for _ in range(23):
+    line = "document.getElementById('text').value.slice(0, text.selectionStart).split('\\n').length"
+    while page.evaluate(line) < 24:
         page.keyboard.press("ArrowDown")
     page.keyboard.press("End")
     answered(page, lambda: page.keyboard.type(",5"))

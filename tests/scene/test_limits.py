@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import Problem, SceneError
+from graphkin.scene.faults import PARTS, VALUE
 from graphkin.scene.read import read_scene, read_text
 
 HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'
@@ -70,9 +71,17 @@ def test_syntax_errors_name_their_line() -> None:
         ("angle = “30*k”", 'use straight quotes: "'),
         ("angle = „30*k“", 'use straight quotes: "'),
         ("length = 37,5", "numbers are written with a point: 37.5"),
-        ("length = 012", ""),
-        ("length = 1 2", ""),
-        ("length = ", ""),
+        ("length = 012", "a number has no nought in front: 12"),
+        ("length = 1 2", PARTS),
+        ("length = ", f"the value is missing: {VALUE}"),
+        ("length = .5", "a point has digits on both sides: 40.0, 0.5"),
+        ("length = 5.", "a point has digits on both sides: 40.0, 0.5"),
+        ("pin = True", "write true"),
+        ("length = 5 // long", "a comment begins with #"),
+        ("length 5", "between a key and its value stands ="),
+        ('title = "Pump', "the text is not closed: put its quote at its end"),
+        ("[[drivers]", "a heading ends as it begins: [links.2], [[drivers]]"),
+        ("length = { a = 1", "the table { } is not closed: } or a comma is missing"),
         ("length = 3*n # a student’s", 'put the expression in quotes: "3*n"'),
     ],
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from math import atan2, cos, degrees, hypot, isfinite, radians, sin
+from math import atan2, degrees, hypot, isfinite
 from typing import Any
 
 import numpy as np
@@ -11,11 +11,13 @@ import numpy as np
 from graphkin.paper.desk import TINY
 from graphkin.paper.field import clipped
 from graphkin.paper.layout import BEYOND
+from graphkin.paper.marks import Arc
 from graphkin.paper.symbols import SHORT, head
 from graphkin.screen.closings import solver
 from graphkin.screen.driven import INPUT
 from graphkin.screen.moving import Moving
 from graphkin.screen.shelf import ran
+from tests.screen.redrawn import arc_numbers
 
 Laid = list[float] | None
 """The numbers of a mark as ``redrawn.numbers`` has them, a text's shift; None where hidden."""
@@ -45,12 +47,13 @@ def reckoned(moving: Moving, x: float) -> list[float] | None:
         at, turn = np.array(course["at"]), course["turn"]
         place = at[0] + (x - at[0]) % turn if turn else x
         near = tuple(np.interp(place, at, column) for column in np.array(course["states"]).T)
+        tried = {place - 1 for place in course["places"]}
+        near = tuple(n if k in tried else float(np.sign(n)) for k, n in enumerate(near))
         state = solver(tracing.graph, INPUT, tracing.closings, moving.data["reach"])(x, near)
         if state is None:
             return None
-        inputs |= {
-            each.name: np.array([v]) for each, v in zip(tracing.closings, state, strict=True)
-        }
+        names = (name for each in tracing.closings for name in each.names)
+        inputs |= {name: np.array([number]) for name, number in zip(names, state, strict=True)}
     outputs = ran(tracing.graph, tracing.shelf.outputs, inputs)
     return [float(np.ravel(value)[0]) for value in outputs]
 
@@ -163,9 +166,5 @@ class Shapes:
 
 
 def arc(centre: tuple[float, float], r: float, start: float, end: float) -> list[float]:
-    """An arc by its ends and its size."""
-    ends = [
-        (centre[0] + r * cos(radians(angle)), centre[1] - r * sin(radians(angle)))
-        for angle in (start, end)
-    ]
-    return [*ends[0], r, r, *ends[1]]
+    """An arc as its path has it."""
+    return arc_numbers(Arc(*centre, r, start, end, ""))

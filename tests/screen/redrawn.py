@@ -16,11 +16,13 @@ import numpy as np
 from graphkin.arithmetic import FLOAT
 from graphkin.mechanism import Mechanism
 from graphkin.motion.sweep import names, sweep_of
+from graphkin.paper.field import Field
 from graphkin.paper.layout import Layout, spans
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Text
 from graphkin.paper.sheet import left_board, right_board
 from graphkin.scene.model import Closure
 from graphkin.screen.driven import Driven
+from graphkin.screen.extents import room_of
 from graphkin.screen.sheets import ScreenSheet
 from graphkin.steps.program import Program
 from graphkin.steps.run import StepFailed, run
@@ -52,11 +54,16 @@ def redrawn(
     overrides = {n: value for n, value in overrides.items() if n in drawn}
     trace = run(program, sorted(drawn), scene.values, FLOAT, overrides=overrides)
     here = replace(sheet.drawing, scene=sweep.with_branches(scene.branches, place), trace=trace)
-    fields = Layout(sheet.layout.mechanism, sheet.layout.plan, {})
+    fields = Layout(roomy(sheet.layout.mechanism), roomy(sheet.layout.plan), {})
     layout = Layout(fields.mechanism, fields.plan, spans(here, fields))
     boards = left_board(here, layout, "key"), right_board(here, layout, "key")
     left, right = ([m for m in board.marks if not isinstance(m, Text)] for board in boards)
     return left, right
+
+
+def roomy(field: Field) -> Field:
+    """A field with all the room that it can grow to, lines' ends and centres included."""
+    return replace(field, rect=room_of(field.rect))
 
 
 def redrawn_near(
@@ -88,15 +95,22 @@ def farthest(left: Sequence[Mark], pins: Mapping[str, Sequence[float]]) -> float
 
 
 def numbers(mark: Mark) -> list[float]:
-    """What places a mark: the ends of lines, corners, middles, of an arc both ends and its size."""
+    """What places a mark: the ends of lines, corners, middles, of an arc what its path has."""
     if isinstance(mark, Line):
         return [mark.x1, mark.y1, mark.x2, mark.y2]
     if isinstance(mark, Circle):
         return [mark.cx, mark.cy]
     if isinstance(mark, Arc):
-        return [*mark.at(mark.start), mark.r, mark.r, *mark.at(mark.end)]
+        return arc_numbers(mark)
     assert not isinstance(mark, Text)
     return [number for point in mark.points for number in point]
+
+
+def arc_numbers(arc: Arc) -> list[float]:
+    """An arc as a path has it: its start, both radii, whether it is more than half a turn, whether
+    it goes clockwise, its end."""
+    large, clockwise = float(abs(arc.end - arc.start) > 180), float(arc.end < arc.start)
+    return [*arc.at(arc.start), arc.r, arc.r, large, clockwise, *arc.at(arc.end)]
 
 
 def kind_of(mark: Mark) -> tuple[str, str, str, int | None]:

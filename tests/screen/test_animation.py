@@ -8,14 +8,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from graphkin.mechanism import load
 from graphkin.motion import cycle
 from graphkin.paper.marks import Text, reach
-from graphkin.screen.frames import AREA, PICTURE, stage
+from graphkin.screen.frames import Stage, stage
 from graphkin.screen.gif import PAUSE, gif
+from graphkin.screen.grounds import STILL
+from graphkin.screen.lettered import crossed, obstacles
 from graphkin.screen.moments import GROWN, Motion, motion
-from graphkin.screen.pictured import mechanism_marks, plan_marks
+from graphkin.screen.panes import AIR, AREA, HELD, PICTURE, aside, leaves, room_in, seated
+from graphkin.screen.pictured import cut, mechanism_seen, plan_box
 from graphkin.text import words
 from tests.cli.conftest import Run, run  # noqa: F401
 
@@ -92,19 +97,125 @@ def test_nothing_leaves_its_field_and_scales_stay(name):
     found = shown(name)
     set_up = stage(found, words("en"))
     for moment in found.moments:
-        parts = [(set_up.mechanism, mechanism_marks(moment.alone, set_up.mechanism))]
-        parts += [
-            (set_up.plans[kind], plan_marks(drawing, set_up.plans[kind]))
-            for kind, drawing in moment.drawings.items()
-        ]
+        parts = [(set_up.mechanism, set_up.mechanism_marks(moment.alone))]
+        for kind, drawing in moment.drawings.items():
+            field = set_up.seated(drawing)
+            assert field.rect == set_up.plans[kind].rect
+            assert (field.mm, field.middle) == (set_up.plans[kind].mm, set_up.plans[kind].middle)
+            parts.append((field, [*cut(set_up.plan_marks(drawing, field), field.rect)]))
         for field, marks in parts:
             for mark in marks:
                 box = reach(mark)
-                room = 3.0 if isinstance(mark, Text) else 1e-6
+                room = 3.0 if isinstance(mark, Text) else 1.0 if mark.cls[:5] == "arrow" else 1e-6
                 assert box[0] > field.rect[0] - room, (name, moment.at, mark)
                 assert box[1] > field.rect[1] - room, (name, moment.at, mark)
                 assert box[2] < field.rect[2] + room, (name, moment.at, mark)
                 assert box[3] < field.rect[3] + room, (name, moment.at, mark)
+
+
+@lru_cache
+def closely(name: str, *, beside: bool) -> Stage:
+    """The stage of a motion in as many moments as it is shown."""
+    path = SCENES / f"{name}.toml"
+    mechanism = load(str(path)) if path.is_file() else load(name, n=7)
+    return stage(motion(cycle(mechanism), words("en")), words("en"), beside=beside)
+
+
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "rapid-return"])
+def test_plans_fill_a_third_of_their_panes_at_the_median(name, beside):
+    """A scale for the peaks alone would make a dot of what is seen most of the time."""
+    set_up = closely(name, beside=beside)
+    assert set(set_up.plans) == {"velocity", "acceleration"}
+    for kind, field in set_up.plans.items():
+        left, top, right, bottom = field.rect
+        boxes = [plan_box(moment.drawings[kind]) for moment in set_up.motion.moments]
+        filled = [
+            max(box.width * field.mm / (right - left), box.height * field.mm / (bottom - top))
+            for box in boxes
+        ]
+        assert np.median(filled) > 1 / 3, (kind, np.median(filled))
+        gone = [leaves(seated(field, box), box) for box in boxes]
+        assert np.mean(gone) <= 1 - HELD[-1] + 1 / len(boxes)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_plan_that_has_room_stands_in_its_pane_and_a_larger_one_is_told(name):
+    found = shown(name)
+    set_up = stage(found, words("en"))
+    said = words("en")("animation.beyond")
+    for moment in found.moments:
+        told = [m for m in set_up.moving(moment) if isinstance(m, Text) and m.markup == said]
+        gone = 0
+        for drawing in moment.drawings.values():
+            field, box = set_up.seated(drawing), plan_box(drawing)
+            room = room_in(field.rect, AIR)
+            size = box.width * field.mm, box.height * field.mm
+            fits = size[0] <= room[2] - room[0] and size[1] <= room[3] - room[1]
+            assert not (fits and leaves(field, box)), (name, moment.at)
+            assert field.holds(0j, AIR - SLACK), (name, moment.at)
+            gone += leaves(field, box)
+        assert len(told) == gone
+
+
+@given(st.floats(-50, 150), st.floats(0, 200), st.floats(0, 1), st.floats(-1e-3, 1e-3))
+def test_a_plan_is_moved_aside_no_more_than_needed_and_without_a_jump(low, size, part, more):
+    start, end, pole = 10.0, 90.0, low + part * size
+    way = aside(low, low + size, pole, start, end)
+    if low >= start and low + size <= end:
+        assert way == 0
+    if size <= end - start:
+        assert low + way >= start - SLACK
+        assert low + size + way <= end + SLACK
+    assert start - SLACK <= pole + way <= end + SLACK
+    grown = max(size + more, 0.0)
+    assert (
+        abs(aside(low, low + grown, low + part * grown, start, end) - way) <= 2 * abs(more) + SLACK
+    )
+
+
+STRONG = ("link", "guide", "slider", "block", "guide-bar")
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "rapid-return", "crank-rocker"])
+def test_letters_of_the_mechanism_seldom_lie_on_bars_and_never_on_one_another(name):
+    """Before, every third one did: on the walls of guides, on blocks, on bars that turn below."""
+    set_up = closely(name, beside=True)
+    ground = [mark for mark in set_up.ground if mark.cls.split()[0] in STRONG]
+    covered, letters = 0, 0
+    for moment in set_up.motion.moments:
+        seen = mechanism_seen(moment.alone, set_up.mechanism)
+        lines = [mark for mark in seen.marks if mark.cls.split()[0] in STRONG]
+        ends = obstacles([*lines, *ground])[0]
+        placed = [m for m in set_up.mechanism_marks(moment.alone) if isinstance(m, Text)]
+        boxes = [reach(text) for text in placed]
+        for i, box in enumerate(boxes):
+            middle = np.array([[(box[0] + box[2]) / 2, (box[1] + box[3]) / 2]])
+            half = (box[2] - box[0]) / 2, (box[3] - box[1]) / 2
+            covered += bool(crossed(middle, half, ends).any())
+            letters += 1
+            for other in boxes[:i]:
+                assert (
+                    box[0] > other[2] or other[0] > box[2] or box[1] > other[3] or other[1] > box[3]
+                )
+    assert letters > 0.9 * len(set_up.motion.moments) * len(seen.letters)
+    assert covered < 0.16 * letters
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_letters_go_smoothly_with_their_points(name):
+    """Each as far from its point as at any other moment, but where it yields to another."""
+    set_up = closely(name, beside=True)
+    for moment in set_up.motion.moments:
+        seen = mechanism_seen(moment.alone, set_up.mechanism)
+        for text in set_up.mechanism_marks(moment.alone):
+            if isinstance(text, Text):
+                (x, y), rule = seen.places[text.name], set_up.rules["mechanism"][text.name]
+                box = reach(text)
+                across = (box[0] + box[2]) / 2 - x
+                down = (box[1] + box[3]) / 2 - y
+                wide = rule.far + seen.letters[text.name].width / 4
+                assert (across / wide) ** 2 + (down / rule.far) ** 2 == pytest.approx(1, abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["pump", "slotted-lever", "trammel", "roller"])
@@ -112,7 +223,7 @@ def test_what_belongs_to_the_frame_does_not_travel(name):
     found = shown(name)
     field = stage(found, words("en")).mechanism
     fixed = [
-        {m for m in mechanism_marks(moment.alone, field) if m.cls in ("guide", "ground", "slot")}
+        {m for m in mechanism_seen(moment.alone, field).marks if m.cls in STILL}
         for moment in found.moments
     ]
     assert all(marks == fixed[0] for marks in fixed)

@@ -5,15 +5,24 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from functools import cache
+from itertools import combinations
 from math import acos, degrees, hypot, isclose
 from typing import Any
 
+import numpy as np
 import pytest
+import shapely
 
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.pieces import followed
+from graphkin.motion.sweep import sweep_of
+from graphkin.paper.areas import Rect
+from graphkin.paper.desk import above_foot
+from graphkin.paper.field import clipped
 from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text
 from graphkin.screen.moving import Moving, moving, still
 from graphkin.screen.sheets import ScreenSheet, screen_sheets
+from graphkin.text import words
 from tests.mechanisms import mechanism_of
 from tests.paper.sheet_tools import SCENES, mechanism_named
 from tests.screen.laid import laid
@@ -72,7 +81,7 @@ def test_every_mark_lies_where_it_is_drawn(name):
     here = laid(found, found.data["start"])
     assert here is not None
     kinds = {record[0]: record[1] for record in found.data["marks"]}
-    for mark_id, mark, _, _ in fields(sheets):
+    for mark_id, mark, s, side in fields(sheets):
         if mark_id not in here or kinds[mark_id] in "oi":
             continue
         at = here[mark_id]
@@ -80,7 +89,18 @@ def test_every_mark_lies_where_it_is_drawn(name):
             continue
         assert at is not None, (mark_id, mark)
         drawn = [0.0, 0.0] if isinstance(mark, Text) else numbers(mark)
-        assert apart(at, drawn) < 1e-5, (mark_id, mark)
+        rect = sheets[s].layout.plan.rect if side else sheets[s].layout.mechanism.rect
+        cut = [
+            at,
+            *(cut_to(at, edge) for edge in (rect, above_foot(rect)) if isinstance(mark, Line)),
+        ]
+        assert min(apart(each, drawn) for each in cut) < 1e-5, (mark_id, mark)
+
+
+def cut_to(at: list[float], rect: Rect) -> list[float]:
+    """The part of a line that is on paper."""
+    part = clipped((at[0], at[1]), (at[2], at[3]), rect)
+    return [] if part is None else [*part[0], *part[1]]
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -224,6 +244,21 @@ def test_a_rocker_goes_as_far_as_coupler_and_follower_reach(a, b, c, d, angle):
     assert isclose(found.reach.low, nearest, abs_tol=1e-6)
 
 
+@pytest.mark.parametrize("name", ["stephenson-2-ternary", "stephenson-3-crank"])
+def test_a_group_of_class_iii_goes_as_far_as_its_cycle(name):
+    """The motion's own search for dead points, which counts closures anew at every place."""
+    path = followed(sweep_of(named(name).scene))
+    reach = page_of(name)[1].reach
+    assert isclose(reach.low, path.ranges[0][0].low.at, abs_tol=1e-4)
+    assert isclose(reach.high, path.ranges[0][-1].high.at, abs_tol=1e-4)
+
+
+def test_what_only_has_a_place_stands_still():
+    """Crank, coupler and follower in line: they reach from pivot to pivot in no other position."""
+    mechanism = mechanism_of(FOUR_BAR.format(a=1, b=1, c=1, d=3, angle=0))
+    assert words("en")(still(mechanism) or "").startswith("The mechanism stands at a place")
+
+
 def test_a_free_crank_goes_all_the_way_round():
     """The shortest bar of a Grashof chain turns fully: a range of one turn that holds the start."""
     mechanism = mechanism_of(FOUR_BAR.format(a=1, b=4, c=3, d=3.5, angle=400))
@@ -240,3 +275,29 @@ def test_a_plate_is_hidden_nowhere():
     for share in PLACES:
         marks = laid(found, low + share * (high - low))
         assert marks is not None and all(marks[plate] for plate in plates)
+
+
+@pytest.mark.parametrize("name", ["gears-pair", "gears-planet", "gears-rack", "gears-ring"])
+def test_teeth_mesh_all_the_way(name):
+    """Two wheels never cut into one another, a ring holds its planet, and teeth go on turning."""
+    sheets, found = page_of(name)
+    low, high, outlines = found.reach.low, found.reach.high, set()
+    for share in np.linspace(0.003, 0.021, 7) if found.driven.unit == "deg" else PLACES:
+        marks = laid(found, low + share * (high - low))
+        assert marks is not None
+        shapes = {}
+        for mark_id, mark, s, _ in fields(sheets):
+            if s == 0 and mark.cls in ("gear", "gear-disc") and isinstance(mark, Polyline):
+                at = marks.get(mark_id) or numbers(mark)
+                shapes[mark.name] = (
+                    mark.cls,
+                    shapely.Polygon(list(zip(at[::2], at[1::2], strict=True))),
+                )
+        for (a, one), (b, other) in combinations(shapes.values(), 2):
+            if "gear" not in (a, b):
+                assert one.intersection(other).area < 1e-3
+            elif {a, b} == {"gear", "gear-disc"}:
+                ring, wheel = (one, other) if a == "gear" else (other, one)
+                assert wheel.difference(ring).area < 1e-3
+        outlines.add(tuple(round(x, 4) for _, shape in shapes.values() for x in shape.bounds))
+    assert len(outlines) > len(PLACES) / 2

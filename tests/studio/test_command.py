@@ -54,7 +54,7 @@ def test_the_address_that_is_printed_answers_until_it_is_stopped(tmp_path, argum
         line = HTTPConnection("127.0.0.1", address.port or 0, timeout=30)
         line.request("GET", f"{address.path}?{address.query}")
         page = line.getresponse().read().decode()
-        assert ('lang="it"' in page) == ("it" in arguments)
+        assert ('<html lang="it"' in page) == ("it" in arguments)
         line.close()
         process.send_signal(signal.SIGINT)
         _, wrong = process.communicate(timeout=30)

@@ -138,6 +138,46 @@ def test_sheets_are_named_as_the_command_names_them(place):
     assert list(sheets_of(Folder(place), wanted)) == names
 
 
+def test_sheets_of_a_value_that_the_text_states_are_named_alike(place):
+    """A value written into the text and one that is set give the same names."""
+    names = []
+    for text, settings in ((PUMP.replace("value = 7", "value = 9"), {}), (PUMP, {"n": "9.0"})):
+        wanted = Wanted(text, "one.toml", settings, "en", "key", ("svg",))
+        names.append(list(sheets_of(Folder(place), wanted)))
+    assert names[0] == names[1] == ["one-n9-velocity-key.svg", "one-n9-acceleration-key.svg"]
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("pump2", "pump2.toml"),
+        ("../evil.toml", "evil.toml"),
+        ("..\\evil", "evil.toml"),
+        ("a b*.toml", "pump.toml"),
+        ("", "pump.toml"),
+    ],
+)
+def test_a_name_that_is_refused_is_answered_with_one_that_would_do(place, name, meant):
+    with pytest.raises(SceneError, match=f"ending in .toml, such as {meant}$"):
+        Folder(place).path(name)
+    assert Folder(place).path(meant)
+
+
+def test_what_is_wrong_with_a_scene_that_is_saved_is_told(place):
+    desk = desk_in(place)
+    bad = PUMP.replace("A-B = 40", "A-B = ")
+    found = desk.save(ordered(text=bad, name="bad.toml"))
+    assert found["files"] == ("bad.toml",)
+    assert [(each["line"], each["column"]) for each in found["mistakes"]] == [(24, 7)]
+    assert not desk.save(ordered(name="good.toml"))["mistakes"]
+
+
+def test_values_that_cannot_be_written_are_told(place):
+    found = desk_in(place).write(ordered(settings={"n": "seven"}))
+    assert not found["edits"]
+    assert found["problems"][0]["setting"] == "n"
+
+
 def test_a_name_of_a_scene_cannot_lead_its_sheets_elsewhere(place):
     wanted = Wanted(PUMP, "../../evil.toml", {}, "en", "key", ("svg",))
     assert all("/" not in name for name in sheets_of(Folder(place), wanted))

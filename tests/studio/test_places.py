@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -12,11 +13,13 @@ from graphkin import labs
 from graphkin.errors import GraphkinError, Problem, SceneError
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read import read_text
-from graphkin.studio.places import Mark, marked
+from graphkin.studio.places import LINE, LONE, Mark, marked
 from graphkin.studio.spans import Path as Keys
 from graphkin.studio.spans import spans, values
-from tests.scene.test_problems import CASES
+from tests.scene.conftest import DATA
+from tests.scene.test_problems import CASES, PLANETS, SAID, SEVERAL
 
+PLANET = (DATA / "planet.toml").read_text(encoding="utf-8")
 PUMP = labs.find("pump").read_text(encoding="utf-8")
 SCENES = [
     *sorted((Path(__file__).resolve().parents[2] / "examples" / "scenes").glob("*.toml")),
@@ -134,6 +137,91 @@ def test_a_known_mistake_is_marked_on_its_line(old, new, problem):
     assert selected(text, mark) in text.split("\n")[mark.line - 1]
 
 
+def everything() -> list[tuple[str, Problem]]:
+    """Every text of the known mistakes with each problem that is found in it."""
+    texts = [PUMP.replace(old, new, 1) for old, new, *_ in (*CASES, *SAID)]
+    texts += [PUMP.replace("[links.4]", SEVERAL, 1)]
+    texts += [PLANET.replace(old, new, 1) for old, new, *_ in PLANETS]
+    found = []
+    for text in texts:
+        try:
+            Mechanism(read_text(text, "scene")).solve()
+        except GraphkinError as error:
+            found += [(text, problem) for problem in error.problems]
+    return found
+
+
+def names_in(place: str) -> list[str]:
+    """The keys that a place names, from the last to the first."""
+    dotted = re.sub(r"\[\d+\]", "", place.removeprefix("position of "))
+    found = re.findall(r'"((?:\\.|[^"\\])*)"|([^."]+)', dotted)
+    return [quoted or bare for quoted, bare in reversed(found)]
+
+
+@pytest.mark.parametrize(("text", "problem"), everything(), ids=lambda each: str(each)[-40:])
+def test_the_line_of_every_known_mistake_holds_the_key_that_its_place_names(text, problem):
+    """The last key that is written at all; of a list, the element lies within its key's line."""
+    (mark,) = marked([problem], text)
+    if LINE.fullmatch(problem.place):
+        assert mark.line == int(problem.place.split()[1])
+        assert 0 <= mark.column <= len(text.split("\n")[mark.line - 1]) + 1
+        return
+    assert mark.line, str(problem)
+    line = text.split("\n")[mark.line - 1]
+    words = re.findall(r"[\w@]+", line)
+    if not problem.place:
+        assert mark.line == 1
+        return
+    if LONE.search(problem.hint):
+        assert LONE.search(problem.hint)[1] in words
+        return
+    for name in names_in(problem.place):
+        pieces = re.findall(r"[\w@]+", name)
+        held = all(piece in words for piece in pieces) or name in line
+        if held or any(within(name, other) for other in keys_of(text, problem.place)):
+            assert held, (str(problem), line)
+            return
+    pytest.fail(f"{problem}: {line}")
+
+
+def within(name: str, key: str) -> bool:
+    """Whether a key is one, or holds a point of that name."""
+    return name == key or name in key.split("-")
+
+
+def keys_of(text: str, place: str) -> list[str]:
+    """The last keys of all paths that share the table of a place."""
+    table = re.split(r"[.\[]", place)
+    return [
+        str(path[-1])
+        for path in spans(text)
+        if len(path) >= len(table) - 1 and [str(key) for key in path[:-1]] == table[:-1]
+    ]
+
+
+@pytest.mark.parametrize(
+    ("written", "column", "helps"),
+    [
+        ("A-B = ", 7, "the value is missing"),
+        ("A-B = .5", 7, "digits on both sides"),
+        ("A-B = 4 0", 9, "one key = value"),
+        ("A-B 40", 5, "stands ="),
+        ('A-B = "40', 10, "put its quote at its end"),
+        ("A-B = { x = 1", 14, "} or a comma"),
+        ("[[links.x]", 10, "a heading ends as it begins"),
+    ],
+)
+def test_no_toml_is_marked_at_the_column_of_its_reader(written, column, helps):
+    """The line and the column are those that tomllib tells of the same text."""
+    text = PUMP.replace("A-B = 40", written, 1)
+    with pytest.raises(tomllib.TOMLDecodeError) as caught:
+        tomllib.loads(text)
+    (mark,) = mistakes(text)
+    assert f"(at line {mark.line}, column {mark.column})" in str(caught.value)
+    assert (mark.line, mark.column) == (24, column)
+    assert helps in mark.problem.hint
+
+
 def test_nearly_all_known_mistakes_were_tried():
     assert len(known()) > 100
 
@@ -141,13 +229,21 @@ def test_nearly_all_known_mistakes_were_tried():
 @pytest.mark.parametrize(
     ("old", "new", "said", "line", "what"),
     [
+        ("C-D = 20", "X-D = 20", "only one link has the points X", 30, "X-D = 20"),
+        ("O2 = [0, -30]", "O3 = [0, -30]", "has the points O3", 15, "O3 = [0, -30]"),
+        ("A-B = 40", "A-B = 400", "make no triangle", 24, "A-B = 400"),
+        ("B-C = 25", "B-C = 250", "make no triangle", 26, "B-C = 250"),
+        ("B-C = 25", "B-X = 25", "does not place X", 26, "B-X = 25"),
+        ("A-B = 40\n", "", "the length A-B is missing", 25, "B-C = 25"),
+        ("O1-A = 30", "o1-A = 30", "no other link has o1", 18, "o1-A = 30"),
+        ('[branches]\nB = "right of A-O2"\n5 = "forward"', "", "branches.B", 21, "O2-B = 30"),
         ("A-B = 40", "A-B = 40,5", "numbers are written with a point", 24, ",5"),
         ("[links.2]", "[links.2", "not TOML", 20, "[links.2"),
         ('"right of A-O2"', '"right of A-O1"', "known pins", 42, 'B = "right of A-O1"'),
         ('B = "right of A-O2"\n', "", "is missing", 41, "[branches]"),
         ('5 = "forward"', '5 = "closure 1"', "closure 1", 43, '5 = "closure 1"'),
         ("O2-B = 30", "O2-B = 3", "the arcs miss each other", 42, 'B = "right of A-O2"'),
-        ("C-D = 20", "C-D = 0.1", "the arc misses the guide", 36, "[[drivers]]"),
+        ("C-D = 20", "C-D = 0.1", "the arc misses the guide", 30, "C-D = 0.1"),
         ('angle = "30 + 2*n"', 'angle = "30 + 2*m"', "no parameter", 38, 'angle = "30 + 2*m"'),
         ('velocity = ["D"]', 'velocity = ["A", "Q"]', "Q is no point", 46, '"Q"'),
         ("omega = [2, 3, 4]", "omega = [2, 9, 4]", "link 9", 48, "9"),

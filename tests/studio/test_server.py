@@ -61,6 +61,17 @@ def test_the_page_comes_and_all_that_it_loads(served):
         assert data
 
 
+@pytest.mark.parametrize(
+    ("query", "language"),
+    [("", "ro"), ("&lang=it", "it"), ("&lang=en", "en"), ("&lang=xx", "ro"), ("&lang=../en", "ro")],
+)
+def test_the_page_speaks_the_language_of_its_address_else_that_of_its_scene(
+    served, query, language
+):
+    data = asked(served, "GET", f"?lab=pump{query}")[1].decode()
+    assert f'<html lang="{language}">' in data
+
+
 def test_a_move_of_a_slider_is_answered(served):
     found = look(served, settings={"n": "12"}, quick=True)
     assert found["sliders"][0]["value"] == "12"

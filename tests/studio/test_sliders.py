@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 from graphkin import labs
+from graphkin.errors import SceneError
 from graphkin.scene.read import read_text
 from graphkin.studio.sliders import MOST, Slider, sliders
 from graphkin.studio.spans import values
@@ -105,5 +106,13 @@ def test_values_of_keys_are_found_without_their_keys():
 
 
 def test_what_is_no_number_is_not_written():
-    with pytest.raises(ValueError, match="Fraction"):
-        edits(PUMP, {"n": '7 }\n[evil]\nx = "'})
+    for value in ('7 }\n[evil]\nx = "', "seven", "sqrt(2)", ""):
+        with pytest.raises(SceneError, match=r"^setting n: "):
+            edits(PUMP, {"n": value})
+
+
+def test_a_value_that_the_text_states_already_changes_nothing():
+    text = PUMP.replace(GIVEN, f'{GIVEN}\na = "1/3"')
+    assert not edits(text, {"n": "7.0", "a": "1/3"})
+    (edit,) = edits(text, {"n": "7", "a": "2/6 + 1"})
+    assert (edit.name, edit.before, edit.text) == ("a", '"1/3"', '"4/3"')

@@ -1,23 +1,27 @@
 // Opening and saving, and the questions before anything is replaced or lost.
 
-import { ask, find, listed, say, tell } from "./talk.js";
+import { values } from "./sliders.js";
+import { ask, find, language, listed, say, tell } from "./talk.js";
 
 for (const button of document.querySelectorAll("dialog .close")) {
   button.addEventListener("click", () => button.closest("dialog").close());
 }
 
-/** Whether the answer to a question is yes. */
-export function agreed(question, yes) {
+/** The answer to a question: "yes", "other" where there is another way, or nothing. */
+export function agreed(question, yes, other = "") {
   const dialog = find("asking");
   find("question").textContent = question;
   find("yes").textContent = yes;
+  find("other").textContent = other;
+  find("other").hidden = !other;
   dialog.returnValue = "";
   dialog.showModal();
   find("no").focus();
   return new Promise((resolve) => {
     find("yes").onclick = () => dialog.close("yes");
+    find("other").onclick = () => dialog.close("other");
     find("no").onclick = () => dialog.close();
-    dialog.onclose = () => resolve(dialog.returnValue === "yes");
+    dialog.onclose = () => resolve(dialog.returnValue);
   });
 }
 
@@ -57,7 +61,10 @@ export async function choose(go) {
 export function saveSheets(fields) {
   const dialog = find("saving");
   const said = find("saving-said");
+  const list = values().map(([name, value]) => `${name} = ${value}`).join(", ");
   said.textContent = "";
+  find("saving-values").textContent = list && say("studio.drawn_for", { values: list });
+  find("sheet-language").value = language;
   find("saving-form").onsubmit = async (event) => {
     event.preventDefault();
     const formats = [...dialog.querySelectorAll("[name=formats]:checked")].map((box) => box.value);
@@ -68,7 +75,8 @@ export function saveSheets(fields) {
     said.textContent = say("studio.drawing_sheets");
     find("draw").disabled = true;
     try {
-      const answer = await saved("sheets", { ...fields(), formats, view: find("view").value });
+      const chosen = { formats, view: find("view").value, language: find("sheet-language").value };
+      const answer = await saved("sheets", { ...fields(), ...chosen });
       said.textContent = "";
       if (answer?.problems.length) said.textContent = answer.problems.map(sentence).join(" ");
       else if (answer) {

@@ -1,11 +1,14 @@
 // The drawings and the numbers beside them.
 
-import { find, say } from "./talk.js";
+import { find, onSpeaking, say } from "./talk.js";
 
 const old = find("old");
 const shown = find("shown");
 const all = find("drawings");
 const names = ["mechanism", "velocity", "acceleration"];
+const SMALLEST = 1.8; // px for a millimetre of paper, beside the text
+const NARROW = 2.6; // and below it, where a drawing may be moved in its frame
+const narrow = matchMedia("(max-width: 60rem)");
 const sheet = new CSSStyleSheet();
 let rules = "";
 document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
@@ -39,6 +42,7 @@ export function showDrawings(answer) {
     }
     set(find(`caption-${name}`), panel.caption);
     set(figure.querySelector(".drawing"), panel.svg);
+    legible(figure.querySelector(".drawing"));
   }
   shown.hidden = answer.kinds.length < 2;
   all.dataset.plans = String(answer.kinds.length);
@@ -54,6 +58,19 @@ function set(element, markup) {
   if (element.made !== markup) element.innerHTML = element.made = markup;
 }
 
+/** Let no drawing be so small that its letters cannot be read; it can be moved in its frame,
+ * and begins with its middle. */
+function legible(frame) {
+  const svg = frame.querySelector("svg");
+  const { width, height } = svg.viewBox.baseVal;
+  const least = narrow.matches ? NARROW : SMALLEST;
+  svg.style.minWidth = `${Math.round(width * least)}px`;
+  svg.style.minHeight = `${Math.round(height * least)}px`;
+  if (frame.seen) return;
+  frame.seen = true;
+  frame.scrollTo((frame.scrollWidth - frame.clientWidth) / 2, 0);
+}
+
 /** Give one drawing the room of all, or all their own. */
 function enlarge(figure, large) {
   for (const name of names) find(name).classList.toggle("large", large && name === figure.id);
@@ -64,8 +81,18 @@ function enlarge(figure, large) {
 for (const name of names) {
   const figure = find(name);
   const button = figure.querySelector(".enlarge");
-  const what = name === "mechanism" ? "studio.in_mechanism" : `sheet.${name}`;
-  button.title = say("studio.larger", { name: say(what) });
-  button.setAttribute("aria-label", button.title);
   button.addEventListener("click", () => enlarge(figure, !figure.classList.contains("large")));
 }
+
+/** Name the buttons. */
+function nameButtons() {
+  for (const each of names) {
+    const button = find(each).querySelector(".enlarge");
+    const what = each === "mechanism" ? "studio.in_mechanism" : `sheet.${each}`;
+    button.title = say("studio.larger", { name: say(what) });
+    button.setAttribute("aria-label", button.title);
+  }
+}
+
+onSpeaking(nameButtons);
+nameButtons();

@@ -1,14 +1,13 @@
 // The text of the scene: its lines numbered, mistakes marked where they stand.
 
-import { find, say } from "./talk.js";
+import { find, onSpeaking, say } from "./talk.js";
 
 const text = find("text");
 const gutter = find("gutter");
 const under = find("under");
 const count = find("count");
 const list = find("problems");
-let lines = 0;
-let marks = [];
+let shown = ""; // the problems that are shown
 
 /** The text as it is written. */
 export const written = () => text.value;
@@ -16,71 +15,82 @@ export const written = () => text.value;
 /** Call back whenever the text changes. */
 export function onWriting(work) {
   text.addEventListener("input", () => {
-    number();
     forget();
     work();
   });
 }
 
-/** Number the lines, those with mistakes marked. */
+/** Number the lines, those with mistakes marked; each number is as high as its line, wrapped. */
 function number(wrong = new Set()) {
-  lines = text.value.split("\n").length;
   gutter.replaceChildren(
-    ...Array.from({ length: lines }, (_, i) => {
+    ...text.value.split("\n").map((_, i) => {
       const line = document.createElement("span");
       line.textContent = String(i + 1);
       if (wrong.has(i + 1)) line.className = "wrong";
       return line;
     }),
   );
+  measure();
+}
+
+/** Let the text beneath wrap where the written one does, and the numbers stand at its lines. */
+function measure() {
+  under.style.width = `${text.clientWidth}px`;
+  const heights = [...under.children].map((line) => line.getBoundingClientRect().height);
+  [...gutter.children].forEach((line, i) => (line.style.height = `${heights[i]}px`));
+  follow();
 }
 
 /** Take the underlining away while it may stand in the wrong place. */
 function forget() {
-  under.replaceChildren();
-  follow();
+  underline([]);
+  number();
 }
 
 /** Keep numbers and underlining beside their lines. */
 function follow() {
   gutter.style.transform = `translateY(${-text.scrollTop}px)`;
-  under.style.transform = `translate(${-text.scrollLeft}px, ${-text.scrollTop}px)`;
+  under.style.transform = `translateY(${-text.scrollTop}px)`;
+}
+
+/** How many mistakes there are, in words. */
+export function counted(many) {
+  if (many === 0) return say("studio.none_wrong");
+  return many === 1 ? say("studio.one_wrong") : say("studio.some_wrong", { count: many });
 }
 
 /** Show every problem: in the gutter, under its key, and in the list. */
 export function showProblems(problems) {
-  if (JSON.stringify(problems) === JSON.stringify(marks) && under.childNodes.length) return;
-  marks = problems;
-  number(new Set(problems.map((each) => each.line)));
+  if (JSON.stringify(problems) === shown && under.querySelectorAll("mark").length) return;
+  shown = JSON.stringify(problems);
   underline(problems);
+  number(new Set(problems.map((each) => each.line)));
   text.setAttribute("aria-invalid", String(problems.length > 0));
-  const said =
-    problems.length === 0
-      ? say("studio.none_wrong")
-      : problems.length === 1
-        ? say("studio.one_wrong")
-        : say("studio.some_wrong", { count: problems.length });
+  const said = counted(problems.length);
   if (count.textContent !== said) count.textContent = said;
   count.classList.toggle("wrong", problems.length > 0);
   list.replaceChildren(...problems.map(item));
-  follow();
 }
 
-/** The same text beneath, transparent, with what is wrong underlined. */
+/** The same text beneath, transparent, line by line, with what is wrong underlined. */
 function underline(problems) {
-  const value = text.value;
-  const parts = [];
-  let at = 0;
-  for (const { line, start, end } of problems) {
-    if (!line || start < at) continue;
-    parts.push(value.slice(at, start));
-    const mark = document.createElement("mark");
-    mark.textContent = value.slice(start, end) || " ";
-    parts.push(mark);
-    at = end;
-  }
-  parts.push(`${value.slice(at)}\n`);
-  under.replaceChildren(...parts);
+  let start = 0;
+  const lines = text.value.split("\n").map((words) => {
+    const line = document.createElement("span");
+    let at = 0;
+    for (const problem of problems) {
+      const [from, to] = [problem.start - start, problem.end - start];
+      if (!problem.line || from < at || from > words.length) continue;
+      const mark = document.createElement("mark");
+      mark.textContent = words.slice(from, to) || " ";
+      line.append(words.slice(at, from), mark);
+      at = to;
+    }
+    line.append(words.slice(at));
+    start += words.length + 1;
+    return line;
+  });
+  under.replaceChildren(...lines);
 }
 
 /** One problem of the list; where it has a place, a button that goes there. */
@@ -90,7 +100,8 @@ function item(problem) {
   const where = document.createElement("strong");
   const place = problem.place.startsWith("line ") ? "" : problem.place;
   const at = problem.line ? say("studio.line", { line: problem.line }) : "";
-  where.textContent = [at, place].filter(Boolean).join(" · ");
+  const column = problem.column ? say("studio.column", { column: problem.column }) : "";
+  where.textContent = [[at, column].filter(Boolean).join(", "), place].filter(Boolean).join(" · ");
   const words = document.createElement("span");
   const expected = problem.expected && `expected ${problem.expected}`;
   words.textContent = [problem.found, expected, problem.hint].filter(Boolean).join("; ");
@@ -108,9 +119,9 @@ function item(problem) {
 function go({ line, start, end }) {
   text.focus();
   text.setSelectionRange(start, end);
-  const height = text.scrollHeight / Math.max(lines, 1);
-  text.scrollTop = (line - 0.5) * height - text.clientHeight / 2;
-  text.scrollLeft = 0;
+  const number = gutter.children[line - 1];
+  const middle = number.offsetTop + number.offsetHeight / 2;
+  text.scrollTop = middle - text.clientHeight / 2;
   follow();
 }
 
@@ -121,9 +132,10 @@ export function change(edits) {
     text.setSelectionRange(start, end);
     if (!document.execCommand("insertText", false, words)) text.setRangeText(words);
   }
-  number();
   forget();
 }
 
 text.addEventListener("scroll", follow, { passive: true });
-number();
+new ResizeObserver(measure).observe(text);
+onSpeaking(() => (shown = ""));
+forget();

@@ -2,13 +2,14 @@
 
 import { agreed, choose, saved, saveSheets, sentence } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
-import { change, onWriting, showProblems, written } from "./editor.js";
+import { change, counted, onWriting, showProblems, written } from "./editor.js";
 import { forgetMoves, markSliders, onMoving, settings, showSliders } from "./sliders.js";
-import { ask, find, say, tell } from "./talk.js";
+import { ask, find, language, say, speak, tell } from "./talk.js";
 
 const PAUSE = 150; // ms without a sign before the text is read
 const LONG = 400; // ms after which it is shown that something is being drawn
 const REST = 200; // ms without a move before labels find their places
+const TO_TEXT = "to-text"; // where the next page has its focus
 const file = find("file");
 const drawings = find("drawings");
 let safe = written(); // the text as it was opened or last saved
@@ -18,11 +19,14 @@ let shown = 0; // of the newest answer
 let moving = false; // a move is on its way
 let next = false; // another move has come since
 let timer = 0;
+let wrong = []; // what is wrong with the scene as it was last looked at
+let chosen = ""; // the language, where it was chosen here
 
 const scene = () => ({ text: written(), name: file.value.trim(), settings: settings() });
 
 /** Ask for a look at the scene as it is, and show the answer unless a newer one is there. */
 async function look(quick) {
+  clearTimeout(timer);
   const own = ++number;
   const waiting = setTimeout(() => drawings.setAttribute("aria-busy", "true"), LONG);
   try {
@@ -30,7 +34,8 @@ async function look(quick) {
     const answer = await ask("look", fields);
     if (answer.stale || own < shown) return;
     shown = own;
-    showProblems(answer.problems);
+    wrong = answer.problems;
+    showProblems(wrong);
     if (answer.title !== undefined) {
       find("title").textContent = answer.title;
       showSliders(answer.sliders);
@@ -41,7 +46,7 @@ async function look(quick) {
     document.body.dataset.settled = String(!quick);
     state();
   } catch (error) {
-    tell(error.message, true);
+    tell(error.message, "wrong");
   } finally {
     clearTimeout(waiting);
     if (own === number) drawings.removeAttribute("aria-busy");
@@ -50,7 +55,6 @@ async function look(quick) {
 
 /** One move at a time: the newest goes as soon as the last is answered, those between are left. */
 async function move() {
-  clearTimeout(timer);
   next = moving;
   if (moving) return;
   moving = true;
@@ -81,36 +85,101 @@ function state() {
 async function go(address) {
   if (!isSafe() && !(await agreed(say("studio.leave"), say("studio.go_on")))) return;
   safe = written();
-  location.assign(address);
+  sessionStorage.setItem(TO_TEXT, "yes");
+  location.assign(chosen ? `${address}${address === "?" ? "" : "&"}lang=${chosen}` : address);
+}
+
+/** What is saved where sliders were moved: asked for; nothing where it is not to be saved. */
+async function settled() {
+  const { edits, problems } = await ask("write", scene());
+  if (problems.length) {
+    tell(problems.map(sentence).join(" "), "wrong");
+    return null;
+  }
+  if (!edits.length) return "";
+  const list = (key) => edits.map((edit) => `${edit.name} = ${edit[key]}`).reverse().join(", ");
+  const gaps = { moved: list("text"), written: list("before") };
+  const question = say("studio.moved", gaps);
+  const answer = await agreed(question, say("studio.write_save", gaps), say("studio.save_text"));
+  if (!answer) return null;
+  if (answer === "other") return say("studio.as_text", gaps);
+  forgetMoves();
+  change(edits);
+  look(false);
+  return say("studio.with_values", gaps);
 }
 
 async function save() {
-  const text = written();
+  if (document.querySelector("dialog[open]")) return;
   try {
+    const values = await settled();
+    if (values === null) return;
+    const text = written();
     const answer = await saved("save", { text, name: file.value.trim(), mark });
     if (!answer) return;
     if (answer.problems.length) {
-      tell(answer.problems.map(sentence).join(" "), true);
+      tell(answer.problems.map(sentence).join(" "), "wrong");
       return;
     }
     safe = text;
     mark = answer.mark;
     state();
-    tell(say("studio.saved", { list: answer.files.join(", ") }));
-    history.replaceState(null, "", `?scene=${encodeURIComponent(answer.files[0])}`);
+    tellSaved(answer, values);
+    address(`scene=${encodeURIComponent(answer.files[0])}`);
   } catch (error) {
-    tell(error.message, true);
+    tell(error.message, "wrong");
   }
+}
+
+/** Say what was saved: with which values, and what is wrong with it. */
+function tellSaved({ files, mistakes }, values) {
+  const parts = [say("studio.saved", { list: files.join(", ") }), values];
+  if (mistakes.length) {
+    const { line } = mistakes[0];
+    const count = counted(mistakes.length);
+    parts.push(line ? `${count} (${say("studio.line", { line })})` : count);
+    parts.push(say("studio.not_drawable"));
+  }
+  tell(parts.filter(Boolean).join("; "), mistakes.length ? "poor" : "");
+}
+
+/** Save the sheets; where something is wrong, it is said at once and nothing is asked. */
+async function sheets() {
+  await look(false);
+  if (find("status").classList.contains("wrong")) return;
+  if (!wrong.length) saveSheets(scene);
+  else {
+    const { line } = wrong[0];
+    const where = line ? `${say("studio.line", { line })}: ` : "";
+    tell(`${say("studio.mend_first")} ${where}${sentence(wrong[0])}`, "wrong");
+    find("problems").querySelector("button")?.focus();
+  }
+}
+
+/** Let the address lead to what is here, in the language that was chosen. */
+function address(what) {
+  history.replaceState(null, "", `?${what}${chosen && `&lang=${chosen}`}`);
+}
+
+function another() {
+  chosen = find("language").value;
+  const query = new URLSearchParams(location.search);
+  query.set("lang", chosen);
+  history.replaceState(null, "", `?${query}`);
+  speak(chosen);
+  state();
+  look(false);
 }
 
 async function intoText() {
   try {
-    const { edits } = await ask("write", scene());
+    const { edits, problems } = await ask("write", scene());
+    if (problems.length) throw new Error(problems.map(sentence).join(" "));
     forgetMoves();
     change(edits);
     look(false);
   } catch (error) {
-    tell(error.message, true);
+    tell(error.message, "wrong");
   }
 }
 
@@ -121,9 +190,10 @@ onWriting(() => {
 onMoving((quick) => (quick ? move() : look(false)));
 onChoosing(() => look(false));
 find("new").addEventListener("click", () => go("?"));
-find("open").addEventListener("click", () => choose(go).catch((error) => tell(error.message, true)));
+find("open").addEventListener("click", () => choose(go).catch((error) => tell(error.message, "wrong")));
 find("save").addEventListener("click", save);
-find("sheets").addEventListener("click", () => saveSheets(scene));
+find("sheets").addEventListener("click", sheets);
+find("language").addEventListener("change", another);
 find("write").addEventListener("click", intoText);
 find("reset").addEventListener("click", () => {
   forgetMoves();
@@ -140,3 +210,10 @@ addEventListener("beforeunload", (event) => {
   if (!isSafe()) event.preventDefault();
 });
 look(false);
+find("language").value = language;
+if (new URLSearchParams(location.search).get("lang") === language) chosen = language;
+if (sessionStorage.getItem(TO_TEXT)) {
+  sessionStorage.removeItem(TO_TEXT);
+  find("text").focus();
+  find("text").setSelectionRange(0, 0);
+}

@@ -1,6 +1,6 @@
 // A slider and a field for each parameter; only those that were moved are set.
 
-import { find, say } from "./talk.js";
+import { find, onSpeaking, say } from "./talk.js";
 
 const box = find("sliders");
 const write = find("write");
@@ -11,6 +11,9 @@ let changed = () => {};
 
 /** The values that differ from the text, by name. */
 export const settings = () => ({ ...moved });
+
+/** The name of each parameter and its value as it is shown. */
+export const values = () => [...rows].map(([name, row]) => [name, row.field.value]);
 
 /** Call back when a slider is moved (quick) or a value is entered. */
 export function onMoving(work) {
@@ -49,6 +52,13 @@ export function markSliders(problems) {
   for (const [name, row] of rows) row.field.setAttribute("aria-invalid", String(wrong.has(name)));
 }
 
+onSpeaking(() => {
+  for (const [name, row] of rows) row.field.setAttribute("aria-label", valueOf(name));
+  if (!rows.size && box.textContent) box.textContent = say("studio.no_parameters");
+});
+
+const valueOf = (name) => say("studio.value_of", { name });
+
 function enable() {
   write.disabled = reset.disabled = Object.keys(moved).length === 0;
 }
@@ -70,7 +80,7 @@ function made(name) {
   field.size = 7;
   field.inputMode = "decimal";
   field.autocomplete = "off";
-  field.setAttribute("aria-label", say("studio.value_of", { name }));
+  field.setAttribute("aria-label", valueOf(name));
   unit.className = "unit";
   whole.append(label, range, field, unit);
   const row = { whole, range, field, unit, stops: [] };

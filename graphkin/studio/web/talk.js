@@ -1,12 +1,12 @@
 // How the page speaks with the studio, and the words that it uses.
 
 const start = JSON.parse(document.body.dataset.start);
-export const language = start.language;
+export let language = start.language;
 const tab = crypto.randomUUID();
 
 /** A sentence of the page, its gaps filled. */
 export function say(key, gaps = {}) {
-  return start.words[key].replace(/\{(\w+)\}/g, (whole, name) => gaps[name] ?? whole);
+  return start.words[language][key].replace(/\{(\w+)\}/g, (whole, name) => gaps[name] ?? whole);
 }
 
 /** What the studio answers; an error with a sentence where it does not. */
@@ -36,10 +36,30 @@ export async function listed() {
 
 export const find = (id) => document.getElementById(id);
 
+const listeners = [];
+
+/** Call back when another language is spoken. */
+export function onSpeaking(work) {
+  listeners.push(work);
+}
+
+/** Speak another language: what stands on the page is said anew. */
+export function speak(chosen) {
+  language = chosen;
+  document.documentElement.lang = chosen;
+  for (const element of document.querySelectorAll("[data-say]")) {
+    element.textContent = say(element.dataset.say);
+  }
+  for (const element of document.querySelectorAll("[data-label]")) {
+    element.setAttribute("aria-label", say(element.dataset.label));
+  }
+  for (const work of listeners) work();
+}
+
 const status = find("status");
 
-/** Say something at the top of the page. */
-export function tell(words, wrong = false) {
+/** Say something at the top of the page: `look` is "wrong" for what failed, "poor" for a warning. */
+export function tell(words, look = "") {
   if (status.textContent !== words) status.textContent = words;
-  status.classList.toggle("wrong", wrong);
+  status.className = look;
 }

@@ -1,0 +1,33 @@
+"""The names of points as the labels of a drawing write them: an index only where it is needed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+
+from graphkin.paper.marks import Text
+from graphkin.paper.symbolic import symbol
+from graphkin.screen.sheets import ScreenSheet
+
+PRIMES = "′″‴⁗"
+"""What tells the points of a right triangle from those of the mechanism."""
+
+
+def labels_of(sheet: ScreenSheet) -> dict[str, str]:
+    """The markup of each label of a sheet by the name of what it stands at."""
+    marks = (*sheet.left, *sheet.right)
+    return {mark.name: mark.markup for mark in marks if isinstance(mark, Text) and mark.name}
+
+
+def as_labelled(markup: str, names: Iterable[str], labels: Mapping[str, str]) -> str:
+    """Markup that speaks of b″ with the index that the label of b″_BA has, here and there the same.
+
+    ``names`` are those of the steps that it tells of; two that differ by their index alone stay.
+    """
+    bases = {name: name.partition("_")[0] for name in names if "_" in name and name in labels}
+    bases = {name: base for name, base in bases.items() if base[-1] in PRIMES}
+    count = Counter(bases.values())
+    for name, base in bases.items():
+        if count[base] == 1:
+            markup = markup.replace(symbol(base), labels[name])
+    return markup
