@@ -11,6 +11,7 @@ from graphkin.console import FAILED, READING, complain
 from graphkin.options import Folder, force_option, leave, tell
 
 if TYPE_CHECKING:
+    from graphkin.roster.model import Student
     from graphkin.variants.assign import Assigned
 
 
@@ -92,12 +93,24 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
     from graphkin.variants.telling import class_lines
 
     lab = read_lab(name)
-    students = read_roster(roster, numbered=isinstance(lab.rule, Formula), check=check_of(lab))
+    by_number = isinstance(lab.rule, Formula)
+    students = read_roster(roster, numbered=by_number, check=check_of(lab), tell=complain)
     found = assigned(lab, students, roster.name)
     written = write_class(folder, lab, found, roster, force=force)
     tell(class_lines(lab, found))
     tell(["", *(str(path) for path in written)])
+    warn_of_languages(students)
     warn_of(found)
+
+
+def warn_of_languages(students: list[Student]) -> None:
+    """Say which languages of a class list are none of the pages'."""
+    from graphkin.roster.languages import unknown_languages
+
+    for text, count in unknown_languages(students).items():
+        who = "1 student" if count == 1 else f"{count} students"
+        found = f'"{text[:40]}" is no language of the pages'
+        complain(f"{who}: {found} (ro, en, it); feedback is in that of the lab then")
 
 
 def warn_of(found: list[Assigned]) -> None:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 KINDS = ("html", "pdf")
 MANY = 100
 """Different variants from which several processes pay for themselves."""
+TERMINAL = "en"
+"""What the terminal speaks, as all commands and all refusals do."""
 SHOWN = 10
 """Notes of one kind that are told one by one."""
 
@@ -37,7 +39,7 @@ SHOWN = 10
     "--lang",
     type=click.Choice(["ro", "en", "it"]),
     help="Language of the report, and of the feedback to those for whom the class list names none"
-    " (language, limba, lingua); the scene's by default.",
+    " (language, limba, lingua); the scene's by default. The terminal speaks English.",
 )
 @click.option(
     "--format",
@@ -108,6 +110,7 @@ def grade(
     from graphkin.grading.book import graded_class
     from graphkin.grading.folder import open_class
     from graphkin.grading.report import result_lines
+    from graphkin.text import words as words_in
 
     kinds = kinds_of(formats, context)
     if len({path.name for path in gradebooks}) < len(gradebooks):
@@ -119,11 +122,13 @@ def grade(
     words = words_of(opened, lang)
     found = graded_class(opened.book, opened.takers, given.of, jobs or usual_jobs(opened))
     files = all_files(opened, found, given, words, kinds, report or folder / "report")
-    books = filled_books(gradebooks, column, found, words)
+    spoken = words_in(TERMINAL)
+    books = filled_books(gradebooks, column, found, spoken)
     written = put(report or folder / "report", {**files, **books}, force)
-    for line in result_lines(found.result, words):
+    for line in result_lines(found.result, spoken):
         click.echo(line)
-    notes(opened, given, words)
+    changes(files, spoken)
+    notes(opened, given, spoken)
     click.echo("")
     for path in told_paths(written):
         click.echo(path)
@@ -196,9 +201,22 @@ def filled_books(
             amounts = {"worth": number(book.worth), "points": number(points or 0)}
             amounts = {name: words.decimal(amount) for name, amount in amounts.items()}
             complain(words("class.worth", file=path.name, column=book.column, **amounts))
+        if book.replaced:
+            amounts = {"count": str(book.replaced), "column": book.column}
+            complain(words("class.replaced", file=path.name, **amounts))
         for key, who in (("class.not_in", book.absent), ("class.waits", waiting)):
             tell_some([words(key, file=path.name, who=each) for each in who], words)
     return files
+
+
+def changes(files: dict[str, bytes], words: Words) -> None:
+    """Tell how much a new marking changed, and the first of it."""
+    from graphkin.grading.outputs import CHANGES
+    from graphkin.grading.tables import change_lines
+
+    if CHANGES in files:
+        for line in change_lines(files[CHANGES], words):
+            click.echo(line)
 
 
 def put(folder: Path, files: dict[str, bytes], force: bool) -> list[Path]:

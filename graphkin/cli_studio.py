@@ -26,7 +26,7 @@ NEEDED = ("bottle", "waitress")
 @click.option(
     "--lang",
     type=click.Choice(["ro", "en", "it"]),
-    help="Language of the page and the sheets; the scene's by default.",
+    help="Language to begin with; the scene's by default. The page lets another be chosen.",
 )
 def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     """Write, move and look at a scene in a browser.

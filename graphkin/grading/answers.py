@@ -11,19 +11,25 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from graphkin.errors import Problem
-from graphkin.grading.languages import HEADS as LANGUAGE
 from graphkin.grading.model import Answer
 from graphkin.grading.numbers import read_answer
 from graphkin.lab.model import Item
 from graphkin.roster.errors import RosterError
+from graphkin.roster.languages import HEADS as LANGUAGE
 from graphkin.roster.read import NAMES
 from graphkin.roster.tables import Row, Sheet, Told, columns, folded, read_sheet
 from graphkin.scene.findings import nearest, visible
 
 KINDS = (".csv", ".txt", ".tsv", ".xlsx")
 """Files of a folder that are read."""
+ABSENT = (
+    "leave that row out; or put the student into the class list, run graphkin variants with"
+    " --force into the same folder, and grade again"
+)
 FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "valoare", "valore")
 """The heads of a file that holds one student's answers line by line."""
+LEAST, SHOWN = 1 / 3, 12
+"""The share of the form below which a table may be another lab's; columns that are named then."""
 NO_CODES: Mapping[str, str] = {}
 HEADS = {"id": NAMES["id"]}
 BESIDE = {what: NAMES[what] for what in NAMES if what != "id"} | {"language": LANGUAGE}
@@ -91,8 +97,24 @@ def read_answers(
             continue
         reading.form(sheet, file.stem) if is_form(sheet) else reading.rows(sheet)
     reading.told.stop()
+    refuse_other_lab(path.name, reading)
     reading.answers.missing = [name for name in known if name not in reading.seen]
     return reading.answers
+
+
+def refuse_other_lab(name: str, reading: Reading) -> None:
+    """Raise RosterError where most that was handed in are no fields, and few are: another lab's."""
+    others = list(dict.fromkeys(each.name for each in reading.answers.strangers))
+    if len(reading.seen) >= LEAST * len(reading.known) or len(others) <= len(reading.seen):
+        return
+    fields, named = list(reading.known), ", ".join(others[:SHOWN])
+    more = ", …" if len(others) > SHOWN else ""
+    found = (
+        f"only {len(reading.seen)} of the form's {len(fields)} fields are there, and no field of it"
+        f" is called {named}{more}"
+    )
+    expected = f"fields such as {', '.join(fields[:4])}"
+    raise RosterError(Problem(name, found, expected, "are these the answers to another lab?"))
 
 
 def is_form(sheet: Sheet) -> bool:
@@ -129,7 +151,9 @@ class Reading:
             return
         if not own:
             expected = f"columns such as {', '.join(list(self.known)[:4])}"
-            self.told.add(sheet.name, "no column is a field of the form", expected)
+            head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:SHOWN])
+            found = f"no column is a field of the form; the head is {head}"
+            self.told.add(sheet.name, found, expected, "are these the answers to another lab?")
             return
         self.seen |= set(own.values())
         for i, cell in enumerate(sheet.head):
@@ -170,7 +194,8 @@ class Reading:
             self.told.add(place, "is missing", "the student's id")
         elif who is None:
             found = f'"{visible(sign)}" is no student of this class'
-            self.told.add(place, found, "", nearest(sign, sorted(set(self.ids.values()))))
+            near = nearest(sign, sorted(set(self.ids.values())))
+            self.told.add(place, found, "", near or ABSENT)
         elif who in self.answers.of:
             found = f'"{visible(sign)}" has answers already, in {self.answers.places[who]}'
             self.told.add(place, found, "one")

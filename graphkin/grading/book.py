@@ -6,10 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
-from graphkin.grading.evidence import copies, wrong_variants
+from graphkin.grading.evidence import copies
 from graphkin.grading.many import standards
 from graphkin.grading.marking import Marker
-from graphkin.grading.model import Answer, Graded, Result, Taker
+from graphkin.grading.model import Answer, Graded, Mark, Result, Status, Taker
+from graphkin.grading.others import wrong_variants
 from graphkin.grading.standard import Expectation, standard
 from graphkin.lab.items import items
 from graphkin.lab.model import Item, Lab
@@ -109,12 +110,27 @@ def graded_class(
     found = [each for _, each in sorted(zip(order, marked, strict=True), key=lambda pair: pair[0])]
     graded = [each for each, _ in found]
     expected = shared(found)
-    here = [i for i, each in enumerate(graded) if each.present]
-    present, forms = [graded[i] for i in here], [expected[i] for i in here]
-    result = Result(
-        tuple(graded), wrong_variants(present, forms), copies(present), unsure(graded, expected)
-    )
+    others = wrong_variants(graded, expected)
+    suspected = {each.students[0] for each in others}
+    graded = [unguessed(g) if g.taker.student.id in suspected else g for g in graded]
+    twice = copies([each for each in graded if each.present])
+    result = Result(tuple(graded), others, twice, unsure(graded, expected))
     return Class(result, tuple(expected))
+
+
+def unguessed(graded: Graded) -> Graded:
+    """A student whose answers fit other data, without the slips that explain them by chance and
+    earned nothing.
+    """
+    return replace(graded, marks=tuple(map(without_slip, graded.marks)))
+
+
+def without_slip(mark: Mark) -> Mark:
+    """A mark without the name of a slip by which it earned nothing."""
+    if not mark.slip or (mark.status is Status.SLIP and mark.earned):
+        return mark
+    status = Status.WRONG if mark.status is Status.SLIP else mark.status
+    return replace(mark, slip="", odds=0.0, status=status)
 
 
 def handed_in(answers: Given | None) -> Given | None:

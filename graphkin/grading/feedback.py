@@ -52,10 +52,12 @@ def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> s
 
 def total(graded: Graded, words: Words) -> str:
     """The sum of the points in words; what still waits is left out of both."""
-    earned, points = (
-        points_words(each, words) for each in (graded.earned, graded.points - graded.pending)
-    )
-    return words("feedback.total", earned=earned, points=points)
+    earned, points = (points_words(each, words) for each in (graded.earned, graded.decided))
+    text = words("feedback.total", earned=earned, points=points)
+    if not graded.pending:
+        return text
+    waiting = points_words(graded.pending, words)
+    return f"{text}, {words('feedback.waiting', pending=waiting)}"
 
 
 def notes(graded: Graded, words: Words) -> list[str]:

@@ -6,23 +6,28 @@ separators and ends of lines included, so that order, language, ids and unknown 
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 from typing import Protocol
 
 from graphkin.errors import GraphkinError, Problem
-from graphkin.roster.tables import SEPARATORS, bytes_of, folded
+from graphkin.roster.read import NAMES
+from graphkin.roster.tables import folded
 
 POSSIBLE = "Points Possible"
 """What Canvas writes, after four blanks, in the row below its head."""
 COMMA = re.compile(r"[0-9]+,[0-9]+")
 POINT = re.compile(r"[0-9]+\.[0-9]+")
+NUMERIC = re.compile(r"[-+]?[0-9]")
+"""How points, dates and ids begin, and names do not."""
+EMPTY = ("", "-")
+"""Cells without a mark."""
+EMAIL = ("email", "emailaddress", "adresadeemail", "indirizzoemail", "username", "sisloginid")
+PERSONS = {*EMAIL, *(folded(h) for what, every in NAMES.items() for h in (what, *every))}
+"""Heads of columns that say who somebody is."""
 DECIMAL = re.compile(r"[0-9]+(?:\.[0-9]+)?", re.ASCII)
-BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 
 
 class GradebookError(GraphkinError):
@@ -73,13 +78,15 @@ class Places:
     lines: Mapping[int, str]
     absent: tuple[str, ...]
     worth: Fraction | None = None
+    replaced: int = 0
 
 
 @dataclass(frozen=True)
 class Filled:
     """A gradebook with marks in it: its bytes, how many, and who of the class is not in it.
 
-    ``worth`` is what it holds the column worth, where it says so, as Canvas does.
+    ``worth`` is what it holds the column worth, where it says so, as Canvas does; ``replaced`` how
+    many marks took the place of something else.
     """
 
     data: bytes
@@ -87,66 +94,7 @@ class Filled:
     count: int
     absent: tuple[str, ...]
     worth: Fraction | None = None
-
-
-def read_gradebook(path: Path) -> Gradebook:
-    """An export as it stands. Raises GradebookError where it is no table."""
-    data = bytes_of(path)
-    bom = next((mark for mark in BOMS if data.startswith(mark)), b"")
-    coding = BOMS.get(bom, "utf-8").removesuffix("-sig")
-    try:
-        text = data[len(bom) :].decode(coding)
-    except UnicodeDecodeError:
-        text, coding = data.decode("cp1250", "surrogateescape"), "cp1250"
-    first = text.partition("\n")[0]
-    separator = max(
-        SEPARATORS,
-        key=lambda sign: (len(next(csv.reader([first], delimiter=sign), [])), sign == ","),
-    )
-    rows, ends = split(text, separator, path.name)
-    if len(rows) < 2:
-        raise GradebookError(Problem(path.name, "has no row below its head", "a gradebook"))
-    return Gradebook(path.name, rows, ends, separator, coding, bom)
-
-
-def split(
-    text: str, separator: str, name: str
-) -> tuple[tuple[tuple[Cell, ...], ...], tuple[str, ...]]:
-    """The rows of cells of a text with their line ends; quotes and blanks stay as they are."""
-    rows: list[tuple[Cell, ...]] = []
-    ends: list[str] = []
-    row: list[Cell] = []
-    start = at = 0
-    quoted = False
-    while at < len(text):
-        sign = text[at]
-        if sign == '"' and (quoted or not text[start:at].strip()):
-            quoted = not quoted
-        elif not quoted and sign == separator:
-            row.append(cell(text[start:at]))
-            start = at + 1
-        elif not quoted and sign in "\r\n":
-            end = "\r\n" if text[at : at + 2] == "\r\n" else sign
-            rows.append((*row, cell(text[start:at])))
-            ends.append(end)
-            row, at = [], at + len(end) - 1
-            start = at + 1
-        at += 1
-    if quoted:
-        found = "a quote that is opened and never closed"
-        raise GradebookError(Problem(f"{name}, row {len(rows) + 1}", found, 'a closing "'))
-    if row or start < len(text):
-        rows.append((*row, cell(text[start:])))
-        ends.append("")
-    return tuple(rows), tuple(ends)
-
-
-def cell(raw: str) -> Cell:
-    """A cell from its characters."""
-    bare = raw.strip()
-    if len(bare) >= 2 and bare[0] == bare[-1] == '"':
-        return Cell(raw, bare[1:-1].replace('""', '"').strip())
-    return Cell(raw, bare)
+    replaced: int = 0
 
 
 def filled(
@@ -172,7 +120,7 @@ def filled(
     data = book.bom + text.encode(
         book.coding, "surrogateescape" if book.coding == "cp1250" else "strict"
     )
-    return Filled(data, found.head, len(found.lines), found.absent, found.worth)
+    return Filled(data, found.head, len(found.lines), found.absent, found.worth, found.replaced)
 
 
 def places(
@@ -181,6 +129,7 @@ def places(
     """Where the marks go. Raises GradebookError where that cannot be told."""
     where = id_column(book, {*marks, *ids})
     target = mark_column(book, [each.text for each in book.rows[0]], column)
+    refuse_names(book, target, where)
     lines: dict[int, str] = {}
     twice: list[Problem] = []
     for line, row in enumerate(book.rows[1:], 1):
@@ -194,7 +143,37 @@ def places(
         raise GradebookError(twice)
     met = set(lines.values())
     absent = tuple(who for who in marks if who not in met)
-    return Places(target, book.rows[0][target].text, lines, absent, worth_of(book, target))
+    before = {line: text_at(book.rows[line], target) for line in lines}
+    replaced = sum(is_other(text, marks[lines[line]]) for line, text in before.items())
+    head = book.rows[0][target].text
+    return Places(target, head, lines, absent, worth_of(book, target), replaced)
+
+
+def refuse_names(book: Table, column: int, ids: int) -> None:
+    """Raise GradebookError for a column that says who somebody is: no mark goes there."""
+    head = book.rows[0][column].text
+    texts = [text_at(row, column) for row in book.rows[1:] if not is_possible(row)]
+    filled_in = [text for text in texts if text not in EMPTY]
+    words = [text for text in filled_in if not NUMERIC.match(text)]
+    if column == ids or folded(head) in PERSONS or 2 * len(words) > max(len(filled_in), 1):
+        what = "the ids" if column == ids else "names or texts"
+        found = f'"{head}" holds {what}, no points'
+        hint = "name another one with --column"
+        raise GradebookError(Problem(book.name, found, "one for points", hint))
+
+
+def text_at(row: Sequence[Cell], column: int) -> str:
+    """The text of a cell; empty where the row ends before it."""
+    return row[column].text if column < len(row) else ""
+
+
+def is_other(text: str, mark: Fraction) -> bool:
+    """Whether a cell holds something else than the mark that is put there."""
+    return text not in EMPTY and text.replace(",", ".") not in (
+        mark_text(mark, comma=False),
+        f"{float(mark):.2f}",
+        f"{float(mark):.1f}",
+    )
 
 
 def worth_of(book: Table, column: int) -> Fraction | None:
@@ -240,7 +219,8 @@ def mark_column(book: Table, head: Sequence[str], column: str | None) -> int:
             if column
             else (f"{len(found)} columns are empty")
         )
-        names = ", ".join(f'"{text}"' for text in head if text)
+        meant = [head[i] for i in found] or [text for text in head if text]
+        names = ", ".join(f'"{text}"' for text in meant)
         raise GradebookError(
             Problem(book.name, words, f"one of {names}", "name the column with --column")
         )
@@ -253,7 +233,7 @@ def is_open(book: Table, column: int) -> bool:
     if not name or is_comment(name):
         return False
     rows = [row for row in book.rows[1:] if not is_possible(row)]
-    return all(column >= len(row) or row[column].text in ("", "-") for row in rows)
+    return all(text_at(row, column) in EMPTY for row in rows)
 
 
 def is_comment(head: str) -> bool:

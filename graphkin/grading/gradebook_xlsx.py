@@ -16,7 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.errors import Problem
-from graphkin.grading.gradebook import Cell, Filled, GradebookError, filled, places, read_gradebook
+from graphkin.grading.gradebook import Cell, Filled, GradebookError, filled, places
+from graphkin.grading.gradebook_csv import read_gradebook
 from graphkin.roster.errors import RosterError
 from graphkin.roster.tables import MOST_COLUMNS, MOST_ROWS, bytes_of
 from graphkin.roster.xlsx import cell_text, refuse_bomb
@@ -106,7 +107,7 @@ def filled_workbook(
     written = io.BytesIO()
     workbook.save(written)
     data = with_times_of(book.data, written.getvalue())
-    return Filled(data, found.head, len(found.lines), found.absent, found.worth)
+    return Filled(data, found.head, len(found.lines), found.absent, found.worth, found.replaced)
 
 
 def with_times_of(before: bytes, after: bytes) -> bytes:

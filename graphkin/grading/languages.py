@@ -5,24 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from graphkin.roster.errors import RosterError
-from graphkin.roster.tables import columns, folded, read_sheet
+from graphkin.roster.languages import HEADS
+from graphkin.roster.tables import columns, read_sheet
 from graphkin.roster.written import RUNS
 from graphkin.variants.manifest import TABLE
-
-HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
-"""What the column may be called."""
-NAMES = {
-    "ro": "ro rou ron rum roman romana romanian romanesc romaneste romeno rumeno",
-    "en": "en eng english engleza englez inglese",
-    "it": "it ita italian italiana italiano italieneste",
-}
-"""What each language may be called, without diacritics."""
-CODES = {name: code for code, names in NAMES.items() for name in names.split()}
-
-
-def language_in(text: str) -> str | None:
-    """The code of a language by its code or its name; None where it is none of the pages'."""
-    return CODES.get(folded(text)) or CODES.get(folded(text.partition("-")[0]))
 
 
 def languages(folder: Path) -> dict[str, str]:

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.grading.standard import Layout, Standard, layout
-from graphkin.grading.tolerance import added, joint_errors, readings_of
+from graphkin.grading.tolerance import Errors, added, covariance, joint_errors, readings_of
 from graphkin.lab.model import Item, Rubric
 from graphkin.lab.scales import by_arrays, empty, scaled
 from graphkin.mechanism import Mechanism
@@ -240,14 +240,14 @@ def alike(found: Sequence[Standard]) -> list[list[int]]:
     return parts
 
 
-def errors_of(found: Sequence[Standard], pencil: Pencil) -> list[tuple[float, ...]]:
+def errors_of(found: Sequence[Standard], pencil: Pencil) -> list[Errors]:
     """The 95th percentile of the error of each field but senses, for variants that draw alike."""
     import numpy as np
 
     many = together([each.exact for each in found])
     fields = [probe for probe in found[0].probes if probe.item.what != "sense"]
     if not fields:
-        return [()] * len(found)
+        return [Errors((), np.zeros((0, 0)))] * len(found)
     owners, errors = sources(many)
     drawings = redrawn(many, pencil, errors)
     size = len(found), 2 * len(owners)
@@ -260,7 +260,10 @@ def errors_of(found: Sequence[Standard], pencil: Pencil) -> list[tuple[float, ..
     for i in np.flatnonzero(bent.any(axis=1)).tolist():
         readings = readings_of(found[i].probes, found[i].key, found[i].exact)
         added_up[i] = np.where(bent[i], joint_errors(readings, found[i].exact, pencil), added_up[i])
-    return [tuple(map(float, row)) for row in added_up]
+    spread = covariance(off, added_up, bent)
+    return [
+        Errors(tuple(map(float, row)), each) for row, each in zip(added_up, spread, strict=True)
+    ]
 
 
 def together(every: Sequence[Original]) -> Originals:

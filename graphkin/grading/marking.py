@@ -45,7 +45,7 @@ class Marker:
         followed = self.followed(given, wrong)
         slipped = self.slipped(given, wrong, right)
         marks = []
-        spent: set[str] = set()
+        spent: dict[str, str] = {}
         for item in self.standard.items:
             worth = self.points(item, taker.compute)
             mark = self.first_mark(item, given[item.field], right, worth)
@@ -122,26 +122,30 @@ class Marker:
         )
 
     def lesser(
-        self, mark: Mark, follows: Following | None, found: Found | None, spent: set[str]
+        self, mark: Mark, follows: Following | None, found: Found | None, spent: dict[str, str]
     ) -> Mark:
         """The share of a wrong answer: that of its slip, or of what follows, the larger.
 
         A slip of the construction costs its share once: what else it makes wrong follows from it.
+        A slip for which the rubric has no share earns nothing. ``spent`` gathers the field at which
+        each slip was paid for.
         """
         rubric = self.standard.rubric
-        slip_share = 0.0
+        slip_share, paid_at = 0.0, ""
         if found is not None:
             slip_share = rubric.slips.get(found.slip.name, 0.0)
-            if found.slip.whole and found.slip.name in spent and mark.item.what != "sense":
-                slip_share = max(slip_share, rubric.follow)
+            again = found.slip.whole and mark.item.what != "sense"
+            if again and 0 < slip_share < rubric.follow:
+                paid_at = spent.get(found.slip.name, "")
+                slip_share = rubric.follow if paid_at else slip_share
         follow_share = rubric.follow if follows is not None else 0.0
         if follows is not None and follow_share >= slip_share:
             earned = mark.points * Fraction(str(follow_share))
             mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=follows.source)
         elif found is not None:
-            spent.add(found.slip.name)
+            spent.setdefault(found.slip.name, mark.item.field)
             earned = mark.points * Fraction(str(slip_share))
-            mark = replace(mark, status=Status.SLIP, earned=earned)
+            mark = replace(mark, status=Status.SLIP, earned=earned, source=paid_at)
         return mark if found is None else replace(mark, slip=found.slip.name, odds=found.odds)
 
 

@@ -55,8 +55,9 @@ class Mark:
     """What one field earned, of ``points``, and why.
 
     ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
-    field's unit; ``source`` is the field from whose own value the answer follows, ``slip`` the
-    name of the mistake that gives it, ``odds`` how much better that explains it than chance;
+    field's unit; ``source`` is the field from whose own value the answer follows, or at which its
+    slip was paid for, ``slip`` the name of the mistake that gives it, ``odds`` how much better that
+    explains it than chance;
     ``torn`` tells of a sense that the sign of its own value contradicts.
     """
 
@@ -122,10 +123,20 @@ class Graded:
         return sum(waiting, Fraction())
 
     @property
+    def decided(self) -> Fraction:
+        """The points that do not wait."""
+        return self.points - self.pending
+
+    @property
+    def spared(self) -> Fraction:
+        """What wrong answers earned all the same, by what follows or by slips."""
+        known = (Status.FOLLOWS, Status.SLIP)
+        return sum((mark.earned for mark in self.marks if mark.status in known), Fraction())
+
+    @property
     def share(self) -> Fraction | None:
         """What was earned, in parts of the points that are decided; None without any."""
-        decided = self.points - self.pending
-        return self.earned / decided if self.present and decided else None
+        return self.earned / self.decided if self.present and self.decided else None
 
     def mark(self, name: str) -> Mark:
         """The mark of a field."""

@@ -14,6 +14,8 @@ NUMBER = re.compile(
     r"(?:(?:[eE]|\s?[*x×·]\s?10\s?\^\s?)(?P<power>[+-]?[0-9]{1,3}))?"
 )
 """A number in ASCII digits, with a point or a comma, perhaps with a power of ten."""
+MISTYPED = re.compile(r"^[0-9_']|[.,]|^[oOlI]$")
+"""What stands after the beginning of a number and is no unit: 1o,5 is not 1 of something."""
 LONGEST = 60
 """Characters of an answer; a longer one is no number."""
 UNITS: dict[str, dict[str, float]] = {
@@ -68,8 +70,7 @@ def read_number(text: str, stripped: str, unit: str) -> Answer:
     known = UNITS.get(unit, {unit: 1.0})
     factor = 1.0 if not written else known.get(written)
     if factor is None:
-        broken = written[0] in ".,_'" or written[0].isdigit()
-        return Answer(text, problem="number" if broken else "unit")
+        return Answer(text, problem="number" if MISTYPED.search(written) else "unit")
     digits = found["digits"].replace(",", ".")
     value = float(f"{digits}e{found['power'] or 0}") * factor
     if not isfinite(value):

@@ -10,13 +10,13 @@ from pathlib import Path
 from graphkin.grading.answers import Unread
 from graphkin.grading.book import Class
 from graphkin.grading.feedback import feedback_html, feedback_pages
-from graphkin.grading.languages import language_in
 from graphkin.grading.model import Graded
 from graphkin.grading.report import class_report
 from graphkin.grading.tables import differences, differences_table, marks_table, tolerances_table
 from graphkin.lab.model import Lab
 from graphkin.paper.pdf import write_pdf
 from graphkin.printing.names import stems
+from graphkin.roster.languages import language_in
 from graphkin.text import Words, words
 
 MARKS, TOLERANCES, REPORT, CHANGES = (
@@ -55,7 +55,7 @@ def report_files(
 ) -> dict[str, bytes]:
     """The files of a report by their names; with an earlier marks.csv also what changed."""
     graded = found.result.graded
-    marks = marks_table(graded)
+    marks = marks_table(found.result)
     files = {
         MARKS: marks,
         TOLERANCES: tolerances_table(graded, found.expected),

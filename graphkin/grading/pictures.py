@@ -36,16 +36,22 @@ BAR, LINE, APART, INCH = 0.5, 0.55, 0.4, 0.27
 """Heights of a bar, a line of text and the gap below a bar, and what one of height is in inches."""
 
 
-def pictures(graded: Sequence[Graded], words: Words, kind: str) -> dict[str, bytes]:
-    """Each picture by its name, as svg or png; the same bytes for the same marks."""
+def pictures(
+    graded: Sequence[Graded], words: Words, kind: str, own: Sequence[Graded] | None = None
+) -> dict[str, bytes]:
+    """Each picture by its name, as svg or png; the same bytes for the same marks.
+
+    ``own`` are those among whom slips are counted, all who are there by default.
+    """
     present = [each for each in graded if each.present]
     found: dict[str, bytes] = {}
     with look():
         if present:
             found["difficulty"] = written(difficulty(present, words), kind)
             found["distribution"] = written(distribution(present, words), kind)
-        if slip_counts(present):
-            found["slips"] = written(frequent(present, words), kind)
+        slipped = present if own is None else own
+        if slip_counts(slipped):
+            found["slips"] = written(frequent(slipped, words), kind)
     return found
 
 
@@ -130,9 +136,18 @@ def frequent(graded: Sequence[Graded], words: Words) -> Figure:
     drawn, ax = figure(0.7 + INCH * height)
     ax.barh(places, [c[2] for c in counts], height=BAR, color="#e0b04c")
     for y, lines, (_, _, students) in zip(places, texts, counts, strict=True):
-        ax.text(0, y - 0.6 * BAR, "\n".join(lines), fontsize=7.5, va="bottom", color=INK)
+        ax.annotate(
+            "\n".join(lines),
+            (0, y - 0.6 * BAR),
+            xytext=(3, 0),
+            textcoords="offset points",
+            fontsize=7.5,
+            va="bottom",
+            color=INK,
+        )
         ax.text(students, y, f" {students}", va="center", fontsize=8)
     ax.set_yticks([])
+    ax.spines["left"].set_visible(False)
     ax.set_ylim(height, 0)
     ax.set_xlim(0, max(c[2] for c in counts) * 1.08)
     ax.xaxis.get_major_locator().set_params(integer=True)

@@ -9,12 +9,12 @@ from statistics import mean, median
 
 from graphkin.grading.answers import Answers, Unread
 from graphkin.grading.html import RIGHT, marked_up, page
-from graphkin.grading.languages import language_in
 from graphkin.grading.model import Graded, Result, Suspicion, Taker
 from graphkin.grading.numbers import shown
 from graphkin.grading.pictures import pictures, slip_counts
-from graphkin.grading.rows import SLIPS
+from graphkin.grading.rows import SLIPS, points_words
 from graphkin.grading.rows import unread as unread_words
+from graphkin.roster.languages import language_in
 from graphkin.roster.model import Student
 from graphkin.text import Words
 
@@ -24,19 +24,26 @@ NAMED = 5
 
 def class_report(result: Result, title: str, unread: Sequence[Unread], words: Words) -> str:
     """The report as a page for a browser, its pictures within."""
-    pngs = pictures(result.graded, words, "png")
+    own = own_work(result)
+    pngs = pictures(result.graded, words, "png", own)
     body = [f"<h1>{escape(words('class.title'))}</h1>", f"<p>{escape(title)}</p>"]
     body.append(f'<p class="total">{escape(summary(result.graded, words))}</p>')
     for name, key in (("distribution", "class.distribution"), ("difficulty", "class.difficulty")):
         if name in pngs:
             body += [f"<h2>{escape(words(key))}</h2>", picture(pngs[name], words(key))]
-    body += slips_section(result.graded, pngs, words)
+    body += slips_section(own, pngs, words)
     body += evidence_sections(result, words)
     students = [each.taker.student for each in result.graded]
     body += lines_section(words("class.unread"), unread_lines(students, unread, words))
     body += lines_section(words("class.absent"), absent_lines(result))
     body += lines_section(words("class.unsure"), unsure_lines(result, words))
     return page(f"{title} – {words('class.title')}", words.language, body)
+
+
+def own_work(result: Result) -> list[Graded]:
+    """Who handed in answers that fit no other's data: slips are counted among these."""
+    others = {each.students[0] for each in result.wrong_variants}
+    return [g for g in result.graded if g.present and g.taker.student.id not in others]
 
 
 def summary(graded: Sequence[Graded], words: Words) -> str:
@@ -61,7 +68,7 @@ def picture(png: bytes, text: str) -> str:
 def slips_section(graded: Sequence[Graded], pngs: dict[str, bytes], words: Words) -> Iterator[str]:
     """The frequent slips, drawn and in a table."""
     yield f"<h2>{escape(words('class.frequent'))}</h2>"
-    counts = slip_counts([each for each in graded if each.present])
+    counts = slip_counts(graded)
     if not counts:
         yield f"<p>{escape(words('class.none'))}</p>"
         return
@@ -83,10 +90,7 @@ def slips_section(graded: Sequence[Graded], pngs: dict[str, bytes], words: Words
 def evidence_sections(result: Result, words: Words) -> Iterator[str]:
     """Wrong variants and copies; nothing where there is no evidence."""
     names = {each.taker.student.id: name_of(each) for each in result.graded}
-    yield from lines_section(
-        words("class.wrong_variant"),
-        (wrong_variant_words(each, names, words) for each in result.wrong_variants),
-    )
+    yield from lines_section(words("class.wrong_variant"), wrong_variant_lines(result, words))
     yield from lines_section(
         words("class.copies"), (copies_words(each, names, words) for each in result.copies)
     )
@@ -102,6 +106,19 @@ def name_of(graded: Graded) -> str:
 def named(student: Student) -> str:
     """The same of a class list."""
     return f"{student.name} ({student.id})" if student.name else student.id
+
+
+def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
+    """Each wrong variant, with the points that the row earned and what of them a person decides."""
+    graded = {each.taker.student.id: each for each in result.graded}
+    names = {who: name_of(each) for who, each in graded.items()}
+    for found in result.wrong_variants:
+        each = graded[found.students[0]]
+        text = wrong_variant_words(found, names, words)
+        amounts = (each.earned, each.decided, each.spared)
+        earned, points, spared = (points_words(amount, words) for amount in amounts)
+        text += f"; {words('class.stays', earned=earned, points=points)}"
+        yield f"{text}, {words('class.spared', spared=spared)}" if each.spared else text
 
 
 def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
@@ -197,7 +214,6 @@ def result_lines(result: Result, words: Words) -> Iterator[str]:
     """What a terminal shows: how the class did, and evidence."""
     yield summary(result.graded, words)
     names = {each.taker.student.id: name_of(each) for each in result.graded}
-    for each in result.wrong_variants:
-        yield wrong_variant_words(each, names, words)
+    yield from wrong_variant_lines(result, words)
     for each in result.copies:
         yield copies_words(each, names, words)

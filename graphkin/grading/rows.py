@@ -73,6 +73,10 @@ UNREAD = {
 }
 """The sentence for each reason why a cell cannot be read."""
 REVERSED = "sense_reversed"
+UNTOLD = "…"
+"""What stands for an expected value that is kept back."""
+NEGLIGIBLE = 0.01
+"""Part of what is allowed below which an answer is off by nothing."""
 MANIFOLD = 2.0
 """From so many times on an answer is told beside the expected value, not beside its tolerance."""
 BARELY = 1.05
@@ -97,12 +101,13 @@ def rows(graded: Graded, words: Words) -> list[Row]:
 
 def row_of(graded: Graded, mark: Mark, words: Words) -> Row:
     """What a student is told of one field."""
+    open_yet = is_open(graded, mark)
     cells = (
         quantity(mark, words),
-        escape(safe(mark.answer.text)),
-        value_words(mark, words, mark.expected),
-        allowed_words(mark, words),
-        off_words(mark, words),
+        answer_words(mark, words),
+        UNTOLD if open_yet else value_words(mark, words, mark.expected),
+        "" if open_yet else allowed_words(mark, words),
+        "" if open_yet else off_words(mark, words),
         words(
             "feedback.of_points",
             earned=points_words(mark.earned, words) if is_decided(mark) else "?",
@@ -110,6 +115,21 @@ def row_of(graded: Graded, mark: Mark, words: Words) -> Row:
         ),
     )
     return Row(cells, why(graded, mark, words), mark.status)
+
+
+def is_open(graded: Graded, mark: Mark) -> bool:
+    """Whether the key of a field is kept back: it waits, or would tell that of one that does."""
+    if mark.status is Status.RIGHT:
+        return False
+    mine = (mark.item.quantity, mark.item.of)
+    return any((m.item.quantity, m.item.of) == mine for m in graded.marks if not is_decided(m))
+
+
+def answer_words(mark: Mark, words: Words) -> str:
+    """An answer as it was written; a sense in the words of the page."""
+    if mark.item.what == "sense" and mark.answer.value:
+        return value_words(mark, words, mark.answer.value)
+    return escape(safe(mark.answer.text))
 
 
 def safe(text: str) -> str:
@@ -159,6 +179,8 @@ def off_words(mark: Mark, words: Words) -> str:
     """How far an answer is off, in the field's unit; nothing for a sense or without an answer."""
     if mark.item.what == "sense" or mark.off is None or isnan(mark.off):
         return ""
+    if abs(mark.off) < NEGLIGIBLE * mark.tolerance:
+        return "0"
     sign = "+" if mark.off > 0 else ""
     return sign + words.significant(mark.off, 2)
 
@@ -176,16 +198,26 @@ def why(graded: Graded, mark: Mark, words: Words) -> str:
         parts = [words("feedback.wrong_sense"), *advice(mark, words)]
     elif mark.status is Status.FOLLOWS:
         parts = []
+    elif is_open(graded, mark):
+        parts = [words("feedback.kept_back")]
     else:
         parts = [far(mark, words)]
     if mark.status is Status.FOLLOWS:
-        source = next(each.item for each in graded.marks if each.item.field == mark.source)
-        parts.append(words("feedback.follows", source=source.symbol, share=percent(mark)))
+        source = graded.mark(mark.source).item.symbol
+        parts.append(words("feedback.follows", source=source, share=percent(mark)))
     elif mark.slip and mark.slip != REVERSED:
         parts.append(words("feedback.guess", slip=words(SLIPS[mark.slip])))
     if mark.status is Status.SLIP and mark.earned:
-        parts.append(words("feedback.share", share=percent(mark)))
+        parts.append(share_words(graded, mark, words))
     return "; ".join(parts)
+
+
+def share_words(graded: Graded, mark: Mark, words: Words) -> str:
+    """What a slip leaves of the points: its own share once, then that of what follows from it."""
+    if not mark.source:
+        return words("feedback.share", share=percent(mark))
+    source = graded.mark(mark.source).item.symbol
+    return words("feedback.again", source=source, share=percent(mark))
 
 
 def advice(mark: Mark, words: Words) -> list[str]:

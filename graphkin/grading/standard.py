@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from graphkin.arithmetic import FLOAT
 from graphkin.grading.probes import Probe, probes, targets_of
-from graphkin.grading.tolerance import Tolerance, pencil_errors, readings_of, tolerances
+from graphkin.grading.tolerance import (
+    Errors,
+    Tolerance,
+    pencil_errors,
+    readings_of,
+    tolerances,
+)
 from graphkin.lab.model import Item, Rubric
 from graphkin.mechanism import Mechanism
 from graphkin.pencil.marks import Paper
@@ -29,6 +35,8 @@ class Expectation:
     items: tuple[Item, ...]
     key: Mapping[str, float]
     tolerance: Mapping[str, Tolerance]
+    spread: Any = field(default=None, compare=False)
+    """The covariance of the pencil's errors of the fields that have a tolerance, in their order."""
 
     @cached_property
     def item(self) -> Mapping[str, Item]:
@@ -97,7 +105,7 @@ class Standard:
     rubric: Rubric
     computed: tuple[str, ...] = ()
     """The fields that are too small to be measured."""
-    errors: tuple[float, ...] | None = None
+    errors: Errors | None = None
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -128,17 +136,20 @@ class Standard:
     def tolerance(self) -> Mapping[str, Tolerance]:
         """How far each field but senses may be off."""
         readings = readings_of(self.probes, self.key, self.exact)
-        errors = self.errors
-        if errors is None:
-            errors = pencil_errors(
-                readings, self.exact, Pencil(self.rubric.point, self.rubric.line)
-            )
-        return tolerances(readings, errors, self.rubric, self.computed)
+        return tolerances(readings, self.pencil.each, self.rubric, self.computed)
+
+    @cached_property
+    def pencil(self) -> Errors:
+        """What a pencil makes of the fields but senses."""
+        if self.errors is not None:
+            return self.errors
+        readings = readings_of(self.probes, self.key, self.exact)
+        return pencil_errors(readings, self.exact, Pencil(self.rubric.point, self.rubric.line))
 
     @cached_property
     def expectation(self) -> Expectation:
         """What is expected, for reports."""
-        return Expectation(self.items, self.key, self.tolerance)
+        return Expectation(self.items, self.key, self.tolerance, self.pencil.together)
 
     @property
     def paper(self) -> Paper:

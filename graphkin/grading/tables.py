@@ -8,12 +8,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from graphkin.grading.model import Graded, Mark, Status
+from graphkin.grading.model import Graded, Mark, Result, Status
 from graphkin.grading.standard import Expectation
 from graphkin.roster.written import csv_text
+from graphkin.text import Words
 
-BEFORE = ("row", "number", "id", "name", "group", "points", "of", "percent", "pending")
+BEFORE = ("row", "number", "id", "name", "group", "points", "of", "percent", "pending", "evidence")
 WHY = " why"
+FIRST = 5
+"""Changes that a terminal shows."""
 
 
 def number(value: Fraction | float) -> str:
@@ -27,17 +30,20 @@ def written(lines: Iterable[Sequence[object]]) -> bytes:
     return ("\ufeff" + csv_text(lines)).encode("utf-8")
 
 
-def marks_table(graded: Sequence[Graded], extra: Sequence[str] = ()) -> bytes:
+def marks_table(result: Result) -> bytes:
     """A row for each student in the order of the class: points of each field, and why.
 
-    ``percent`` is of the points that are decided; ``pending`` are those that wait.
+    ``of`` and ``percent`` are of the points that are decided; ``pending`` are those that wait;
+    ``evidence`` names whose data the answers fit better than the own.
     """
+    graded = result.graded
+    fits = {each.students[0]: f"fits {each.students[1]}" for each in result.wrong_variants}
     fields = [mark.item.field for mark in graded[0].marks if mark.points] if graded else []
-    head = [*BEFORE, *fields, *(f"{name}{WHY}" for name in fields), *extra]
-    return written([head, *(marks_row(each, fields, extra) for each in graded)])
+    head = [*BEFORE, *fields, *(f"{name}{WHY}" for name in fields)]
+    return written([head, *(marks_row(each, fields, fits) for each in graded)])
 
 
-def marks_row(graded: Graded, fields: Sequence[str], extra: Sequence[str]) -> list[str]:
+def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, str]) -> list[str]:
     """One student's row."""
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
@@ -49,12 +55,12 @@ def marks_row(graded: Graded, fields: Sequence[str], extra: Sequence[str]) -> li
         student.name,
         student.group,
         number(graded.earned) if graded.present else "",
-        number(graded.points),
+        number(graded.decided),
         f"{float(100 * share):.1f}" if share is not None else "",
         number(graded.pending) if graded.pending else "",
+        fits.get(student.id, ""),
         *(points_cell(marks[name]) if graded.present else "" for name in fields),
         *(reason(graded, name) if graded.present else "" for name in fields),
-        *(student.extra.get(name, "") for name in extra),
     ]
 
 
@@ -64,9 +70,15 @@ def points_cell(mark: Mark) -> str:
 
 
 def reason(graded: Graded, name: str) -> str:
-    """What was found of a field, in plain words: right, follows v_BA_mm, slip rpm_as_rad."""
+    """What was found of a field, in plain words: right, follows v_BA_mm, slip rpm_as_rad, slip
+    rpm_as_rad paid at v_D.
+    """
     mark = graded.mark(name)
-    parts = (mark.status.value, mark.source, mark.slip, "contradicts its sign" if mark.torn else "")
+    source, paid = mark.source, ""
+    if mark.status is Status.SLIP and source:
+        source, paid = "", f"paid at {source}"
+    torn = "contradicts its sign" if mark.torn else ""
+    parts = (mark.status.value, source, mark.slip, paid, torn)
     return " ".join(part for part in parts if part)
 
 
@@ -124,6 +136,17 @@ def changed(
     for column in dict.fromkeys((*old, *new)):
         if column not in ("row", "name", "group") and old.get(column, "") != new.get(column, ""):
             yield who, column, old.get(column, ""), new.get(column, "")
+
+
+def change_lines(table: bytes, words: Words) -> Iterable[str]:
+    """What a terminal shows of a difference list: how many students and cells, and the first."""
+    rows = list(csv.reader(io.StringIO(table.decode("utf-8-sig"), newline="")))[1:]
+    if not rows:
+        yield words("class.unchanged")
+        return
+    yield words("class.changes", count=len(rows), students=len({row[0] for row in rows}))
+    for who, column, before, after in rows[:FIRST]:
+        yield f"  {who}, {column}: {before or '–'} → {after or '–'}"
 
 
 def differences_table(found: Iterable[tuple[str, str, str, str]]) -> bytes:

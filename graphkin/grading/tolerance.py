@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot, inf, isfinite
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphkin.grading.probes import Probe
 from graphkin.lab.model import Rubric
@@ -19,7 +19,7 @@ from graphkin.pencil.drawing import redrawn
 from graphkin.pencil.forecast import BENT, JOINT, NORMAL_95, SEED, WEIGHT, sources
 from graphkin.pencil.marks import Mark
 from graphkin.pencil.original import Original
-from graphkin.pencil.pencil import Pencil
+from graphkin.pencil.pencil import STRAIGHT, Pencil
 from graphkin.pencil.simulation import COMMON
 from graphkin.steps.program import Plane
 
@@ -54,6 +54,13 @@ class Reading:
         return self.probe.error(found, self.exact.paper, self.value)
 
 
+class Errors(NamedTuple):
+    """The pencil's error of each field, and the covariance of all of them in one drawing."""
+
+    each: tuple[float, ...]
+    together: Any
+
+
 def readings_of(
     probes: Sequence[Probe], key: Mapping[str, float], exact: Original
 ) -> list[Reading]:
@@ -85,23 +92,39 @@ def tolerances(
     }
 
 
-def pencil_errors(
-    readings: Sequence[Reading], exact: Original, pencil: Pencil
-) -> tuple[float, ...]:
+def pencil_errors(readings: Sequence[Reading], exact: Original, pencil: Pencil) -> Errors:
     """The 95th percentile of the error of each field over drawings with a pencil."""
     import numpy as np
 
     if not readings:
-        return ()
+        return Errors((), np.zeros((0, 0)))
     owners, errors = sources(exact)
     drawings = redrawn(exact, pencil, errors)
     count = 2 * len(owners)
     off = np.array([np.broadcast_to(each.error(drawings), count) for each in readings])
-    found, bent = added(off.reshape(len(readings), -1, 2))
+    single = off.reshape(len(readings), -1, 2)
+    found, bent = added(single)
     if bent.any():
         joint = joint_errors(readings, exact, pencil)
         found = np.where(bent, joint, found)
-    return tuple(float(error) for error in found)
+    return Errors(tuple(float(error) for error in found), covariance(single, found, bent))
+
+
+def covariance(off: Any, errors: Any, bent: Any) -> Any:
+    """How the errors of fields go together in one drawing, from single errors at both their nodes.
+
+    Fields whose errors do not just add up are held to go with no other.
+    """
+    import numpy as np
+
+    parts = np.where(np.asarray(bent)[..., None, None], 0.0, off)
+    mean = WEIGHT * parts.sum(axis=-1)
+    found = WEIGHT * np.einsum("...isk,...jsk->...ij", parts, parts, optimize=True)
+    found = found - np.einsum("...is,...js->...ij", mean, mean, optimize=True)
+    alone = np.where(bent, np.asarray(errors) / STRAIGHT, 0.0)
+    each = np.arange(found.shape[-1])
+    found[..., each, each] += alone**2
+    return found
 
 
 def added(off: Any) -> tuple[Any, Any]:

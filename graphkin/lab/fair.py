@@ -85,8 +85,15 @@ class Fairness:
 
     @cached_property
     def flattest(self) -> Array:
-        """The smallest angle of a crossing in degrees, 90 where nothing crosses."""
+        """The smallest angle of a crossing in degrees, 90 where nothing crosses; rays to centres
+        and poles are told by themselves.
+        """
         return least_of(self.crossings, len(self), 90.0)
+
+    @cached_property
+    def flattest_rays(self) -> Array:
+        """The smallest angle in degrees of rays to a centre or pole; infinite where none is."""
+        return least_of(self.rays, len(self), float("inf"))
 
     @cached_property
     def shortest(self) -> Array:

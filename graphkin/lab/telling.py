@@ -33,7 +33,9 @@ def trial_lines(trial: Trial) -> Iterator[str]:
     computed = [(name, fairness.computed(i)) for i, name in enumerate(trial.names)]
     yield from labelled("compute", list(computed_lines(computed, who)))
     drawn = fairness.closes & fairness.fits
-    spread = spread_lines(fairness.flattest[drawn], fairness.shortest[drawn])
+    spread = spread_lines(
+        fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
+    )
     yield from labelled("spread", spread)
     yield from labelled("marks", list(mark_lines(trial)))
 
@@ -103,12 +105,17 @@ def some(names: Sequence[str]) -> str:
     return ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
 
 
-def spread_lines(flattest: Sequence[float], shortest: Sequence[float]) -> list[str]:
-    """How much the difficulty differs from variant to variant."""
+def spread_lines(
+    flattest: Sequence[float], shortest: Sequence[float], rays: Sequence[float]
+) -> list[str]:
+    """How much the difficulty differs from variant to variant; crossings on which answers hang,
+    and those of the rays to centres and poles, which cross flatter and spoil nothing else.
+    """
     rows = [
         (words, *(f"{value:.1f}" for value in found))
         for words, values in (
             ("flattest crossing, °", flattest),
+            ("flattest rays to a centre or pole, °", rays),
             ("shortest segment, mm", shortest),
         )
         if (found := quantiles(values))

@@ -92,17 +92,24 @@ NAMED = {"name", "first", "last"}
 Check = Callable[[Student], Iterable[Problem]]
 """Finds what is wrong with a student."""
 MOST_DIGITS = 9
+Tell = Callable[[str], object]
+"""Tells a note that is no mistake."""
 LONGEST_ID, LONGEST_NAME = 100, 200
 WHOLE = re.compile(r"[0-9]+")
 DECIMAL_ZERO = re.compile(r"([0-9]+)[.,]0+")
 
 
 def read_roster(
-    path: str | Path, *, numbered: bool = False, check: Check | None = None
+    path: str | Path,
+    *,
+    numbered: bool = False,
+    check: Check | None = None,
+    tell: Tell | None = None,
 ) -> list[Student]:
     """The students of a class list, in its order; RosterError with every problem, row by row.
 
-    ``numbered`` demands a number of each; ``check`` says what else is wrong with one who has it.
+    ``numbered`` demands a number of each; ``check`` says what else is wrong with one who has it;
+    ``tell`` gets a note where ids may have lost their leading zeros.
     """
     told = Told(Path(path).name)
     sheet = read_sheet(
@@ -120,7 +127,24 @@ def read_roster(
     if not sheet.rows and not told.problems:
         told.add(sheet.name, "no student below the head", "a row for each student")
     told.stop()
+    note = lost_zeros(sheet, where["id"])
+    if note and tell is not None:
+        tell(note)
     return students
+
+
+def lost_zeros(sheet: Sheet, column: int) -> str:
+    """A note where ids are numbers in a workbook, which keep no zeros before them; else nothing."""
+    bare = [row.cells[column] for row in sheet.rows if column in row.numbers]
+    if not bare:
+        return ""
+    others = [row.cells[column] for row in sheet.rows if column not in row.numbers]
+    padded = next((text for text in others if WHOLE.fullmatch(text) and text[0] == "0"), "")
+    why = f", and others such as {padded} have some" if padded else ""
+    return (
+        f"{sheet.name}: {len(bare)} ids are numbers in the file, such as {bare[0]}: leading zeros"
+        f" would be lost{why}; if the ids have any, format the column as text and type them again"
+    )
 
 
 def found_columns(sheet: Sheet, told: Told, numbered: bool) -> dict[str, int]:
@@ -134,9 +158,7 @@ def found_columns(sheet: Sheet, told: Told, numbered: bool) -> dict[str, int]:
     for what, others in wanted.items():
         if what not in where:
             heads = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12]) or "nothing"
-            hint = next(
-                (h for cell in sheet.head if (h := nearest(cell, [what, *NAMES[what]]))), ""
-            )
+            hint = next((meant(cell, what) for cell in sheet.head if meant(cell, what)), "")
             why = "; the lab's formula needs the student's number" if what == "number" else ""
             told.add(
                 sheet.name,
@@ -145,6 +167,12 @@ def found_columns(sheet: Sheet, told: Told, numbered: bool) -> dict[str, int]:
                 hint or "the first row names the columns",
             )
     return where
+
+
+def meant(head: str, what: str) -> str:
+    """A hint where a head nearly is a name of some column; empty where it is far from all."""
+    near = nearest(head, [what, *NAMES[what]])
+    return f'is it "{visible(head)}"? then call that column "{what}"' if near else ""
 
 
 def student(sheet: Sheet, row: Row, where: dict[str, int], told: Told, numbered: bool) -> Student:
@@ -205,7 +233,7 @@ def number_in(
     if WHOLE.fullmatch(text) and len(text) <= MOST_DIGITS:
         return int(text)
     if text and numbered:
-        told.add(place, f"{shown(text)} is not a number", "a whole number, such as 7")
+        told.add(place, f"{shown(text)} is no whole number from 0 on", "a number such as 7")
     elif numbered and "number" in where:
         told.add(place, "is missing", "the student's number, which the lab's formula needs")
     return None

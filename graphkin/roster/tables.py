@@ -32,10 +32,14 @@ ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One row: its line in the file, or its row in the sheet, and its cells by column."""
+    """One row: its line in the file, or its row in the sheet, and its cells by column.
+
+    ``numbers`` are the columns of cells that are numbers in the file, without zeros before them.
+    """
 
     line: int
     cells: tuple[str, ...]
+    numbers: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +192,11 @@ def broken(message: str) -> tuple[str, str, str]:
 
 def sheet_of(name: str, rows: Sequence[Row], separator: str, told: Told) -> Sheet:
     """A table of rows: the first that is not empty is its head, empty ones are left out."""
-    full = [Row(r.line, tuple(map(tidy, r.cells))) for r in rows if any(c.strip() for c in r.cells)]
+    full = [
+        Row(r.line, tuple(map(tidy, r.cells)), r.numbers)
+        for r in rows
+        if any(c.strip() for c in r.cells)
+    ]
     if not full:
         told.stop()
         raise RosterError(
@@ -215,7 +223,8 @@ def sheet_of(name: str, rows: Sequence[Row], separator: str, told: Told) -> Shee
             continue
         for i, cell in enumerate(cells):
             refuse_hidden(told, f'{name}, row {row.line}, column "{visible(head.cells[i])}"', cell)
-        rows_found.append(Row(row.line, cells + ("",) * (width - len(cells))))
+        whole = cells + ("",) * (width - len(cells))
+        rows_found.append(Row(row.line, whole, row.numbers))
     return Sheet(name, head.cells[:width], tuple(rows_found), separator)
 
 

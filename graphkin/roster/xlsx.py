@@ -30,7 +30,8 @@ def xlsx_rows(data: bytes, name: str) -> Iterator[Row]:
         sheet = book.active if book.active is not None else book.worksheets[0]
         rows = sheet.iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1)
         for number, cells in enumerate(rows, 1):
-            yield Row(number, tuple(map(cell_text, cells)))
+            bare = frozenset(i for i, cell in enumerate(cells) if is_bare(cell))
+            yield Row(number, tuple(map(cell_text, cells)), bare)
     except RosterError:
         raise
     except Exception as error:
@@ -68,6 +69,12 @@ def unreadable(name: str) -> RosterError:
     """The error for a file that is no workbook."""
     hint = "open it in a spreadsheet and save it again, or as CSV UTF-8"
     return RosterError(Problem(name, "cannot be read as XLSX", "a workbook", hint))
+
+
+def is_bare(cell: Any) -> bool:
+    """Whether a cell is a number that shows no zeros before it: 0041 would be 41."""
+    number = isinstance(cell.value, int | float) and not isinstance(cell.value, bool)
+    return number and not PADDED.fullmatch(getattr(cell, "number_format", "") or "")
 
 
 def cell_text(cell: Any) -> str:

@@ -8,7 +8,7 @@
   const SVG = "http://www.w3.org/2000/svg";
   const READABLE = 3.2; // dots to the millimetre at which lettering of 2.5 mm can be read
   const EDGE = 7, LEAST = 60; // mm about what is looked at, and its least width
-  const AIR = 3, MOST = 3.5; // mm about what a field is shifted or grows for; parts of a field beyond its edges that are shown
+  const AIR = 3, MOST = [0.6, 3.5]; // mm about what a field is shifted or grows for; parts of the mechanism's and the plan's field beyond its edges that are shown
   const NARROW = 640; // dots of the screen below which reasons are folded
   const DEAD = Math.sin(Math.PI / 180), FAR = 1e-4; // sines of crossings below which no hand can tell where; those of far centres and poles
   const TINTS = 4; // colours that tell apart what one sentence draws for several points
@@ -324,7 +324,7 @@
     if (!found) return base;
     const [starts, sizes] = [[], []];
     for (const axis of [0, 1]) {
-      const reach = MOST * whole[axis + 2];
+      const reach = MOST[side] * whole[axis + 2];
       const low = Math.max(found[axis] - AIR, whole[axis] - reach);
       const high = Math.min(found[axis] + found[axis + 2] + AIR, whole[axis] + whole[axis + 2] + reach);
       const size = Math.max(base[axis + 2], high - low);

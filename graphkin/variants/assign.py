@@ -22,8 +22,9 @@ class Assigned:
     """The data of one student, and how fair they are.
 
     ``attempt`` counts the drawings before this one; ``faults`` are the limits that are not kept,
-    ``computed`` the fields that are computed for want of something to measure. ``flattest`` is in
-    degrees, ``shortest`` in mm; both None where nothing can be drawn.
+    ``computed`` the fields that are computed for want of something to measure. ``flattest`` and
+    ``rays``, those to centres and poles, are in degrees, ``shortest`` in mm; None where nothing of
+    the kind can be drawn.
     """
 
     student: Student
@@ -33,6 +34,7 @@ class Assigned:
     computed: tuple[str, ...] = ()
     flattest: float | None = None
     shortest: float | None = None
+    rays: float | None = None
 
     @property
     def fair(self) -> bool:
@@ -116,7 +118,7 @@ def one(
 ) -> Assigned:
     """The data of one student with what the batch says of them."""
     drawn = bool(fairness.closes[index] and fairness.fits[index])
-    shortest = float(fairness.shortest[index])
+    shortest, rays = float(fairness.shortest[index]), float(fairness.flattest_rays[index])
     return Assigned(
         student,
         given,
@@ -125,4 +127,5 @@ def one(
         fairness.computed(index),
         float(fairness.flattest[index]) if drawn else None,
         shortest if drawn and shortest != float("inf") else None,
+        rays if drawn and rays != float("inf") else None,
     )

@@ -29,7 +29,8 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     drawn = [each for each in found if each.flattest is not None]
     angles = [each.flattest for each in drawn if each.flattest is not None]
     lengths = [each.shortest for each in drawn if each.shortest is not None]
-    yield from labelled("spread", spread_lines(angles, lengths))
+    rays = [each.rays for each in drawn if each.rays is not None]
+    yield from labelled("spread", spread_lines(angles, lengths, rays))
     if isinstance(lab.rule, Formula):
         yield from labelled("note", alike_lines([each.student for each in found]))
 

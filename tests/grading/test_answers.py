@@ -225,3 +225,27 @@ def test_what_a_row_breaks_is_told_with_all_else(tmp_path):
         read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
     rows = [problem.place.partition(", row ")[2][0] for problem in error.value.problems]
     assert rows == ["2", "3", "4"]
+
+
+def test_the_answers_to_another_lab_are_refused_with_their_columns(tmp_path):
+    text = "id,v_D,v_Q,a_Q,omega_9\n001,3.8,1,2,3\n"
+    with pytest.raises(RosterError, match="only 1 of the form's 4 fields") as refused:
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    assert "v_Q, a_Q, omega_9" in str(refused.value)
+    with pytest.raises(RosterError, match=r"no column is a field of the form.*v_Q"):
+        read_answers(written(tmp_path, "b.csv", "id,v_Q,a_Q\n001,1,2\n"), FORM, IDS)
+
+
+def test_a_part_of_the_form_is_no_other_lab(tmp_path):
+    found = read_answers(written(tmp_path, "a.csv", "id,v_D\n001,3.8\n"), FORM, IDS)
+    assert found.missing == ["v_D_mm", "omega_3", "omega_3_sense"]
+
+
+def test_who_is_not_in_the_class_is_told_what_to_do(tmp_path):
+    with pytest.raises(RosterError, match="leave that row out; or put the student into"):
+        read_answers(written(tmp_path, "a.csv", "id,v_D\n9999,3.8\n"), FORM, IDS)
+
+
+@pytest.mark.parametrize("text", ["1o,5", "3.8.2", "1O", "2l"])
+def test_a_mistyped_number_is_no_matter_of_units(text):
+    assert read_answer(text, SPEED).problem == "number"

@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 
 from graphkin.grading.feedback import feedback_html, feedback_pages, notes, total
-from graphkin.grading.model import Answer, Graded, Mark, Status
+from graphkin.grading.model import Answer, Graded, Mark, Result, Status
 from graphkin.grading.report import summary
 from graphkin.grading.rows import rows, times
 from graphkin.grading.tables import marks_table, read_marks
@@ -109,7 +109,7 @@ def test_a_sense_that_the_sign_of_its_value_contradicts_earns_nothing(value, sen
     assert mark.earned == 0
     assert mark.status is Status.WRONG
     assert why(found, "omega_3_sense", language) == words(language)("feedback.torn")
-    table = read_marks(marks_table([found]))
+    table = read_marks(marks_table(Result((found,))))
     assert table["s007"]["omega_3_sense why"] == "wrong contradicts its sign"
 
 
@@ -161,7 +161,9 @@ def test_a_student_is_told_what_waits_and_what_could_have_been_read(language):
     (note,) = notes(found, spoken)
     assert spoken.decimal("1.5") in note
     assert "v" in plain(note)
-    assert total(found, spoken) == spoken("feedback.total", earned="19", points="19")
+    decided = spoken("feedback.total", earned="19", points="19")
+    waits = spoken("feedback.waiting", pending=spoken.decimal("1.5"))
+    assert total(found, spoken) == f"{decided}, {waits}"
     assert plain(spoken("unread.turning")) in why(found, "omega_2_sense", language)
     cells = [row.cells[-1] for row in rows(found, spoken) if row.status is Status.UNREADABLE]
     assert [cell[0] for cell in cells] == ["?", "?"]
@@ -169,9 +171,50 @@ def test_a_student_is_told_what_waits_and_what_could_have_been_read(language):
     assert "sus" in text
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_slip_that_is_paid_once_says_so(language):
+    """Both shares stand on the page with their reason: the slip's own, then what follows."""
+    found, spoken = mistaken("pump", "rpm_as_rad"), words(language)
+    numbers = [m for m in found.marks if m.slip == "rpm_as_rad" and m.status is Status.SLIP]
+    first, second = (why(found, m.item.field, language) for m in numbers[:2])
+    assert plain(spoken("feedback.share", share="50")) in first
+    again = spoken("feedback.again", source=numbers[0].item.symbol, share="80")
+    assert plain(again) in second
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_key_of_what_waits_is_kept_back(language):
+    """Neither the field itself, nor the segment from which it is reckoned, tells it."""
+    far = Answer("99", 99.0)
+    found = graded({"v_D": Answer("3,8,2", problem="number"), "v_D_mm": far})
+    spoken = words(language)
+    told = {
+        mark.item.field: row for mark, row in zip(found.marks, rows(found, spoken), strict=True)
+    }
+    for field in ("v_D", "v_D_mm"):
+        assert told[field].cells[2:5] == ("…", "", "")
+        assert spoken.significant(abs(key(field))) not in " ".join(told[field].cells)
+    assert plain(spoken("feedback.kept_back")) in why(found, "v_D_mm", language)
+    assert told["a_D"].cells[2] == spoken.significant(abs(key("a_D")))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_sense_is_told_in_the_language_of_the_page_whatever_was_written(language):
+    found = graded({"omega_3_sense": Answer("trigonometric", 1.0, signed=True)})
+    marks = [mark.item.field for mark in found.marks if mark.points]
+    row = rows(found, words(language))[marks.index("omega_3_sense")]
+    assert row.cells[1] == words(language)("feedback.anticlockwise")
+
+
+def test_what_is_off_by_next_to_nothing_is_off_by_nought():
+    found = graded({"v_D": Answer("x", key("v_D") + 1e-5 * tolerance("v_D"))})
+    marks = [mark.item.field for mark in found.marks if mark.points]
+    assert rows(found, words("en"))[marks.index("v_D")].cells[4] == "0"
+
+
 def test_the_table_and_the_summary_leave_out_what_waits():
     found = waiting()
-    (row,) = read_marks(marks_table([found])).values()
+    (row,) = read_marks(marks_table(Result((found,)))).values()
     assert row["pending"] == "1.5"
     assert row["percent"] == "100.0"
     assert row["v_D"] == row["omega_2_sense"] == ""
@@ -188,7 +231,7 @@ def test_a_form_of_which_nothing_can_be_read_has_no_share():
     assert found.share is None
     assert found.pending == found.points
     assert summary([found], words("en")).startswith("1 of 1 students handed in; mean –")
-    assert read_marks(marks_table([found]))["s007"]["percent"] == ""
+    assert read_marks(marks_table(Result((found,))))["s007"]["percent"] == ""
 
 
 # --- the page -----------------------------------------------------------------------------------

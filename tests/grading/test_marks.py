@@ -205,6 +205,27 @@ def test_rev_per_minute_taken_for_rad_per_second_cost_their_share_once():
     assert set(sorted(shares)[1:]) == {Fraction("0.8")}
 
 
+def test_a_slip_without_a_share_earns_nothing():
+    """However often it explains an answer; what follows from own values earns its share."""
+    marker = marker_with("pump", (), slips={}, follow=0.8)
+    slip = next(s for s in marker.slips if s.name == "rpm_as_rad")
+    slipped = [m for m in marked(marker, **slip.values).values() if m.slip]
+    assert len(slipped) > 3
+    assert all(not m.earned for m in slipped if m.status is Status.SLIP)
+
+
+def test_what_comes_after_a_slip_names_the_field_at_which_it_was_paid_for():
+    marker = marker_with("pump", (), slips={"rpm_as_rad": 0.5})
+    slip = next(s for s in marker.slips if s.name == "rpm_as_rad")
+    marks = [m for m in marked(marker, **slip.values).values() if m.status is Status.SLIP]
+    numbers = [m for m in marks if m.item.what != "sense"]
+    first, *others = numbers
+    assert (first.source, first.earned / first.points) == ("", Fraction("0.5"))
+    assert others
+    assert {m.source for m in others} == {first.item.field}
+    assert {m.earned / m.points for m in others} == {Fraction("0.8")}
+
+
 def test_a_crank_that_is_reckoned_too_fast_leaves_the_drawing_as_it_is():
     """kv = ω·kL and ka = ω²·kL: segments stay, velocities grow with ω, accelerations with ω²."""
     marker = marker_of("pump", 7)

@@ -20,12 +20,13 @@ from click.testing import CliRunner
 from graphkin.cli import app
 from graphkin.grading.book import Class, graded_class
 from graphkin.grading.feedback import feedback_html, feedback_pages
-from graphkin.grading.gradebook import GradebookError, filled, read_gradebook
-from graphkin.grading.languages import language_in
+from graphkin.grading.gradebook import GradebookError, filled
+from graphkin.grading.gradebook_csv import read_gradebook
 from graphkin.grading.model import Answer, Taker
 from graphkin.grading.outputs import Told, report_files
 from graphkin.grading.rows import rows
 from graphkin.grading.tables import differences, marks_table, read_marks
+from graphkin.roster.languages import language_in
 from graphkin.roster.model import Student
 from graphkin.text import LANGUAGES, words
 from tests.grading.students import book_of, given, key_answers, lab_of, marker_of
@@ -107,15 +108,16 @@ def test_a_form_of_many_fields_goes_on_to_further_pages():
 
 
 def test_marks_are_a_table_that_no_spreadsheet_runs():
-    data = marks_table(small_class().result.graded)
+    data = marks_table(small_class().result)
     table = list(csv.DictReader(io.StringIO(data.decode("utf-8-sig"))))
     assert [row["id"] for row in table] == ["'=1+1", "0002"]
     assert table[0]["group"] == "'=cmd"
     assert table[0]["v_D why"] == "unreadable"
     assert table[1]["points"] == ""
-    assert table[0]["points"] == str(
-        float(table[0]["of"]) - float(lab_of("pump").rubric.points["v_D"])
-    ).removesuffix(".0")
+    assert table[0]["points"] == table[0]["of"]
+    worth = lab_of("pump").rubric.points
+    assert float(table[0]["of"]) == float(sum(worth.values()) - worth["v_D"])
+    assert float(table[0]["pending"]) == float(worth["v_D"])
 
 
 def test_a_new_marking_lists_what_changed_and_nothing_else():
@@ -199,6 +201,27 @@ def test_a_gradebook_that_cannot_be_filled_is_refused(tmp_path, text, column, wo
         filled(book(tmp_path, text), MARKS, column)
 
 
+@pytest.mark.parametrize("column", ["First name", "Surname", "ID number", "Institution"])
+def test_no_mark_is_written_over_a_name_or_an_id(tmp_path, column):
+    with pytest.raises(GradebookError, match="no points"):
+        filled(book(tmp_path, MOODLE), MARKS, column)
+
+
+def test_cells_that_held_other_marks_are_counted(tmp_path):
+    text = MOODLE.replace("UPB,-,", "UPB,7.25,").replace('UPB,"-"', 'UPB,"12.00"')
+    found = filled(book(tmp_path, text), MARKS, "Lab 3 (Real)")
+    assert (found.count, found.replaced) == (2, 1)
+    assert filled(book(tmp_path, MOODLE), MARKS, "Lab 3 (Real)").replaced == 0
+
+
+def test_of_several_empty_columns_just_these_are_named(tmp_path):
+    text = "id,name,Lab 1,Lab 2,Lab 3\n0001,Ana,,5,\n0002,Jo,,6,\n"
+    with pytest.raises(GradebookError, match="2 columns are empty") as refused:
+        filled(book(tmp_path, text), MARKS)
+    assert str(refused.value).count('"') == 4
+    assert '"Lab 1", "Lab 3"' in str(refused.value)
+
+
 # --- the command --------------------------------------------------------------------------------
 
 
@@ -233,7 +256,7 @@ def test_the_command_marks_a_class_and_fills_the_gradebook(folder):
         assert (folder / "out" / name).is_file()
     text = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
     assert f"A,{table['0001']['points']},88.5" in text
-    assert "„Lab 3 (4711)” valorează acolo 24 puncte, iar lucrarea 20,5" in found.output
+    assert "“Lab 3 (4711)” is worth 24 points there, the lab 20.5" in found.output
     assert "stefan,A,," in text
 
 
@@ -253,13 +276,12 @@ def test_cells_that_cannot_be_read_are_told_with_status_1(folder):
     (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;1 9_"), encoding="utf-8")
     found = run(folder)
     assert found.exit_code == 1
-    assert "answers.csv, rândul 2, O'Neil, Ana (0001), v_D_mm: „1 9_" in found.output
+    assert "answers.csv, row 2, O'Neil, Ana (0001), v_D_mm: “1 9_" in found.output
     table = read_marks((folder / "out" / "marks.csv").read_bytes())
     assert table["0001"]["v_D_mm"] == ""
     assert table["0001"]["pending"] == "2"
     assert table["0001"]["percent"] == "100.0"
-    english = run(folder, "--lang", "en", "--force")
-    assert "answers.csv, row 2, O'Neil, Ana (0001), v_D_mm: “1 9_" in english.output
+    assert "rândul 2" in (folder / "out" / "class.html").read_text(encoding="utf-8")
 
 
 def test_a_gradebook_waits_for_points_that_wait(folder):
@@ -367,11 +389,10 @@ def test_a_language_of_the_class_list_is_that_of_the_feedback(tmp_path):
     made = CliRunner().invoke(app, ["variants", "pump", str(roster), "-o", str(tmp_path / "class")])
     assert made.exit_code == 0, made.output
     (tmp_path / "answers.csv").write_text("id,v_D,nr,lingua\n1,3,7,it\n", encoding="utf-8")
-    for lang, third, name in ((), "ro", "nu este o limbă"), (("--lang", "en"), "en", "no language"):
+    for lang, third in ((), "ro"), (("--lang", "en"), "en"):
         found = run(tmp_path, "--force", *lang)
         assert found.exit_code == 0, found.output
-        assert f"D (4): {'„' if third == 'ro' else '“'}klingon" in found.output
-        assert name in found.output
+        assert "D (4): “klingon” is no language" in found.output
         spoken = ("it", "en", third, third, "ro")
         for stem, language in zip(("1", "2", "3", "4"), spoken, strict=False):
             page = (tmp_path / "out/feedback" / f"{stem}.html").read_text(encoding="utf-8")
@@ -399,3 +420,27 @@ def test_formats_that_are_none_are_refused(folder):
     assert run(folder, "--format", "docx").exit_code == 2
     assert run(folder, "--format", "none").exit_code == 0
     assert not (folder / "out" / "feedback").exists()
+
+
+def test_a_new_marking_tells_what_changed(folder):
+    run(folder)
+    text = (folder / "answers.csv").read_text(encoding="utf-8")
+    assert "nothing changed" in run(folder, "--force").output
+    changed = text.replace("\n0001;19,", "\n0001;49,")
+    (folder / "answers.csv").write_text(changed, encoding="utf-8")
+    said = run(folder, "--force").output
+    assert "cells changed of 1 students (differences.csv):" in said
+    assert "  0001, v_D_mm: 2 → 0" in said
+    assert said.count("  0001, ") <= 5
+
+
+def test_a_gradebook_whose_cells_are_replaced_is_told(folder):
+    (folder / "canvas.csv").write_text(CANVAS.replace("ana,A,,", "ana,A,3,"), encoding="utf-8")
+    said = run(folder, "--gradebook", str(folder / "canvas.csv"), "--column", "Lab 3")
+    assert "1 filled cells of column “Lab 3 (4711)” are replaced" in said.output
+
+
+def test_a_language_that_no_page_has_is_told_when_the_class_is_made(tmp_path):
+    (tmp_path / "r.csv").write_text("nr;id;Limba\n7;1;de\n8;2;it\n", encoding="utf-8")
+    args = ["variants", "pump", str(tmp_path / "r.csv"), "-o", str(tmp_path / "class")]
+    assert '1 student: "de" is no language of the pages' in CliRunner().invoke(app, args).output

@@ -44,6 +44,7 @@ def test_the_report_names_limit_and_numbers():
     assert "segment a_D_mm   2      number 25, 26  1.79 mm against 3 mm" in lines
     assert "20.5 points for 22 fields" in lines
     assert "flattest crossing, °" in lines
+    assert "flattest rays to a centre or pole, °" in lines
 
 
 def test_ranges_are_tried_on_a_thousand_draws(mine):

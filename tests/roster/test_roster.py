@@ -141,16 +141,16 @@ HOSTILE = {
     "number,id,name,group\n": "no student below the head",
     "number,name\n1,Ann\n": 'no column id; the head is "number", "name"',
     "id,name\n1,Ann\n": "no column number; the lab's formula needs the student's number",
-    "nunber,id\n1,1\n": "did you mean number?",
+    "nunber,id\n1,1\n": 'is it "nunber"? then call that column "number"',
     "number,id\n1,7\n2,7\n": 'row 3, column "id": "7" stands in row 2 already',
     "number,id\n1,ab\n2,AB\n": 'row 3, column "id": "AB", written "ab", stands in row 2 already',
     "number,id\n,7\n": 'row 2, column "number": is missing',
-    "Nr.,id\nx,7\n": 'row 2, column "Nr.": "x" is not a number',
-    "number,id\n-1,7\n": '"-1" is not a number',
-    "number,id\n1e3,7\n": '"1e3" is not a number',
-    "number,id\n１,7\n": '"１" is not a number',
-    "number,id\n1_000,7\n": '"1_000" is not a number',
-    "number,id\n12345678901,7\n": "is not a number",
+    "Nr.,id\nx,7\n": 'row 2, column "Nr.": "x" is no whole number',
+    "number,id\n-1,7\n": '"-1" is no whole number',
+    "number,id\n1e3,7\n": '"1e3" is no whole number',
+    "number,id\n１,7\n": '"１" is no whole number',
+    "number,id\n1_000,7\n": '"1_000" is no whole number',
+    "number,id\n12345678901,7\n": "is no whole number",
     "number,id\n1,\n": 'row 2, column "id": is missing',
     "number,id\n1,7\n2,8,9\n": "row 3: 3 cells, and the head has 2",
     "number,id,number\n1,7,2\n": 'two columns are called "number"',
@@ -279,9 +279,23 @@ def test_zeros_that_only_a_format_shows_are_kept(book):
     assert [(s.number, s.id) for s in read_roster(path, numbered=True)] == [(7, "0042")]
 
 
+def test_ids_that_are_numbers_of_a_workbook_may_have_lost_their_zeros(book):
+    """0041 typed into a spreadsheet is 41; as text, or with a format that shows zeros, it stays."""
+    said: list[str] = []
+    read_roster(book([["id", "name"], [41, "A"], ["0042", "B"]]), tell=said.append)
+    assert len(said) == 1
+    assert "1 ids are numbers in the file, such as 41: leading zeros would be lost" in said[0]
+    assert "0042" in said[0]
+    read_roster(book([["id"], [4100], [4101]]), tell=said.append)
+    assert "leading zeros would be lost; if" in said[1]
+    read_roster(book([["id", "nr"], ["0041", 1]]), tell=said.append)
+    read_roster(book([["id"], [41]], [("A2", "0000")]), tell=said.append)
+    assert len(said) == 2
+
+
 def test_problems_of_a_workbook_name_its_rows(book):
     found = problems(book([["number", "id"], [1, 7], [None, None], ["x", 7]]))
-    assert 'roster.xlsx, row 4, column "number": "x" is not a number' in found[0]
+    assert 'roster.xlsx, row 4, column "number": "x" is no whole number' in found[0]
     assert 'row 4, column "id": "7" stands in row 2 already' in found[1]
 
 
@@ -313,7 +327,7 @@ def test_mistakes_of_all_sorts_are_told_at_once_in_the_order_of_the_rows(saved):
     expected = [
         "4 cells",
         "is missing",
-        "is not a number",
+        "is no whole number",
         "stands in row 5",
         "is missing",
         "quote",
@@ -325,7 +339,7 @@ def test_mistakes_of_all_sorts_are_told_at_once_in_the_order_of_the_rows(saved):
 def test_a_column_that_is_missing_hides_no_other_mistake(saved):
     found = problems(saved("Numer;id\n1;2;x\n3;\n4;5\n"))
     assert "no column number" in found[0]
-    assert found[0].endswith("did you mean numero?")
+    assert found[0].endswith('is it "Numer"? then call that column "number"')
     assert [line.split(":")[0] for line in found[1:]] == [
         "roster.csv, row 2",
         'roster.csv, row 3, column "id"',

@@ -344,7 +344,7 @@ def test_a_number_that_the_scene_does_not_allow_is_told_beside_the_other_mistake
     said = run("variants", "pump", path, "-o", tmp_path / "class")
     assert said.exit_code == 2
     lines = said.stderr.splitlines()
-    for row, word in ((2, "n = 31 is out of range"), (3, "not a number"), (4, "row 2 already")):
+    for row, word in ((2, "n = 31 is out of range"), (3, "no whole number"), (4, "row 2 already")):
         assert f"row {row}" in lines[row - 2]
         assert word in lines[row - 2]
     assert len(lines) == 3
