@@ -13,7 +13,6 @@ from graphkin.paper.shapes import (
     NOWHERE,
     TINY,
     Array,
-    Box,
     Index,
     Mask,
     crossings,
@@ -83,8 +82,14 @@ class Page:
     """What labels must keep clear of, and what each place costs."""
 
     def __init__(
-        self, subjects: Subjects, lines: ArrayLike, boxes: ArrayLike, field: Box, stroke: ArrayLike
+        self,
+        subjects: Subjects,
+        lines: ArrayLike,
+        boxes: ArrayLike,
+        field: ArrayLike,
+        stroke: ArrayLike,
     ) -> None:
+        """Prepare for labels that stay in one field, or each in its own."""
         drawn, taken = (np.asarray(a, dtype=np.float64).reshape(-1, 4) for a in (lines, boxes))
         if not all(np.isfinite(ends).all() for ends in (drawn, taken, subjects.ends)):
             raise ValueError("a line, a box or a subject of a label is not finite")
@@ -92,7 +97,8 @@ class Page:
         drawn, clear = merged(drawn, clear)
         start, end = subjects.ends[:, :2], subjects.ends[:, 2:]
         core = np.concatenate([start + (end - start) / 6, end - (end - start) / 6], axis=1)
-        self.subjects, self.field = subjects, field
+        self.subjects = subjects
+        self.field = np.broadcast_to(np.asarray(field, dtype=np.float64), (len(start), 4))
         self.ends = np.concatenate([drawn, taken, core])
         self.shapes = joined(segments(drawn), rectangles(taken), segments(core))
         kinds = [np.full(len(drawn), LINE), np.full(len(taken), BOX)]
@@ -102,7 +108,9 @@ class Page:
         keep = np.where(subjects.line, -NOWHERE, subjects.radius + PAD)
         self.clear = np.concatenate([clear, np.full(len(taken), PAD), keep])
         self.own = self._owned()
-        self.blots = Blots(drawn, field, 0.7 * float(clear.min(initial=PAD)))
+        low, high = self.field[:, :2].min(axis=0), self.field[:, 2:].max(axis=0)
+        whole = float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        self.blots = Blots(drawn, whole, 0.7 * float(clear.min(initial=PAD)))
 
     def near(self, some: Open) -> Places:
         """Return candidates as places without a leader."""
@@ -129,8 +137,9 @@ class Page:
         own = distance(x, y, hx, hy, segments(subjects.ends).upright())
         own -= subjects.radius[:, None]
         free = own >= subjects.gap[:, None] - TINY
-        free &= (x - hx >= self.field[0]) & (x + hx <= self.field[2])
-        free &= (y - hy >= self.field[1]) & (y + hy <= self.field[3])
+        left, top, right, bottom = self.field[which].T[:, :, None]
+        free &= (x - hx >= left) & (x + hx <= right)
+        free &= (y - hy >= top) & (y + hy <= bottom)
         free &= ~self.blots.hit(x, y, hx, hy)
         cost = np.where(free, distance_cost(some, own, subjects), np.inf)
         order = np.argsort(cost, axis=1, kind="stable")[:, span]

@@ -9,9 +9,10 @@ from typing import NamedTuple
 from graphkin.paper.areas import Rect
 from graphkin.paper.chords import segments
 from graphkin.paper.field import XY
-from graphkin.paper.labels import Board, Label
+from graphkin.paper.labels import Board, Label, free_ones
 from graphkin.paper.marks import Circle, Line, Mark, Text, reach
 from graphkin.paper.symbols import SHORT, VECTORS, head
+from graphkin.paper.together import finished, spots_on
 
 SHOWN = (*VECTORS, "construction", "link")
 """The classes of lines that a detail shows."""
@@ -62,24 +63,34 @@ def source(marks: Sequence[Mark]) -> Source | None:
     return None
 
 
-def with_detail(board: Board) -> list[Mark]:
-    """A finished field, with a detail circle for very short vectors where there is room for it."""
-    marks, detail = parted(board)
-    return [*marks, *detail]
+def with_detail(*boards: Board) -> list[Mark]:
+    """Finished fields, with detail circles for very short vectors where there is room for them."""
+    return [mark for marks, detail in parted(*boards) for mark in (*marks, *detail)]
 
 
-def parted(board: Board) -> tuple[list[Mark], list[Mark]]:
-    """A finished field, and apart from it the detail circle; no marks where there is none."""
-    spot = source(board.marks)
-    if spot is None:
-        return board.finish(), []
-    small = spot.circle()
-    board.marks.append(small)
-    marks = board.finish()
-    place = free_place(marks, board.rect, spot.at, RADIUS + 4)
-    if place is None:
-        return [mark for mark in marks if mark is not small], []
-    return marks, list(circled(marks, spot.at, place, spot.times))
+def parted(*boards: Board) -> list[tuple[list[Mark], list[Mark]]]:
+    """Finished fields, and apart from each its detail circle; no marks where there is none."""
+    spots = [source(board.marks) for board in boards]
+    for board, spot in zip(boards, spots, strict=True):
+        board.marks += [spot.circle()] if spot else []
+    found: list[tuple[list[Mark], list[Mark]]] = []
+    enlarged: list[tuple[Board, list[Mark]]] = []
+    for board, spot, marks in zip(boards, spots, finished(boards), strict=True):
+        detail: list[Mark] = []
+        found.append((marks, detail))
+        if spot is None:
+            continue
+        place = free_place(marks, board.rect, spot.at, RADIUS + 4)
+        if place is None:
+            marks.remove(spot.circle())
+            continue
+        detail += circled(marks, spot.at, place, spot.times)
+        part = enlarged_part(marks, spot.at, place, spot.times)
+        detail += part.marks[:-1]
+        enlarged.append((part, detail))
+    for (part, into), at in zip(enlarged, spots_on([b for b, _ in enlarged]), strict=True):
+        into.extend(free_ones(part, at))
+    return found
 
 
 def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY | None:
@@ -122,7 +133,7 @@ def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY |
 
 
 def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterator[Mark]:
-    """What lies in a small circle, drawn again in a large one."""
+    """A large circle, the line from the small one to it, and how many times it enlarges."""
     small = RADIUS / times
     yield Circle(*place, RADIUS, "detail")
     away = hypot(place[0] - source[0], place[1] - source[1])
@@ -138,6 +149,11 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
         yield line
     beneath = place[1] + RADIUS + 3.6 if v > 0 else place[1] - RADIUS - 1.1
     yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")
+
+
+def enlarged_part(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Board:
+    """What lies in a small circle, drawn again in a large one, which is the last of its marks."""
+    small = RADIUS / times
     board = Board((place[0] - RADIUS, place[1] - RADIUS, place[0] + RADIUS, place[1] + RADIUS))
     for mark in marks:
         shown = mark.cls.split()[0] in SHOWN
@@ -145,8 +161,7 @@ def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterato
             draw_part(board, mark, source, place, times)
     board.marks.append(Circle(*place, RADIUS, "detail"))
     board.labels = named(board, marks, source, place, times)
-    yield from board.marks[:-1]
-    yield from board.placed()
+    return board
 
 
 def crosses_text(line: Line, marks: Sequence[Mark]) -> bool:

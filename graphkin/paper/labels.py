@@ -16,6 +16,7 @@ from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Circle, Line, Mark, Text, box, reach
 from graphkin.paper.place import Spot, Wish, place
 from graphkin.paper.richtext import extent, flowed
+from graphkin.paper.shapes import Box
 
 NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
@@ -131,8 +132,10 @@ class Board:
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
 
-    def finish(self) -> list[Mark]:
+    def finish(self, first: Sequence[Spot] = ()) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
+
+        ``first`` are the places of all labels if these were sought before, with other boards'.
 
         In a worse one letters of the construction are left out, then names of vectors, and a note
         says which. Raises PageError when another label finds no place even so.
@@ -142,7 +145,8 @@ class Board:
         spots: list[Spot] = []
         for rounds_left in reversed(range(ROUNDS)):
             foot = self.footed([*self.notes, *meanings])
-            spots = self.spots_of_new(foot, before, spots) or self.spots(foot)
+            spots = list(first) or self.spots_of_new(foot, before, spots) or self.spots(foot)
+            first = ()
             before = list(self.labels)
             if all(spot.free for spot in spots) and not self.unled(spots):
                 break
@@ -236,17 +240,26 @@ class Board:
 
     def placed(self) -> list[Mark]:
         """Only the labels that find a free place, without the other marks."""
-        spots = self.spots()
-        free = [(label, spot) for label, spot in zip(self.labels, spots, strict=True) if spot.free]
-        return marks_of([label for label, _ in free], [spot for _, spot in free])
+        return free_ones(self, self.spots())
 
     def spots(self, more: Sequence[Mark] = (), some: Sequence[Label] | None = None) -> list[Spot]:
         """The places of all labels, or of some, clear of marks, taken boxes and each other."""
+        lines, boxes = self.obstacles(more)
+        labels = self.labels if some is None else some
+        return place([label.wish() for label in labels], lines, boxes, self.rect)
+
+    def obstacles(self, more: Sequence[Mark] = ()) -> tuple[list[Box], list[Box]]:
+        """The lines and the boxes that labels keep clear of: of the marks, and of some more."""
         marks = [*self.marks, *more]
         lines = [segment for mark in marks for segment in segments(mark)]
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
-        labels = self.labels if some is None else some
-        return place([label.wish() for label in labels], lines, boxes, self.rect)
+        return lines, boxes
+
+
+def free_ones(board: Board, spots: Sequence[Spot]) -> list[Mark]:
+    """The labels of a board that have a free place."""
+    free = [(label, spot) for label, spot in zip(board.labels, spots, strict=True) if spot.free]
+    return marks_of([label for label, _ in free], [spot for _, spot in free])
 
 
 def stays(label: Label, spot: Spot, boxes: Sequence[Rect]) -> bool:

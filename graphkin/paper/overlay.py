@@ -29,7 +29,7 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     name = f"{title_of(drawing)} – {words('sheet.' + drawing.kind)}"
     foot = f"{name}, {words('sheet.overlay')} {number}, {drawing.scales.words}"
     marks = (
-        *(untinted(mark) for board in boards for mark in with_detail(board)),
+        *(untinted(mark) for mark in with_detail(*boards)),
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - 4, escape(foot), "caption", 2.5, name="title"),
     )

@@ -42,6 +42,10 @@ def clipped_path(
 
     if len(points) < 2:
         return
+    left, top, right, bottom = rect
+    if all(left <= x <= right and top <= y <= bottom for x, y in points):
+        yield Polyline(tuple(points), cls, name, step)
+        return
     found = LineString(points).intersection(box(*rect))
     for part in getattr(found, "geoms", [found]):
         if part.geom_type == "LineString" and len(part.coords) > 1:

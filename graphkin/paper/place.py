@@ -26,6 +26,7 @@ FARTHEST = np.array([*FAR, 24.0, 33.0])  # for labels that find no other place
 NEAREST = slice(0, 32)  # which of a label's candidates are looked at, by distance
 REST = slice(32, 999)  # the same where nothing was free
 FEW, MANY = 12, 32  # how many of these are offered at first, the cheapest ones
+SOME, ALL = 8, 999  # the same in the last resort: some more of a whole crowd's, then all of them
 
 SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
 UNPLACED = 1000.0  # a label without a place
@@ -64,15 +65,15 @@ def place(
     wishes: Sequence[Wish],
     lines: ArrayLike,
     boxes: ArrayLike,
-    field: Box,
+    field: Box | Sequence[Box],
     clearance: ArrayLike = CLEAR,
 ) -> list[Spot]:
     """Return a place for every wish, in the order of the wishes; lengths in mm.
 
     ``lines`` are drawn segments x0, y0, x1, y1 and ``clearance`` is how far labels stay from
     them (one length or one for each line); ``boxes`` are taken rectangles xmin, ymin, xmax,
-    ymax; no label leaves the rectangle ``field``. A label that is ``free`` touches nothing;
-    one that is not is returned where it would like to be.
+    ymax; no label leaves the rectangle ``field``, or its own one if there is one for each. A label
+    that is ``free`` touches nothing; one that is not is returned where it would like to be.
     """
     if not wishes:
         return []
@@ -86,11 +87,12 @@ def place(
         board.widen(j for i in homeless for j in board.crowd(i))
         board.widen_more(homeless)
         board.chase(board.homeless(), LONG)
-    if homeless := board.homeless():
-        crowd = [j for i in homeless for j in board.crowd(i)]
-        board.widen_more(crowd)
-        board.offer_rest(crowd)
-        board.chase(homeless, LONGEST)
+    for most in (SOME, ALL):
+        if homeless := board.homeless():
+            crowd = [j for i in homeless for j in board.crowd(i)]
+            board.widen_more(crowd, most)
+            board.offer_rest(crowd, most)
+            board.chase(homeless, LONGEST)
     board.settle(board.sorry(0.2))
     return [board.spot(i) for i in range(len(wishes))]
 
@@ -187,12 +189,12 @@ class _Board:
                 self.settle(i for i in self.order() if i in which)
         return bool(which)
 
-    def widen_more(self, labels: Iterable[int]) -> None:
+    def widen_more(self, labels: Iterable[int], most: int = MANY) -> None:
         """Offer the same to them at other and at longer distances."""
         which = sorted({*labels} - self.wider)
         self.wider.update(which)
         if which:
-            self._offer(self._led(which, FARTHEST, REST))
+            self._offer(self._led(which, FARTHEST, REST), most)
 
     def _led(self, which: Sequence[int], far: Array, span: slice) -> Places:
         """Return places with a leader of some labels, at some distances in mm."""
@@ -200,12 +202,12 @@ class _Board:
         some = tries(self.page.subjects.take(rows), NEAR, far)
         return self.page.led(self.page.open(rows, some, span))
 
-    def offer_rest(self, labels: Iterable[int]) -> None:
-        """Offer all the places of these labels that cost too much to be offered before."""
+    def offer_rest(self, labels: Iterable[int], most: int) -> None:
+        """Offer more places of these labels, which cost too much to be offered before."""
         wanted = np.isin(self.rest.label, list(labels))
         rest = self.rest.take(np.flatnonzero(wanted))
         self.rest = self.rest.take(np.flatnonzero(~wanted))
-        self._offer(rest, len(wanted))
+        self._offer(rest, most)
 
     def chase(self, labels: Iterable[int], steps: int) -> None:
         """Let each of the labels push others aside and those others in turn, if it pays in all."""

@@ -18,7 +18,7 @@ SHORT = 1.5  # mm, lines shorter than this together may be taken for one
 LOOSE = 0.06  # mm by which such a one may miss the others
 HAIR = np.array([-1e-3, -1e-3, 1e-3, 1e-3], dtype=np.float32)[:, None, None]
 """More than single precision loses on a page, in mm, for the sides of a box."""
-TOGETHER = 8  # boxes that are compared with others as one at first
+TOGETHER = 16  # boxes that are compared with others as one at first
 
 NO_INDEX: Index = np.empty(0, dtype=np.intp)
 

@@ -283,3 +283,12 @@ def test_a_line_drawn_there_and_back_is_not_merged_away():
     (spot,) = place([wish], [there, (*there[2:], *there[:2])], NONE, FIELD)
     line = LineString([there[:2], there[2:]])
     assert spot.free and line.distance(ink(wish, spot)) >= CLEAR - 1e-9
+
+
+def test_labels_keep_to_a_field_of_their_own_each():
+    fields = [(0.0, 0.0, 40.0, 40.0), (40.0, 0.0, 80.0, 40.0)]
+    wishes = [Wish(12.0, 4.0, (x, 20.0)) for x in (38.0, 42.0)]
+    found = place(wishes, [], [], fields)
+    for spot, field in zip(found, fields, strict=True):
+        assert spot.free
+        assert field[0] <= spot.x - 6.0 and spot.x + 6.0 <= field[2]
