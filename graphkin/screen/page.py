@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from html import escape
 from itertools import chain
@@ -49,6 +51,19 @@ class Form:
     script: str
 
 
+@contextmanager
+def all_kept() -> Iterator[None]:
+    """No search for garbage: a page makes many small records at once, all of which are needed."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
+
+
+@all_kept()
 def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "colour") -> str:
     """The page of a scene that draws itself; ``language`` is the scene's own if None.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import re
 from base64 import b64encode
 from functools import cache
@@ -17,6 +18,7 @@ from graphkin.paper.sentences import sentences
 from graphkin.paper.stages import behind
 from graphkin.paper.tables import turning_rows, vector_rows
 from graphkin.scene.read import read_text
+from graphkin.screen import page
 from graphkin.screen.page import step_page, task_page
 from graphkin.screen.sheets import ScreenSheet, screen_sheets
 from graphkin.screen.skeleton import data_block, offline_page
@@ -375,3 +377,16 @@ def test_lettering_stays_within_its_field():
 
 def test_the_same_scene_gives_the_same_page():
     assert step_page(load("pump"), "en") == page_of("pump")
+
+
+def test_a_page_leaves_the_search_for_garbage_as_it_was(monkeypatch):
+    """It is off while the page is made, and on again even after a mistake."""
+    seen = []
+    monkeypatch.setattr(page, "screen_sheets", lambda *_: seen.append(gc.isenabled()) or 1 / 0)
+    for was in (True, False):
+        (gc.enable if was else gc.disable)()
+        with pytest.raises(ZeroDivisionError):
+            page.step_page(None)
+        assert gc.isenabled() is was
+    gc.enable()
+    assert seen == [False, False]
