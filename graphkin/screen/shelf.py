@@ -68,8 +68,9 @@ class Shelf:
 
     def value(self, number: int) -> Any:
         """The value of a node where the scene stands."""
-        for node in self.graph.nodes[len(self.values) : number + 1]:
-            self.values.append(value_of(node, self.values, self.inputs))
+        if number >= len(self.values):
+            for node in self.graph.nodes[len(self.values) : number + 1]:
+                self.values.append(value_of(node, self.values, self.inputs))
         return self.values[number]
 
 

@@ -52,36 +52,46 @@ FOLD: dict[str, Callable[..., float]] = {
 class Graph:
     """Operations in the order in which they were met; a node is known by its number.
 
-    ``squares`` are the nodes that cannot be negative, ``units`` the pairs of nodes that are the
-    parts of a unit vector.
+    The same node is put down once: ``known`` has operations by what they do and to which nodes,
+    numbers by all their bits, inputs by their names. ``squares`` are the nodes that cannot be
+    negative, ``units`` the pairs of nodes that are the parts of a unit vector.
     """
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
-        self.known: dict[tuple[object, ...], int] = {}
+        self.known: dict[tuple[str, object], int] = {}
+        self.constants: dict[int, float] = {}
         self.squares: set[int] = set()
         self.units: set[tuple[int, int]] = set()
 
-    def put(self, node: Node) -> int:
-        """The number of a node; the same node is put down once."""
-        key = (node.op, node.args, node.value.hex(), node.name)
+    def put(self, op: str, args: tuple[int, ...]) -> int:
+        """The number of an operation on earlier nodes."""
+        key = (op, args)
         if key not in self.known:
             self.known[key] = len(self.nodes)
-            self.nodes.append(node)
+            self.nodes.append(Node(op, args))
         return self.known[key]
 
     def number(self, value: float) -> int:
         """A constant."""
-        return self.put(Node("number", value=float(value)))
+        key = ("number", value.hex())
+        if key not in self.known:
+            self.known[key] = place = len(self.nodes)
+            self.nodes.append(Node("number", value=value))
+            self.constants[place] = value
+        return self.known[key]
 
     def input(self, name: str) -> int:
         """A number that differs from variant to variant."""
-        return self.put(Node("input", name=name))
+        key = ("input", name)
+        if key not in self.known:
+            self.known[key] = len(self.nodes)
+            self.nodes.append(Node("input", name=name))
+        return self.known[key]
 
     def constant(self, number: int) -> float | None:
         """The value of a node that is a constant, or None."""
-        node = self.nodes[number]
-        return node.value if node.op == "number" else None
+        return self.constants.get(number)
 
     def do(self, op: str, *args: int) -> int:
         """An operation on earlier nodes, in its simplest form.
@@ -89,14 +99,14 @@ class Graph:
         What is simplified keeps its value but for the last bits and for the sign of a nought;
         nought times anything is nought, even where that thing cannot be drawn.
         """
-        constants = [self.constant(arg) for arg in args]
-        if op in FOLD and None not in constants:
-            return self.number(FOLD[op](*constants))
+        constants = [self.constants.get(arg) for arg in args]
+        if None not in constants and op in FOLD:
+            return self.number(float(FOLD[op](*constants)))
         simpler = SIMPLER.get(op)
         found = simpler(self, *args) if simpler else None
         if found is not None:
             return found
-        return self.put(Node(op, tuple(sorted(args)) if op in COMMUTING else args))
+        return self.put(op, tuple(sorted(args)) if op in COMMUTING else args)
 
     def sum_of_squares(self, a: int, b: int) -> int:
         """a² + b²; where both are t times something t is taken out, so that equal lengths meet."""
@@ -162,8 +172,8 @@ def simpler_difference(graph: Graph, a: int, b: int) -> int | None:
         return graph.do("add", a, of_b) if of_a is None else graph.do("sub", of_b, of_a)
     if of_a is not None:
         return graph.do("neg", graph.do("add", of_a, b))
-    turned = ("sub", (b, a), (0.0).hex(), "")
-    return graph.do("neg", graph.known[turned]) if turned in graph.known else None
+    turned = graph.known.get(("sub", (b, a)))
+    return None if turned is None else graph.do("neg", turned)
 
 
 def simpler_product(graph: Graph, a: int, b: int) -> int | None:
@@ -211,8 +221,7 @@ def simpler_negative(graph: Graph, a: int) -> int | None:
     node = graph.nodes[a]
     if node.op == "neg":
         return node.args[0]
-    turned = ("sub", node.args[::-1], (0.0).hex(), "")
-    return graph.known.get(turned) if node.op == "sub" else None
+    return graph.known.get(("sub", node.args[::-1])) if node.op == "sub" else None
 
 
 def simpler_inverse(graph: Graph, a: int) -> int | None:

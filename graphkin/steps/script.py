@@ -69,51 +69,44 @@ class Writer:
             self.uses[number] += 1
         self.text: dict[int, str] = {}
         self.depth: dict[int, int] = {}
+        """How deep the operations lie in one another that stand for a node; names lie at 0."""
 
     def lines(self) -> Iterator[str]:
         """The constants of the function in order, then its outputs."""
         named = 0
         for number in self.order:
             node = self.graph.nodes[number]
-            expression, plain = self.expression(node)
-            deep = 1 + max((self.depth[arg] for arg in node.args), default=0)
-            if plain or (self.uses[number] == 1 and deep < DEEP):
-                self.text[number] = expression if plain else f"({expression})"
-                self.depth[number] = 0 if plain else deep
+            if not node.args:
+                self.text[number], self.depth[number] = self.plain(node), 0
+                continue
+            expression = self.expression(node)
+            deep = 1 + max([self.depth[arg] for arg in node.args])
+            if self.uses[number] == 1 and deep < DEEP:
+                self.text[number], self.depth[number] = expression, deep
                 continue
             name, named = short_name(named), named + 1
             yield f"const {name}={expression};"
             self.text[number], self.depth[number] = name, 0
         for place, number in enumerate(self.outputs):
-            whole = self.text[number]
             truth = self.graph.nodes[number].op in TRUTHS
+            whole = self.signed(number) if truth else self.text[number]
             yield f"y[{place}]={whole}{'?1:0' if truth else ''};"
 
-    def expression(self, node: Node) -> tuple[str, bool]:
-        """A node in terms of the texts before it, and whether that needs neither name nor brackets.
+    def plain(self, node: Node) -> str:
+        """A number or an input. A negative number has brackets: two signs must not meet."""
+        return written(node.value) if node.op == "number" else f"x[{self.inputs[node.name]}]"
 
-        A number that is negative stands in brackets: two signs must not meet.
-        """
-        if node.op == "number":
-            return written(node.value), True
-        if node.op == "input":
-            return f"x[{self.inputs[node.name]}]", True
-        args = [self.text[arg] for arg in node.args]
+    def expression(self, node: Node) -> str:
+        """An operation in terms of the texts before it."""
         if node.op in CALLS:
-            return f"{CALLS[node.op]}({','.join(map(bare, args))})", False
-        return SIGNS[node.op].format(*args), False
+            return f"{CALLS[node.op]}({','.join([self.text[arg] for arg in node.args])})"
+        return SIGNS[node.op].format(*[self.signed(arg) for arg in node.args])
 
-
-def bare(text: str) -> str:
-    """An argument between commas, without the brackets around all of it."""
-    if not text.startswith("("):
-        return text
-    depth = 0
-    for place, letter in enumerate(text):
-        depth += {"(": 1, ")": -1}.get(letter, 0)
-        if depth == 0:
-            return text[1:-1] if place == len(text) - 1 else text
-    return text
+    def signed(self, number: int) -> str:
+        """The text of a node between signs: what has signs of its own stands in brackets."""
+        text = self.text[number]
+        has_signs = self.depth[number] and self.graph.nodes[number].op in SIGNS
+        return f"({text})" if has_signs else text
 
 
 def written(value: float) -> str:

@@ -88,8 +88,7 @@ class Number(Traced):  # noqa: PLW1641
     __slots__ = ("down", "node")
 
     def __init__(self, graph: Graph, node: int, down: int | None = None) -> None:
-        super().__init__(graph)
-        self.node, self.down = node, down
+        self.graph, self.node, self.down = graph, node, down
 
     @property
     def real(self) -> Number:
@@ -99,11 +98,17 @@ class Number(Traced):  # noqa: PLW1641
     @property
     def imag(self) -> Number:
         """The part along the y axis."""
-        return self.of_constant(0.0) if self.down is None else Number(self.graph, self.down)
+        return Number(self.graph, self.below())
+
+    def below(self) -> int:
+        """The node of the part along the y axis; that of a real number is nought."""
+        return self.graph.number(0.0) if self.down is None else self.down
 
     def conjugate(self) -> Number:
         """The point seen in a mirror along the x axis."""
-        return self if self.down is None else self.of(self.real, -self.imag)
+        if self.down is None:
+            return self
+        return Number(self.graph, self.node, self.graph.do("neg", self.down))
 
     def of(self, x: Number, y: Number) -> Number:
         """A point from its parts."""
@@ -115,7 +120,7 @@ class Number(Traced):  # noqa: PLW1641
 
     def do(self, op: str, *others: Number) -> Number:
         """A real operation on this number and others."""
-        return Number(self.graph, self.graph.do(op, self.node, *(each.node for each in others)))
+        return Number(self.graph, self.graph.do(op, self.node, *[each.node for each in others]))
 
     def __add__(self, other: Any) -> Number:
         return self.by_parts("add", entered(self.graph, other))
@@ -128,19 +133,21 @@ class Number(Traced):  # noqa: PLW1641
 
     def by_parts(self, op: str, other: Number) -> Number:
         """A sum or a difference."""
+        graph = self.graph
+        along = graph.do(op, self.node, other.node)
         if self.down is None and other.down is None:
-            return self.do(op, other)
-        return self.of(self.real.do(op, other.real), self.imag.do(op, other.imag))
+            return Number(graph, along)
+        return Number(graph, along, graph.do(op, self.below(), other.below()))
 
     def __mul__(self, other: Any) -> Number:
-        other = entered(self.graph, other)
-        if self.down is None and other.down is None:
-            return self.do("mul", other)
-        if self.down is None or other.down is None:
-            factor, point = (self, other) if self.down is None else (other, self)
-            return self.of(factor * point.real, factor * point.imag)
-        a, b, c, d = self.real, self.imag, other.real, other.imag
-        return self.of(a * c - b * d, a * d + b * c)
+        other, do = entered(self.graph, other), self.graph.do
+        a, b, c, d = self.node, self.down, other.node, other.down
+        if b is None:
+            return Number(self.graph, do("mul", a, c), None if d is None else do("mul", a, d))
+        if d is None:
+            return Number(self.graph, do("mul", c, a), do("mul", c, b))
+        along = do("sub", do("mul", a, c), do("mul", b, d))
+        return Number(self.graph, along, do("add", do("mul", a, d), do("mul", b, c)))
 
     def __truediv__(self, other: Any) -> Number:
         below = entered(self.graph, other)
@@ -162,7 +169,9 @@ class Number(Traced):  # noqa: PLW1641
         return found
 
     def __neg__(self) -> Number:
-        return self.do("neg") if self.down is None else self.of(-self.real, -self.imag)
+        do = self.graph.do
+        down = None if self.down is None else do("neg", self.down)
+        return Number(self.graph, do("neg", self.node), down)
 
     def __pos__(self) -> Number:
         return self
@@ -229,7 +238,7 @@ def entered(graph: Graph, value: Any) -> Number:
 
 def square(point: Number) -> Number:
     """Square of a distance: lengths beyond 1e±150 would be out of range."""
-    return Number(point.graph, point.graph.sum_of_squares(point.real.node, point.imag.node))
+    return Number(point.graph, point.graph.sum_of_squares(point.node, point.below()))
 
 
 def root(graph: Graph, value: Any) -> Number:
