@@ -94,6 +94,8 @@ def on_plan(
     match key:
         case "square-to" if "i" in says:
             found["vector"] = symbol(f"a_{says['i']}^τ")
+        case "square-to" if "c" in says:
+            found["c"] = symbol(says["c"])
         case "parallel-to" | "driven-slide":
             found["vector"] = sliding_vector(drawing, step, number)
         case "turned-velocity":

@@ -174,6 +174,8 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
         return key
     if key == "square-to" and step.plane is Plane.ACCELERATIONS:
         return "square-to-end"
+    if key == "square-to" and step.says.get("c", step.says["s"]) != step.says["s"]:
+        return "square-to-touch"
     if key == "along-bar":
         return "common-normal"
     if key == "parallel-to" and not step.says["s"]:

@@ -9,11 +9,16 @@ from graphkin.steps.vocabulary import join
 
 def velocity_arrows(pen: Pen, pin: str, pivot: str | None) -> None:
     """The arrows of a plan to an image: the absolute velocity, and the one relative to a pivot."""
-    o, tip = pen.pole(Plane.VELOCITIES), pen.the("velocity", pin)
-    arrow_between(pen, o, tip, pin, "")
-    if pivot is None or pen.the("velocity", pivot) in (o, tip):
+    arrow_between(pen, pen.pole(Plane.VELOCITIES), pen.the("velocity", pin), pin, "")
+    if pivot is not None:
+        relative_arrow(pen, pin, pivot)
+
+
+def relative_arrow(pen: Pen, pin: str, pivot: str) -> None:
+    """The arrow of the velocity of a pin relative to a pivot, where both move and not alike."""
+    start, tip = pen.the("velocity", pivot), pen.the("velocity", pin)
+    if start == tip or pen.pole(Plane.VELOCITIES) in (start, tip):
         return
-    start = pen.the("velocity", pivot)
     if pivot == pin.partition("@")[0]:
         arrow_between(pen, tip, start, pivot, letter(pin))
     else:

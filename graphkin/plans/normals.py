@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphkin.plans.arrows import relative_arrow
 from graphkin.plans.pen import Pen, Says, about, letter, named
 from graphkin.steps.effect import Effect
 from graphkin.steps.program import Part, Plane
@@ -26,6 +27,7 @@ def normal_component(pen: Pen, pivot: str, pin: str) -> int:
         return pen.shared[key]
     places = pen.the("position", pivot), pen.the("position", pin)
     images = pen.the("velocity", pivot), pen.the("velocity", pin)
+    relative_arrow(pen, pin, pivot)
     index = about(pen, pin, pivot)
     says: Says = {"p": letter(pivot), "q": letter(pin), "i": index}
     with pen.on(Part.NORMAL, Plane.MECHANISM), pen.calls_for(Effect.NORMAL):

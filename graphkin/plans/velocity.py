@@ -12,7 +12,7 @@ from graphkin.plans.plates import crosses_well
 from graphkin.plans.position import led_path
 from graphkin.plans.shape import Shapes
 from graphkin.steps.guides import driven_slide
-from graphkin.steps.program import Part, Plane
+from graphkin.steps.program import CONTACT, Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
     difference,
@@ -152,7 +152,10 @@ def square(pen: Pen, pivot: str, pin: str) -> int:
     """Through the image of one end of a bar the perpendicular to the bar."""
     start = pen.the("velocity", pivot)
     ends = pen.the("position", pivot), pen.the("position", pin)
-    return pen.draw(square_to, start, *ends, s=named(pen, start), p=letter(pivot), q=letter(pin))
+    says: Says = {"s": named(pen, start), "p": letter(pivot), "q": letter(pin)}
+    if pivot.startswith(CONTACT):
+        says["c"] = image(pivot)
+    return pen.draw(square_to, start, *ends, **says)
 
 
 def tie(pen: Pen, shapes: Shapes, group: Tie) -> None:

@@ -52,9 +52,9 @@ FOLD: dict[str, Callable[..., float]] = {
 class Graph:
     """Operations in the order in which they were met; a node is known by its number.
 
-    The same node is put down once: ``known`` has operations by what they do and to which nodes,
-    numbers by all their bits, inputs by their names. ``squares`` are the nodes that cannot be
-    negative, ``units`` the pairs of nodes that are the parts of a unit vector.
+    The same is put down once: ``known`` has operations by what they do and to which nodes, each in
+    its simplest form, numbers by all their bits, inputs by their names. ``squares`` are the nodes
+    that cannot be negative, ``units`` the pairs of nodes that are the parts of a unit vector.
     """
 
     def __init__(self) -> None:
@@ -99,6 +99,14 @@ class Graph:
         What is simplified keeps its value but for the last bits and for the sign of a nought;
         nought times anything is nought, even where that thing cannot be drawn.
         """
+        key = (op, args)
+        found = self.known.get(key)
+        if found is None:
+            found = self.known[key] = self.simplest(op, args)
+        return found
+
+    def simplest(self, op: str, args: tuple[int, ...]) -> int:
+        """The node of an operation that was not met before."""
         constants = [self.constants.get(arg) for arg in args]
         if None not in constants and op in FOLD:
             return self.number(float(FOLD[op](*constants)))

@@ -228,9 +228,9 @@ def entered(graph: Graph, value: Any) -> Number:
     """A plain number as a constant of the graph; what is traced as it is."""
     if isinstance(value, Number):
         return value
-    if isinstance(value, Real):
+    if isinstance(value, (float, Real)):
         return Number(graph, graph.number(float(value)))
-    if isinstance(value, Complex):
+    if isinstance(value, (complex, Complex)):
         point = complex(value)
         return Number(graph, graph.number(point.real), graph.number(point.imag))
     raise UntraceableError(f"a {type(value).__name__} among traced numbers")
