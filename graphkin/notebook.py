@@ -35,29 +35,21 @@ def plot(
 ) -> Axes:
     """Draw the mechanism, its velocity plan or its acceleration plan into axes of matplotlib.
 
-    One unit of the axes is a millimetre of paper, y up; the pole of a plan, or the origin of the
-    frame, is the axes' origin. Raises as hand_out does, and SceneError where nothing of a plan is
-    asked.
+    One unit of the axes is a millimetre of the sheet, y up; the pole of a plan, or the origin of
+    the frame, is the axes' origin. The drawing fills the axes as large as they are now; lines,
+    arrowheads and letters have the sheet's own sizes (capitals of 2.5 mm, as text of 10 points)
+    in every figure. Raises as hand_out does, PageError where the axes are too small for the
+    letters, and SceneError where nothing of a plan is asked.
     """
-    from graphkin.paper.axes import put_marks
-    from graphkin.paper.detail import with_detail
-    from graphkin.paper.layout import lay_out
-    from graphkin.paper.marks import Text
-    from graphkin.paper.sheet import left_board, right_board
+    from graphkin.paper.axes import put_drawing, size_of
+    from graphkin.paper.figure import for_axes
 
     drawings = drawings_of(
         mechanism, proved(mechanism, shown(mechanism)), language_of(mechanism, language)
     )
     drawing = chosen(drawings, which)
-    layout = lay_out(drawing)
-    field = layout.mechanism if which == "mechanism" else layout.plan
-    draw = left_board if which == "mechanism" else right_board
-    marks = [
-        mark
-        for mark in with_detail(draw(drawing, layout, "key"))
-        if not (isinstance(mark, Text) and mark.cls == "caption" and not mark.name)
-    ]
-    put_marks(ax, marks, field(0j), ink)
+    marks, field, times = for_axes(drawing, *size_of(ax), mechanism=which == "mechanism")
+    put_drawing(ax, marks, field, times, ink)
     return ax
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, cast
 
@@ -10,41 +10,88 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, ScaledTranslation, Transform
 
+from graphkin.paper.field import Field
 from graphkin.paper.glyphs import font_file
-from graphkin.paper.marks import Arc, Circle, Line, Mark, Text, reach
+from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, Text, reach
 from graphkin.paper.richtext import runs
 from graphkin.paper.style import Ink, Style, style_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-POINTS = 72 / 25.4
+INCH = 25.4
+"""Millimetres to the inch."""
+POINTS = 72 / INCH
 """Points to the millimetre."""
-ROOM = 4.0
-"""Free room around a drawing, in mm."""
+SIGNS = ("pole", "point", "pin", "centre", "number")
+"""The classes of figures that stand at a place, of one size however large the drawing is."""
 
 
 def put_marks(
-    ax: Axes, marks: Iterable[Mark], origin: tuple[float, float], ink: Ink = "colour"
+    ax: Axes, marks: Sequence[Mark], origin: tuple[float, float], ink: Ink = "colour"
 ) -> None:
-    """Draw marks with a place of the page at the axes' origin; sets the limits and equal scales."""
-    drawn = list(marks)
+    """Draw marks to scale, lettering too, a place of the page at the axes' origin, in mm."""
     page = Affine2D().translate(-origin[0], -origin[1]).scale(1, -1)
-    for order, mark in enumerate(drawn):
-        style = style_of(mark.cls, ink)
-        for patch in patches(mark, style, page):
-            patch.set_zorder(2 + order / len(drawn))
-            ax.add_artist(patch)  # add_patch measures each one, and the limits are set below
-    boxes = [reach(mark) for mark in drawn] or [(*origin, *origin)]
-    ax.set_xlim(
-        min(b[0] for b in boxes) - origin[0] - ROOM, max(b[2] for b in boxes) - origin[0] + ROOM
-    )
-    ax.set_ylim(
-        origin[1] - max(b[3] for b in boxes) - ROOM, origin[1] - min(b[1] for b in boxes) + ROOM
-    )
+    for order, mark in enumerate(marks):
+        for patch in patches(mark, style_of(mark.cls, ink), page):
+            put(ax, patch, order / len(marks))
     ax.set_aspect("equal")
+
+
+def put_drawing(
+    ax: Axes, marks: Sequence[Mark], field: Field, times: float, ink: Ink = "colour"
+) -> None:
+    """Draw the marks of a field as large as the axes; sets the limits and equal scales.
+
+    A unit of the axes is ``times`` a millimetre of the figure. Letters and signs keep their size
+    in the figure when the axes become larger or smaller later on.
+    """
+    x, y = field(0j)
+    page = Affine2D().translate(-x, -y).scale(1 / times, -1 / times)
+    for order, mark in enumerate(marks):
+        place = place_of(mark)
+        there = Affine2D().translate(-place[0], -place[1]).scale(1, -1) if place else page
+        for patch in patches(mark, style_of(mark.cls, ink), there):
+            if place:
+                patch.set_transform(in_place(ax, *page.transform(place)))
+            put(ax, patch, order / len(marks))
+    width, height = size_of(ax)
+    ax.set_xlim(-x / times, (width - x) / times)
+    ax.set_ylim((y - height) / times, y / times)
+    ax.set_aspect("equal")
+
+
+def in_place(ax: Axes, x: float, y: float) -> Transform:
+    """Millimetres of the figure about a place of the axes."""
+    size = Affine2D().scale(1 / INCH) + ax.figure.dpi_scale_trans
+    moved = cast("Any", ScaledTranslation)  # the stub wants an affine transform
+    return cast("Transform", size + moved(x, y, ax.transData))
+
+
+def size_of(ax: Axes) -> tuple[float, float]:
+    """Width and height of axes in a figure, in mm."""
+    figure = ax.figure
+    box = ax.get_position(original=True).transformed(figure.transSubfigure)
+    return box.width / figure.dpi * INCH, box.height / figure.dpi * INCH
+
+
+def place_of(mark: Mark) -> tuple[float, float] | None:
+    """Where a text, a sign or an arrowhead stands; None for what is drawn to scale."""
+    kind = mark.cls.split()[0]
+    if isinstance(mark, Polyline) and kind == "arrowhead":
+        return mark.points[0]
+    if isinstance(mark, Line) or not (isinstance(mark, Text) or kind in SIGNS):
+        return None
+    left, top, right, bottom = reach(mark)
+    return (left + right) / 2, (top + bottom) / 2
+
+
+def put(ax: Axes, patch: Patch, order: float) -> None:
+    """Put one patch into axes, those of a greater order above the others."""
+    patch.set_zorder(2 + order)
+    ax.add_artist(patch)  # add_patch measures each one, and the limits are set by themselves
 
 
 def patches(mark: Mark, style: Style, page: Affine2D) -> Iterator[Patch]:

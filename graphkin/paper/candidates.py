@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -147,27 +148,32 @@ class Blots:
         wide, high = max(0.0, field[2] - field[0]), max(0.0, field[3] - field[1])
         self.cell = max(cell, wide / 600, high / 600)
         self.across, self.down = int(wide / self.cell) + 1, int(high / self.cell) + 1
-        step = lines[:, 2:] - lines[:, :2]
-        count = np.ceil(np.abs(step).max(axis=1, initial=0.0) / self.cell).clip(1, 1000).astype(int)
+        start, step = lines[:, :2].T, (lines[:, 2:] - lines[:, :2]).T
+        count = np.ceil(np.abs(step).max(axis=0, initial=0.0) / self.cell).clip(1, 1000).astype(int)
         which = np.repeat(np.arange(len(lines)), count)
         share = (np.arange(len(which)) - (np.cumsum(count) - count)[which] + 0.5) / count[which]
-        at = lines[which, :2] + share[:, None] * step[which] - field[:2]
-        at = at[((at >= 0) & (at < (wide, high))).all(axis=1)]
-        row, column = np.floor(at.T[::-1] / self.cell).astype(int)
+        x, y = start.take(which, axis=1) + share * step.take(which, axis=1)
+        x, y = x - self.x, y - self.y
+        inside = (x >= 0) & (x < wide) & (y >= 0) & (y < high)
         width = self.across + 1
-        marks = np.bincount((row + 1) * width + column + 1, minlength=(self.down + 1) * width)
-        table = marks.astype(np.int32).reshape(-1, width)
-        self.below = table.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
+        row, column = ((at[inside] / self.cell).astype(int) + 1 for at in (y, x))
+        marks = np.bincount(row * width + column, minlength=(self.down + 1) * width)
+        self.below = marks.astype(np.int32).reshape(-1, width).cumsum(axis=1, dtype=np.int32)
+        for above, row in pairwise(self.below):  # much faster than a sum along columns
+            np.add(row, above, out=row)
 
     def hit(self, x: Array, y: Array, hx: Array, hy: Array) -> Mask:
         """Return which boxes are surely nearer to a line than they should be."""
         wide, high = hx + self.pad, hy + self.pad
-        left = np.ceil((x - wide - self.x) / self.cell).clip(0, self.across).astype(np.intp)
-        right = np.floor((x + wide - self.x) / self.cell).clip(0, self.across).astype(np.intp)
-        top = np.ceil((y - high - self.y) / self.cell).clip(0, self.down).astype(np.intp)
-        bottom = np.floor((y + high - self.y) / self.cell).clip(0, self.down).astype(np.intp)
-        right, bottom = np.maximum(left, right), np.maximum(top, bottom)
-        below = self.below
-        return np.asarray(
-            below[bottom, right] - below[top, right] - below[bottom, left] + below[top, left] > 0
-        )
+        left, right = self._cells(x - wide - self.x, x + wide - self.x, self.across)
+        top, bottom = self._cells(y - high - self.y, y + high - self.y, self.down)
+        width, below = self.across + 1, self.below.reshape(-1)
+        top, bottom = top * width, bottom * width
+        count = below.take(bottom + right) - below.take(bottom + left)
+        count += below.take(top + left) - below.take(top + right)
+        return np.asarray(count > 0)
+
+    def _cells(self, low: Array, high: Array, most: int) -> tuple[Index, Index]:
+        """Return the first cells wholly beyond some places and those where others lie."""
+        first = np.minimum(np.maximum(np.ceil(low / self.cell), 0), most).astype(np.intp)
+        return first, np.maximum(first, np.minimum(high / self.cell, most).astype(np.intp))

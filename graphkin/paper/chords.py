@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
+from itertools import chain
 from math import acos, ceil, cos, degrees, radians, sin
+
+import numpy as np
 
 from graphkin.paper.field import XY
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline
+from graphkin.paper.shapes import Array
 
 SAGITTA = 0.05
 """How far the chords that stand for an arc may leave it, in mm."""
+
+
+def pieces_of(marks: Iterable[Mark]) -> Array:
+    """The straight pieces of marks, a row x0, y0, x1, y1 for each."""
+    found = [piece for mark in marks for piece in segments(mark)]
+    return np.fromiter(chain.from_iterable(found), np.float64, 4 * len(found)).reshape(-1, 4)
 
 
 def segments(mark: Mark) -> Sequence[tuple[float, float, float, float]]:

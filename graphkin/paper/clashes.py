@@ -103,8 +103,7 @@ class Clashes:
         """
         leader = self.places.leader
         path = segments(leader)
-        way = np.stack([path.x - path.ex, path.y - path.ey, path.x + path.ex, path.y + path.ey])
-        way, new = way.take(led, axis=1), int(np.searchsorted(led, old))
+        way, new = path.take(led).boxes(), int(np.searchsorted(led, old))
         fresh = meeting(box[:, old:] + WIDER, way)
         late = meeting(box[:, :old] + WIDER, way[:, new:])
         one = np.concatenate([fresh[0] + old, late[0]])

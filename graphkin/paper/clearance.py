@@ -41,6 +41,11 @@ LINE, BOX, DOT, CORE = range(4)
 MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
 WEIGHT = np.array([[0.4, 0.0, 1.5, 0.5], [1.1, 0.0, 0.7, 1.5]])
 
+KEPT = 2**24  # bytes
+"""Once so large a block was freed, the C library of Linux hands out memory for arrays anew
+without giving it back to the system in between, which took a fifth of a crowded page's time."""
+np.empty(KEPT, dtype=np.uint8)
+
 
 class Open(NamedTuple):
     """Candidates that nothing has ruled out yet, a row for each; mm."""
@@ -154,7 +159,7 @@ class Page:
     def _clear_of_all(self, some: Open) -> Mask:
         """Return which candidates are as far from all shapes as they must be."""
         clear = self.clear
-        place, shape = meeting(some.boxes(), self.reach(clear))
+        place, shape = meeting(some.boxes(), self.shapes.boxes(clear))
         other = np.flatnonzero(shape != some.label.take(place) + self.first)
         place, shape = place.take(other), shape.take(other)
         near = np.flatnonzero(self._apart(some, place, shape) < clear.take(shape))
@@ -171,7 +176,7 @@ class Page:
         """Return which shapes (columns) run through a label's whole subject or are a part of it."""
         ends, wide = self.subjects.ends, self.subjects.radius + OWN
         low, high = np.minimum(ends[:, :2], ends[:, 2:]).T, np.maximum(ends[:, :2], ends[:, 2:]).T
-        label, shape = meeting(np.concatenate([low - wide, high + wide]), self.reach(0.0))
+        label, shape = meeting(np.concatenate([low - wide, high + wide]), self.shapes.boxes(0.0))
         zero = np.zeros(len(label))
         near, mine = self.shapes.take(shape), segments(ends).take(label)
         tips, ends = ends[label].T, self.ends[shape].T
@@ -187,15 +192,10 @@ class Page:
         """Return which shapes are a label's own subject, a pair in each row."""
         return np.asarray(self.own.take(label * len(self.kind) + shape))
 
-    def reach(self, more: Array | float) -> Array:
-        """Return boxes around all shapes as rows left, top, right, bottom, wider by some mm."""
-        wide, high, near = self.shapes.ex + more, self.shapes.ey + more, self.shapes
-        return np.stack([near.x - wide, near.y - high, near.x + wide, near.y + high])
-
     def _doubt(self, some: Open) -> Array:
         """Return what places cost where a label may seem to name something else, or is cramped."""
         far = np.maximum(ROOM, some.own + MARGIN.max())
-        place, shape = meeting(some.boxes(far), self.reach(0.0))
+        place, shape = meeting(some.boxes(far), self.shapes.boxes(0.0))
         apart, label = self._apart(some, place, shape), some.label.take(place)
         other = np.flatnonzero((apart < far.take(place)) & ~self._is_own(label, shape))
         place, shape, label = place.take(other), shape.take(other), label.take(other)
@@ -215,7 +215,7 @@ class Page:
         x0, y0, x1, y1 = leader.T
         ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)
         wide = np.maximum(self.clear - PAD / 2, 2 * OWN)
-        place, shape = meeting(np.stack(ways), self.reach(wide))
+        place, shape = meeting(np.stack(ways), self.shapes.boxes(wide))
         off = self._off(leader.take(place, axis=0), shape)
         near = (off[0] * off[1] <= 0) | (np.abs(off).min(axis=0) <= wide.take(shape))
         near = np.flatnonzero(near)

@@ -8,7 +8,7 @@ from graphkin.paper.amounts import written
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.pairs import closures, of_guide, tracks, wheels
 from graphkin.paper.richtext import escape
-from graphkin.paper.settings import after_parameter, other_parameters
+from graphkin.paper.settings import after_parameter, lone, other_parameters
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.model import (
     FRAME,
@@ -84,7 +84,8 @@ def with_sense(
     if value > 0:
         size, key = after_parameter(scene, words, quantity), "page.turning_anticlockwise"
     else:
-        size = written(scene, words, quantity).removeprefix(MINUS)
+        name, size = lone(scene, quantity), written(scene, words, quantity).removeprefix(MINUS)
+        size = f"{MINUS}*{escape(name)}* = {size}" if name else size
         key = "page.turning_clockwise"
     return f"{size}{tail}, {words(key)}"
 

@@ -7,7 +7,7 @@ from math import hypot, sqrt
 from typing import NamedTuple
 
 from graphkin.paper.areas import Rect
-from graphkin.paper.chords import segments
+from graphkin.paper.chords import pieces_of
 from graphkin.paper.field import XY
 from graphkin.paper.labels import Board, Label, free_ones
 from graphkin.paper.marks import Circle, Line, Mark, Text, reach
@@ -24,7 +24,7 @@ TOO_SHORT = 0.5
 """Vectors shorter than this, in mm, are not worth a detail."""
 GRID = 5.0
 """Distance of the places tried for a detail, in mm."""
-TOGETHER = 48
+TOGETHER = 16
 """Places that are compared with all that is drawn at one go."""
 INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
 """Half the sides of rectangles in a disc of radius 1."""
@@ -109,7 +109,7 @@ def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY |
     x, y = (row.reshape(-1) for row in np.meshgrid(xs, ys))
     order = np.argsort(np.hypot(x - near[0], y - near[1]), kind="stable")
     x, y, zero = x[order], y[order], np.zeros(1)
-    lines = np.array([s for mark in marks for s in segments(mark)]).reshape(-1, 4)
+    lines = pieces_of(marks)
     texts = rectangles([reach(mark) for mark in marks if isinstance(mark, Text)])
     blots, boxes = Blots(lines, rect, 0.0, BLOT), texts.upright()
     for wide, high in INNER:
@@ -121,7 +121,7 @@ def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY |
     for start in range(0, len(x), TOGETHER):
         u, v = x[start : start + TOGETHER], y[start : start + TOGETHER]
         free = (distance(u, v, zero, zero, drawn) > room).all(axis=0)
-        ways = shapes_of(np.stack(np.broadcast_arrays(*near, u, v), axis=1))
+        ways = shapes_of([(*near, *at) for at in zip(u.tolist(), v.tolist(), strict=True)])
         clear = (separation(boxes.x, boxes.y, boxes.ex, boxes.ey, ways) >= CLEAR).all(axis=0)
         for i in np.flatnonzero(free & clear)[:1]:
             return float(u[i]), float(v[i])
@@ -171,7 +171,7 @@ def crosses_text(line: Line, marks: Sequence[Mark]) -> bool:
 
     boxes = [reach(mark) for mark in marks if isinstance(mark, Text)]
     wider = [(b[0] - CLEAR, b[1] - CLEAR, b[2] + CLEAR, b[3] + CLEAR) for b in boxes]
-    return met(wider, shapes_of([(line.x1, line.y1, line.x2, line.y2)])) > 0
+    return bool(met(wider, shapes_of([(line.x1, line.y1, line.x2, line.y2)])).any())
 
 
 def passes(line: Line, centre: XY, radius: float) -> bool:

@@ -70,12 +70,17 @@ def rivals(marks: Sequence[Mark], *, bars: bool) -> dict[str, Any]:
     """The bars and plates, or the vectors, of a drawing by name."""
     import shapely
 
+    kinds = ("link",) if bars else VECTORS
+    lines = {
+        mark.name: ((mark.x1, mark.y1), (mark.x2, mark.y2))
+        for mark in marks
+        if isinstance(mark, Line) and mark.name and mark.cls.split()[0] in kinds
+    }
     found: dict[str, Any] = {}
-    for mark in marks:
-        kind = mark.cls.split()[0]
-        if isinstance(mark, Line) and mark.name and (kind == "link" if bars else kind in VECTORS):
-            found[mark.name] = shapely.LineString([(mark.x1, mark.y1), (mark.x2, mark.y2)])
-        elif bars and isinstance(mark, Polyline) and kind == "plate":
+    if lines:
+        found |= zip(lines, shapely.linestrings([*lines.values()]), strict=True)
+    for mark in marks if bars else ():
+        if isinstance(mark, Polyline) and mark.cls.split()[0] == "plate":
             found[mark.name] = shapely.Polygon(mark.points)
     return found
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -32,7 +32,8 @@ class Drawing:
     """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
 
     ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``curves``
-    are those over the whole motion.
+    are those over the whole motion. ``computed`` says by the symbol why a quantity is computed,
+    not measured.
     """
 
     kind: str
@@ -43,6 +44,7 @@ class Drawing:
     words: Words
     again: bool = False
     curves: tuple[Curve, ...] = ()
+    computed: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def plane(self) -> Plane:

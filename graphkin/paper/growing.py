@@ -30,7 +30,8 @@ LEADING, SMALL_LEADING = 6.2, 4.6
 def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tuple[Page, ...]:
     """A page for each sentence of the construction: what it draws stands out, the rest follows.
 
-    Every mark and letter has on each page the place that it has on the finished sheet.
+    ``number`` is that of the sheet; each page adds which step it is, of how many. Every mark and
+    letter has on each page the place that it has on the finished sheet.
     """
     layout = layout or lay_out(drawing)
     said = sentences(drawing)
@@ -39,11 +40,7 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     (left, detail), (right, other) = parted(*boards)
     timed = [(stage_of(drawing, mark, staged, said), mark) for mark in (*left, *right)]
     last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
-    same = [
-        *sheet_frame(title_block(drawing, "steps", number)),
-        *heading(drawing),
-        *panels(layout),
-    ]
+    block, same = title_block(drawing, "steps", number), [*heading(drawing), *panels(layout)]
     lines = crossings_on(drawing)
     title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
     return tuple(
@@ -51,6 +48,7 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
             420,
             297,
             (
+                *sheet_frame(replace(block, sheet=numbered(drawing, number, stage, len(said)))),
                 *same,
                 *grown(timed, stage),
                 *(last if stage == len(said) - 1 else ()),
@@ -62,6 +60,11 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
         )
         for stage in range(len(said))
     )
+
+
+def numbered(drawing: Drawing, number: str, stage: int, total: int) -> str:
+    """Which page of its sheet a step is, as the title block says it."""
+    return drawing.words("page.sheet_step", sheet=number, number=stage + 1, all=total)
 
 
 def grown(timed: Sequence[tuple[int, Mark]], stage: int) -> Iterator[Mark]:

@@ -9,14 +9,14 @@ import numpy as np
 
 from graphkin.paper import shapes
 from graphkin.paper.areas import Rect
-from graphkin.paper.chords import segments
+from graphkin.paper.chords import pieces_of
 from graphkin.paper.crowd import HELPERS, by_need, placed_after
 from graphkin.paper.doubt import with_leaders
 from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Circle, Line, Mark, Text, box, reach
 from graphkin.paper.place import Spot, Wish, place
 from graphkin.paper.richtext import extent, flowed
-from graphkin.paper.shapes import Box
+from graphkin.paper.shapes import Array, Box
 
 NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
@@ -132,21 +132,19 @@ class Board:
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
 
-    def finish(self, first: Sequence[Spot] = ()) -> list[Mark]:
+    def finish(self, made: tuple[list[Mark], list[Spot]] | None = None) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
 
-        ``first`` are the places of all labels if these were sought before, with other boards'.
-
-        In a worse one letters of the construction are left out, then names of vectors, and a note
-        says which. Raises PageError when another label finds no place even so.
+        ``made`` are the field's foot and the places of all labels if these were sought before,
+        with other boards'. In a worse crowd letters of the construction are left out, then names
+        of vectors, and a note says which. Raises PageError when another label finds no place even
+        so.
         """
         meanings: list[str] = []
-        wished = before = list(self.labels)
-        spots: list[Spot] = []
+        wished = list(self.labels)
+        foot = made[0] if made else self.footed(self.notes)
+        spots = made[1] if made else self.spots(foot)
         for rounds_left in reversed(range(ROUNDS)):
-            foot = self.footed([*self.notes, *meanings])
-            spots = list(first) or self.spots_of_new(foot, before, spots) or self.spots(foot)
-            first = ()
             before = list(self.labels)
             if all(spot.free for spot in spots) and not self.unled(spots):
                 break
@@ -160,6 +158,8 @@ class Board:
                     foot, spots = by_need(self, wished, meanings)
                 break
             self.shorten([spot.free for spot in spots], meanings)
+            foot = self.footed([*self.notes, *meanings])
+            spots = self.spots_of_new(foot, before, spots) or self.spots(foot)
         clear = with_leaders(self.labels, spots, self.marks)
         return [*self.marks, *foot, *marks_of(self.labels, clear)]
 
@@ -235,8 +235,11 @@ class Board:
             ]
             for away in range(0, max(1, int(room)), ASIDE)
         ]
-        drawn = shapes.segments([s for mark in self.marks for s in segments(mark)])
-        return [*min(tried, key=lambda texts: shapes.met([*map(reach, texts)], drawn))]
+        if len(tried) == 1:
+            return [*tried[0]]
+        boxes = [reach(text) for texts in tried for text in texts]
+        crossed = shapes.met(boxes, shapes.segments(pieces_of(self.marks)))
+        return [*tried[int(crossed.reshape(len(tried), -1).sum(axis=1).argmin())]]
 
     def placed(self) -> list[Mark]:
         """Only the labels that find a free place, without the other marks."""
@@ -248,12 +251,11 @@ class Board:
         labels = self.labels if some is None else some
         return place([label.wish() for label in labels], lines, boxes, self.rect)
 
-    def obstacles(self, more: Sequence[Mark] = ()) -> tuple[list[Box], list[Box]]:
+    def obstacles(self, more: Sequence[Mark] = ()) -> tuple[Array, list[Box]]:
         """The lines and the boxes that labels keep clear of: of the marks, and of some more."""
         marks = [*self.marks, *more]
-        lines = [segment for mark in marks for segment in segments(mark)]
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
-        return lines, boxes
+        return pieces_of(marks), boxes
 
 
 def free_ones(board: Board, spots: Sequence[Spot]) -> list[Mark]:

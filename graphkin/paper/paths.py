@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 CHORDS, FINE = 240, 0.02
 """Straight pieces of a small circle, and how far (mm) those of a large one may leave it."""
+UNSEEN = 0.01
+"""How far, in mm, a broken line may pass by corners that are left out."""
 ROOMY = 3.5
 """A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
 COLOURS = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
@@ -37,16 +39,13 @@ def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
 def clipped_path(
     points: Sequence[XY], rect: Rect, cls: str, name: str, step: int | None = None
 ) -> Iterator[Polyline]:
-    """The parts of a broken line that lie in a rectangle."""
+    """The parts of a broken line that lie in a rectangle, without corners that nobody sees."""
     from shapely import LineString, box
 
     if len(points) < 2:
         return
-    left, top, right, bottom = rect
-    if all(left <= x <= right and top <= y <= bottom for x, y in points):
-        yield Polyline(tuple(points), cls, name, step)
-        return
-    found = LineString(points).intersection(box(*rect))
+    line, field = LineString(points).simplify(UNSEEN, preserve_topology=False), box(*rect)
+    found = line if field.covers(line) else line.intersection(field)
     for part in getattr(found, "geoms", [found]):
         if part.geom_type == "LineString" and len(part.coords) > 1:
             yield Polyline(tuple((x, y) for x, y in part.coords), cls, name, step)
@@ -105,10 +104,11 @@ def length(part: Polyline) -> float:
 
 
 def middle_of(part: Polyline, share: float) -> XY:
-    """The corner of a broken line that a share of its length lies before."""
+    """The place on a broken line that a share of its length lies before."""
     left = share * length(part)
     for (x, y), (u, v) in zip(part.points, part.points[1:], strict=False):
-        left -= hypot(x - u, y - v)
-        if left <= 0:
-            return u, v
+        step = hypot(x - u, y - v)
+        if step >= left > 0:
+            return x + (u - x) * left / step, y + (v - y) * left / step
+        left -= step
     return part.points[-1]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections import deque
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
@@ -23,8 +24,7 @@ NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
 FAR = np.array([4.0, 7.0, 11.0, 17.0])  # mm beyond the gap, with a leader
 FARTHEST = np.array([*FAR, 24.0, 33.0])  # for labels that find no other place
 
-NEAREST = slice(0, 32)  # which of a label's candidates are looked at, by distance
-REST = slice(32, 999)  # the same where nothing was free
+NEAREST, NEXT = 32, 96  # how many of a label's candidates are looked at, by distance, and then
 FEW, MANY = 12, 32  # how many of these are offered at first, the cheapest ones
 SOME, ALL = 8, 999  # the same in the last resort: some more of a whole crowd's, then all of them
 
@@ -35,6 +35,7 @@ BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD = 8  # how many labels are settled anew for one without a place
 PUSH = 4.0  # what it is reckoned to cost to push a label aside
 SHORT, LONG, LONGEST = 8, 150, 400  # how many labels are pushed about in a chase
+GAIN = 0.01  # what a chase must save in all to be kept
 WEAR = 4.0  # what a place costs more each time that it is taken in a chase
 
 
@@ -85,13 +86,15 @@ def place(
     board.chase(board.homeless(), LONG)
     if homeless := board.homeless():
         board.widen(j for i in homeless for j in board.crowd(i))
-        board.widen_more(homeless)
+        board.widen_more(homeless, ALL, MANY)
         board.chase(board.homeless(), LONG)
-    for most in (SOME, ALL):
-        if homeless := board.homeless():
-            crowd = [j for i in homeless for j in board.crowd(i)]
-            board.widen_more(crowd, most)
-            board.offer_rest(crowd, most)
+    for reach, most in ((NEXT, SOME), (ALL, ALL)):
+        homeless = [i for i in board.homeless() if board.menus[i]]  # others have no hope
+        crowd = [j for i in homeless for j in board.crowd(i)]
+        count = len(board.places.label)
+        board.widen_more(crowd, reach, most)
+        board.offer_rest(crowd, most)
+        if most is SOME or len(board.places.label) > count:
             board.chase(homeless, LONGEST)
     board.settle(board.sorry(0.2))
     return [board.spot(i) for i in range(len(wishes))]
@@ -123,9 +126,9 @@ class _Board:
         self.hope = np.stack([near.x[:, 0], near.y[:, 0]], axis=1)
         self.middle = (page.subjects.ends[:, :2] + page.subjects.ends[:, 2:]) / 2
         self.wide: set[int] = set()
-        self.wider: set[int] = set()
+        self.seen = [NEAREST] * len(wishes)  # how many of its candidates were looked at
         self.clashes, self.rest = Clashes(), NO_PLACES
-        self._offer(page.near(page.open(np.arange(len(wishes)), near, NEAREST)), FEW)
+        self._offer(page.near(page.open(np.arange(len(wishes)), near, slice(NEAREST))), FEW)
         self.widen(i for i, best in enumerate(self.best) if best > DEAR)
 
     def _offer(self, more: Places, most: int = MANY) -> None:
@@ -184,17 +187,19 @@ class _Board:
         which = sorted({*labels} - self.wide)
         self.wide.update(which)
         if which:
-            self._offer(self._led(which, FAR, NEAREST), FEW)
+            self._offer(self._led(which, FAR, slice(NEAREST)), FEW)
             if self.taken:
                 self.settle(i for i in self.order() if i in which)
         return bool(which)
 
-    def widen_more(self, labels: Iterable[int], most: int = MANY) -> None:
-        """Offer the same to them at other and at longer distances."""
-        which = sorted({*labels} - self.wider)
-        self.wider.update(which)
-        if which:
-            self._offer(self._led(which, FARTHEST, REST), most)
+    def widen_more(self, labels: Iterable[int], reach: int, most: int) -> None:
+        """Offer the same to them at other and at longer distances, up to so many candidates."""
+        behind = {i for i in labels if self.seen[i] < reach}
+        for seen in sorted({self.seen[i] for i in behind}):
+            which = sorted(i for i in behind if self.seen[i] == seen)
+            self._offer(self._led(which, FARTHEST, slice(seen, reach)), most)
+        for i in behind:
+            self.seen[i] = reach
 
     def _led(self, which: Sequence[int], far: Array, span: slice) -> Places:
         """Return places with a leader of some labels, at some distances in mm."""
@@ -202,8 +207,10 @@ class _Board:
         some = tries(self.page.subjects.take(rows), NEAR, far)
         return self.page.led(self.page.open(rows, some, span))
 
-    def offer_rest(self, labels: Iterable[int], most: int) -> None:
+    def offer_rest(self, labels: Sequence[int], most: int) -> None:
         """Offer more places of these labels, which cost too much to be offered before."""
+        if not labels:
+            return
         wanted = np.isin(self.rest.label, list(labels))
         rest = self.rest.take(np.flatnonzero(wanted))
         self.rest = self.rest.take(np.flatnonzero(~wanted))
@@ -211,45 +218,57 @@ class _Board:
 
     def chase(self, labels: Iterable[int], steps: int) -> None:
         """Let each of the labels push others aside and those others in turn, if it pays in all."""
+        rows = self.clashes.rows()
         for i in labels:
+            if not self.menus[i]:
+                continue
             saved = [*self.pick], [*self.paid], self.taken
-            limit = sum(self.paid) - 0.01
-            worn = {self.pick[i]: WEAR}
-            queue = [i]
+            before = sum(self.paid)
+            least = before - self.paid[i] + self.best[i]  # if those in the queue pay their best
+            worn, queue = {self.pick[i]: WEAR}, deque([i])
+            self._lift(i)
             for _ in range(steps):
-                queue += self._push(queue.pop(0), worn)
-                hope = sum(self.paid) - sum(self.fine[j] - self.best[j] for j in queue)
-                if not queue or hope > limit:
+                least += self._push(queue, rows, worn)
+                if not queue or least > before - GAIN:
                     break
-            if sum(self.paid) > limit:
+            if sum(self.paid) > before - GAIN:
                 self.pick, self.paid, self.taken = saved
 
-    def _push(self, i: int, worn: dict[int, float]) -> list[int]:
-        """Put a label on the place with the best price, and return those it pushed aside."""
-        self._lift(i)
-        rows, taken, best, chosen = self.clashes.rows(), self.taken, inf, -1
+    def _push(self, queue: deque[int], rows: Sequence[int], worn: dict[int, float]) -> float:
+        """Put the first label of a queue on the place with the best price.
+
+        Those that it pushes aside queue up. Return how much more all pay above their best.
+        """
+        i = queue.popleft()
+        cost, taken, best, chosen, pushed = self.cost, self.taken, inf, -1, 0
         for k in self.menus[i]:
-            price = self.cost[k]
+            price = cost[k]
             if price >= best:  # and so are those after it
                 break
-            price += PUSH * (rows[k] & taken).bit_count() + worn.get(k, 0.0)
+            if clash := rows[k] & taken:
+                price += PUSH * clash.bit_count()
+            if k in worn:
+                price += worn[k]
             if price < best:
-                best, chosen = price, k
-        if chosen < 0:
-            return []
-        others = sorted(self._on(rows[chosen] & taken))
-        for j in others:
-            self._lift(j)
+                best, chosen, pushed = price, k, clash
+        more: float = cost[chosen] - self.best[i]
+        self.taken ^= pushed
+        for j in self._on(pushed):
+            more += self.best[j] - self.paid[j]
+            self.pick[j], self.paid[j] = -1, self.fine[j]
+            queue.append(j)
         self._put(i, chosen)
         worn[chosen] = worn.get(chosen, 0.0) + WEAR
-        return others
+        return more
 
-    def _on(self, places: int) -> Iterator[int]:
-        """Yield the labels of some places, which are the bits of a number."""
+    def _on(self, places: int) -> list[int]:
+        """Return the labels of some places, which are the bits of a number, in order."""
+        found = []
         while places:
             k = places.bit_length() - 1
             places ^= 1 << k
-            yield self.label[k]
+            found.append(self.label[k])
+        return sorted(found)
 
     def _put(self, i: int, k: int) -> None:
         """Put a label on a place, if there is one."""

@@ -38,6 +38,11 @@ class Shapes(NamedTuple):
         """Return some of the shapes."""
         return Shapes(*(column.take(which) for column in self))
 
+    def boxes(self, more: Array | float = 0.0) -> Array:
+        """Return boxes around the shapes as rows left, top, right, bottom, wider by some mm."""
+        wide, high = self.ex + more, self.ey + more
+        return np.stack([self.x - wide, self.y - high, self.x + wide, self.y + high])
+
     def upright(self) -> Shapes:
         """Return the shapes as columns, for arrays with a row for each."""
         return Shapes(*(column[:, None] for column in self))
@@ -111,10 +116,10 @@ def separation(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array
     return np.maximum(across, np.abs(dy) - (other.ey + hy), out=across)
 
 
-def met(boxes: ArrayLike, lines: Shapes) -> int:
-    """Return how many times segments run into boxes given as rows xmin, ymin, xmax, ymax in mm."""
+def met(boxes: ArrayLike, lines: Shapes) -> Index:
+    """Return how many segments run into each of some boxes: rows xmin, ymin, xmax, ymax in mm."""
     x, y, hx, hy = rectangles(boxes).upright()[:4]
-    return int((separation(x, y, hx, hy, lines) < 0).sum())
+    return np.asarray((separation(x, y, hx, hy, lines) < 0).sum(axis=1))
 
 
 def distance(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array:
@@ -139,8 +144,9 @@ def crossings(one: Array, other: Array) -> Mask:
 
 def pairs_of(mask: Mask) -> tuple[Index, Index]:
     """Return the rows and columns of what is true: as nonzero() does, but much faster."""
-    row, column = np.divmod(np.flatnonzero(mask), max(1, mask.shape[1]))
-    return row, column
+    at, across = np.flatnonzero(mask), max(1, mask.shape[1])
+    row = at // across
+    return row, at - row * across
 
 
 def meeting(one: Array, other: Array) -> tuple[Index, Index]:
@@ -149,19 +155,18 @@ def meeting(one: Array, other: Array) -> tuple[Index, Index]:
     Both are given as rows left, top, right, bottom in mm. Boxes of the first set that follow one
     another should be neighbours: the others are first compared with ones around some at a time.
     """
-    count = one.shape[1]
-    order = np.arange(-(-count // TOGETHER) * TOGETHER).clip(max=count - 1)
-    if not len(order):
+    count, short = one.shape[1], -one.shape[1] % TOGETHER
+    if not count:
         return NO_INDEX, NO_INDEX
-    sides = one.astype(np.float32).take(order, axis=1).reshape(4, -1, TOGETHER) + HAIR
+    whole = np.concatenate([one, one[:, -1:].repeat(short, axis=1)], axis=1) if short else one
+    sides = whole.astype(np.float32).reshape(4, -1, TOGETHER) + HAIR
     hull = np.concatenate([sides[:2].min(axis=2), sides[2:].max(axis=2)])
     far = other.astype(np.float32)
     some, second = pairs_of(overlap(hull[:, :, None], far))
     each = far.take(second, axis=1).repeat(TOGETHER, axis=1).reshape(4, -1, TOGETHER)
-    near = overlap(sides.take(some, axis=1), each)
-    pair, nth = pairs_of(near)
+    pair, nth = pairs_of(overlap(sides.take(some, axis=1), each))
     first, second = some.take(pair) * TOGETHER + nth, second.take(pair)
-    if count < len(order):
+    if short:
         real = np.flatnonzero(first < count)
         first, second = first.take(real), second.take(real)
     return first, second

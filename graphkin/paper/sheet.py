@@ -21,6 +21,7 @@ from graphkin.paper.members import members
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
 from graphkin.paper.richtext import escape, extent, flowed, words_of
+from graphkin.paper.ruled import plan_at
 from graphkin.paper.scale import digits
 from graphkin.paper.sentences import sentences
 from graphkin.paper.standing import lettered
@@ -199,7 +200,8 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
     else:
         marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
         lines = flowed(asked(drawing), "; ", width - 5, 2.5)
-        lines += ["", *flowed(members(drawing).split(" "), " ", width - 5, 2.5)]
+        for told in (members(drawing), plan_at(drawing)):
+            lines += ["", *flowed(told.split(" "), " ", width - 5, 2.5)]
         marks += [
             Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5)
             for i, line in enumerate(lines)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+from graphkin.arithmetic import Real, larger, pick, smaller
 from graphkin.paper.areas import Rect
 from graphkin.paper.bodies import Guideway
 from graphkin.paper.drawing import Drawing
@@ -130,9 +131,7 @@ def draw_frame_guides(board: Board, drawing: Drawing, field: Field) -> None:
             board.marks.append(block(here, way, guideway.block, "slider"))
 
 
-def clear_of_pivots(
-    drawing: Drawing, field: Field, rail: Rail, middle: float
-) -> tuple[float, float]:
+def clear_of_pivots(drawing: Drawing, field: Field, rail: Rail, middle: Real) -> tuple[Real, Real]:
     """The part of a guide about a block, in mm, shorter where a fixed pivot stands in the way."""
     low, high, (x, y) = middle - REACH, middle + REACH, field(rail.zero)
     u, v = field.way(rail.along)
@@ -143,10 +142,11 @@ def clear_of_pivots(
         at = field(drawing.positions[name])
         dx, dy = at[0] - x, at[1] - y + PIVOT / 2
         along, aside = dx * u + dy * v, dy * u - dx * v
-        if abs(aside) < AWAY and along > middle:
-            high = max(min(high, along - AWAY), middle + LEAST)
-        elif abs(aside) < AWAY:
-            low = min(max(low, along + AWAY), middle - LEAST)
+        if abs(aside) < AWAY:
+            beyond = along > middle
+            shorter = larger(smaller(high, along - AWAY), middle + LEAST)
+            later = smaller(larger(low, along + AWAY), middle - LEAST)
+            low, high = pick(beyond, low, later), pick(beyond, shorter, high)
     return low, high
 
 

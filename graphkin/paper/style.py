@@ -7,6 +7,7 @@ mark's next class: ``arrowhead velocity`` and ``label velocity`` are drawn in th
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
@@ -23,6 +24,18 @@ LIGHT = "#e9edf2"
 PALE = "#f5f6f8"
 WHITE = "#ffffff"
 TINTS = (LIGHT, PALE)
+INKS = {
+    BLACK: "ink",
+    GREY: "grey",
+    BLUE: "blue",
+    TEAL: "teal",
+    RED: "red",
+    PURPLE: "purple",
+    LIGHT: "light",
+    PALE: "pale",
+    WHITE: "paper",
+}
+"""The variable of a page that holds each ink, so that a dark page has its own."""
 NEXT = ""  # the colour of the mark's next class
 NOW = "now"
 """The class of what the sentence of a step page draws."""
@@ -143,3 +156,8 @@ def style_of(cls: str, ink: Ink = "colour") -> Style:
 def black(colour: str) -> str:
     """Turn every ink black; white and the light fills stay."""
     return colour if colour in ("", WHITE, LIGHT, PALE) else BLACK
+
+
+def in_variables(rules: str) -> str:
+    """Put the variables of a page for the inks in rules of style."""
+    return re.sub("#[0-9a-f]{6}", lambda found: f"var(--{INKS[found[0]]})", rules)

@@ -10,7 +10,7 @@ from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Line, Mark, Text, box
 from graphkin.paper.naming import segment_of, way_of
-from graphkin.paper.richtext import escape, extent
+from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Vector
 from graphkin.text import Words
@@ -20,6 +20,8 @@ ROW, BASE = 4.7, 3.4
 HEIGHT, SMALL = 2.5, 1.8
 VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
+LEADING = 2.9
+"""Distance of the lines that say what is computed, in mm."""
 PAD = 1.4
 """Least room beside the letters of a cell, both sides together, in mm."""
 BETWEEN, APART = 3, 0.6
@@ -47,11 +49,16 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, float, float]]:
 
 
 def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
-    """One row for each vector of the plan; the values left out on a task sheet."""
+    """One row for each vector of the plan; the values left out on a task sheet.
+
+    A length stands in brackets where it is not measured: the vector is computed.
+    """
     words = drawing.words
     rows = []
     for name, segment, length, size in vectors(drawing):
-        values = ("", "") if empty else (words.fixed(length, 2), words.significant(size))
+        measured = words.fixed(length, 2)
+        drawn = f"({measured})" if symbol(name) in drawing.computed else measured
+        values = ("", "") if empty else (drawn, words.significant(size))
         rows.append(Row((symbol(name), segment, *values), name))
     return rows
 
@@ -182,9 +189,11 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     slide_head = Row((words("table.symbol"), unit, words("table.sense")))
     rows, turns = vector_rows(drawing, empty=empty), turning_rows(drawing, empty=empty)
     sliding = slide_rows(drawing, empty=empty)
-    room = int((rect[3] - rect[1]) / ROW) - 1
+    note = reasons(drawing, [*rows, *turns, *sliding], rect)
+    low = rect[3] - LEADING * len(note)
+    room = int((low - rect[1]) / ROW) - 1
     blocks = [rows[i : i + room] for i in range(0, len(rows), room)]
-    marks: list[Mark] = []
+    marks: list[Mark] = [*note]
     x = rect[0]
     for block in blocks:
         marks += table(x, rect[1], VECTORS, head, block, rows)
@@ -200,9 +209,26 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
         used += len(turns) + 1 + APART
     if not sliding:
         return marks
-    if (used + len(sliding) + 1) * ROW > rect[3] - rect[1]:
+    if (used + len(sliding) + 1) * ROW > low - rect[1]:
         if below:
             x, used = x + sum(TURNS) + BETWEEN, 0.0
         else:
             x, used = x - sum(VECTORS) - BETWEEN, len(blocks[-1]) + 1 + APART
     return [*marks, *table(x, rect[1] + used * ROW, SLID, slide_head, sliding)]
+
+
+def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:
+    """What is computed instead of measured, and why, in small lines below the tables."""
+    names: dict[str, list[str]] = {}
+    for row in rows:
+        why = drawing.computed.get(row.cells[0])
+        if why:
+            names.setdefault(why, []).append(row.cells[0])
+    mark = drawing.words("list_mark")
+    said = [f"{mark.join(dict.fromkeys(found))}: {why}" for why, found in names.items()]
+    lines = flowed(said, "; ", rect[2] - rect[0], SMALL)
+    first = rect[3] - LEADING * (len(lines) - 1)
+    return [
+        Text(rect[0], first + LEADING * i, line, "caption", SMALL, name="computed")
+        for i, line in enumerate(lines)
+    ]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from graphkin.paper.labels import Board
 from graphkin.paper.marks import Mark
 from graphkin.paper.place import Spot, place
@@ -13,7 +15,8 @@ def finished(boards: Sequence[Board]) -> list[list[Mark]]:
     """The marks of boards that do not overlap, finished: their labels are placed in one go."""
     feet = [board.footed(board.notes) for board in boards]
     found = spots_on(boards, feet)
-    return [board.finish(spots) for board, spots in zip(boards, found, strict=True)]
+    made = zip(feet, found, strict=True)
+    return [board.finish(each) for board, each in zip(boards, made, strict=True)]
 
 
 def spots_on(boards: Sequence[Board], more: Sequence[Sequence[Mark]] = ()) -> list[list[Spot]]:
@@ -21,11 +24,14 @@ def spots_on(boards: Sequence[Board], more: Sequence[Sequence[Mark]] = ()) -> li
 
     ``more`` are marks for each board that its labels keep clear of, beside its own.
     """
+    if not boards:
+        return []
     obstacles = [
         board.obstacles(marks)
         for board, marks in zip(boards, more or [()] * len(boards), strict=True)
     ]
-    lines, boxes = ([box for kinds in obstacles for box in kinds[k]] for k in (0, 1))
+    lines = np.concatenate([drawn for drawn, _ in obstacles])
+    boxes = [box for _, taken in obstacles for box in taken]
     wishes = [label.wish() for board in boards for label in board.labels]
     fields = [board.rect for board in boards for _ in board.labels]
     found = iter(place(wishes, lines, boxes, fields))

@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import hypot
 
 import pytest
+from shapely import LineString, Point
 
 from graphkin.handout import drawings_of, proved
 from graphkin.loci import curves_of
@@ -15,7 +16,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field
 from graphkin.paper.layout import lay_out
 from graphkin.paper.marks import Line, Page, Polyline, Text
-from graphkin.paper.paths import clipped_path, ring
+from graphkin.paper.paths import UNSEEN, clipped_path, middle_of, ring
 from graphkin.paper.sentences import sentences
 from graphkin.paper.sheet import sheet
 from graphkin.plane import Circle as Round
@@ -285,6 +286,26 @@ def test_a_curve_is_cut_at_the_edge_of_its_field():
         ((8.0, 10.0), (8.0, 5.0)),
     ]
     assert not list(clipped_path([(20, 20), (30, 30)], rect, "ray", "x"))
+
+
+def test_only_corners_that_nobody_sees_are_left_out():
+    rect = (0.0, 0.0, 200.0, 200.0)
+    straight = [(float(x), 20.0) for x in range(10, 101)]
+    (line,) = clipped_path([*straight, (100.0, 60.0)], rect, "ray", "x")
+    assert line.points == ((10.0, 20.0), (100.0, 20.0), (100.0, 60.0))
+    turn = [100 + 60 * ((-1) ** (i / 360)) for i in range(721)]
+    points = [(point.real, 100 + point.imag) for point in turn]
+    (circle,) = clipped_path(points, rect, "ray", "x")
+    assert len(circle.points) < len(points) / 2
+    kept = LineString(circle.points)
+    assert max(kept.distance(Point(point)) for point in points) <= UNSEEN
+
+
+def test_a_curve_is_named_at_a_share_of_its_length():
+    part = Polyline(((0.0, 0.0), (80.0, 0.0), (80.0, 20.0)), "trajectory")
+    assert middle_of(part, 0.5) == (50.0, 0.0)
+    assert middle_of(part, 0.9) == (80.0, 10.0)
+    assert middle_of(part, 1.0) == (80.0, 20.0)
 
 
 @pytest.mark.parametrize("radius", [0.01, 1.0, 50.0])

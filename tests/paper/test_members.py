@@ -1,4 +1,4 @@
-"""A task says what the links are, so that it can be drawn without a figure."""
+"""A task says what the links are and how large its plans, so that it can be drawn as meant."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import pytest
 from graphkin.handout import drawings_of, hand_out, language_of, proved
 from graphkin.paper.members import members
 from graphkin.paper.richtext import plain
+from graphkin.paper.ruled import plan_at
 from graphkin.scaling import shown
 from tests.paper.sheet_tools import mechanism_named, texts
 
@@ -26,6 +27,30 @@ def test_links_are_told_by_their_points(name, told):
     verdict = proved(mechanism, shown(mechanism))
     drawing = drawings_of(mechanism, verdict, language_of(mechanism, "en"))[0]
     assert plain(members(drawing)) == told
+
+
+@pytest.mark.parametrize(
+    ("name", "rules"),
+    [
+        ("pump", ("kv = ω1·kL, oa = O1A/kL", "ka = ω12·kL")),
+        ("slotted-lever", ("kv = 0.015 (m/s)/mm", "ka = kv2/kL")),
+    ],
+)
+def test_a_task_tells_at_which_scales_its_plans_are_meant(name, rules):
+    for handed, rule in zip(hand_out(mechanism_named(name, 7), "task", "en"), rules, strict=False):
+        (said,) = (
+            line for line in map(plain, (t.markup for t in texts(handed.pages))) if rule in line
+        )
+        assert said.startswith("The plan is drawn at"), said
+
+
+def test_a_plans_scale_is_told_in_every_language():
+    for language, start in (("ro", "Planul"), ("it", "Il poligono"), ("en", "The plan")):
+        mechanism = mechanism_named("pump", 7)
+        drawn = drawings_of(
+            mechanism, proved(mechanism, shown(mechanism)), language_of(mechanism, language)
+        )
+        assert all(plain(plan_at(drawing)).startswith(start) for drawing in drawn)
 
 
 def test_a_task_tells_them_and_a_key_need_not():

@@ -2,14 +2,18 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
+from matplotlib.textpath import TextPath
 
 from graphkin import load
-from graphkin.errors import SceneError
+from graphkin.errors import PageError, SceneError
 from graphkin.handout import drawings_of, hand_out, language_of, proved
+from graphkin.paper.axes import face, size_of
+from graphkin.paper.glyphs import size_for
 from graphkin.paper.style import BLUE, STYLES
 from graphkin.paper.svg import write_svg
 from graphkin.scaling import shown
@@ -59,13 +63,76 @@ def test_black_ink_and_another_language():
     assert colours == {(0.0, 0.0, 0.0)}
 
 
-def test_the_axes_hold_all_that_is_drawn():
-    ax = load("pump", n=7).plot(axes(), "mechanism")
+@pytest.mark.parametrize("which", ["mechanism", "velocity", "acceleration"])
+def test_the_axes_hold_all_that_is_drawn(which):
+    ax = load("pump", n=7).plot(axes(), which)
+    inside = ax.get_window_extent()
     for patch in ax.patches:
-        low, high = patch.get_path().get_extents().get_points()
-        assert ax.get_xlim()[0] <= low[0] and high[0] <= ax.get_xlim()[1]
-        assert ax.get_ylim()[0] <= low[1] and high[1] <= ax.get_ylim()[1]
+        box = patch.get_path().get_extents(patch.get_transform())
+        assert inside.x0 - 1e-6 <= box.x0 and box.x1 <= inside.x1 + 1e-6
+        assert inside.y0 - 1e-6 <= box.y0 and box.y1 <= inside.y1 + 1e-6
     assert ax.get_aspect() == 1
+
+
+SIGN = TextPath((0, 0), "⊥", size=size_for(2.5), prop=face(italic=False)).get_extents()
+
+
+def signs(ax):
+    """The sizes in mm of the signs ⊥, which stand in every plan."""
+    found = []
+    for patch in ax.patches:
+        box = patch.get_path().get_extents(patch.get_transform())
+        letter = not patch.get_linewidth() and len(patch.get_path().vertices) == 10
+        if letter and abs(box.width / box.height - SIGN.width / SIGN.height) < 1e-3:
+            found.append(box.height / ax.figure.dpi * 25.4)
+    return found
+
+
+def heads(ax):
+    """The lengths in mm of the arrowheads: filled triangles without an edge."""
+    found = []
+    for patch in ax.patches:
+        corners = patch.get_transform().transform(patch.get_path().vertices)
+        if len(corners) == 4 and not patch.get_linewidth():
+            tip, *back = (complex(*corner) for corner in corners[:3])
+            found.append(abs(tip - sum(back) / 2) / ax.figure.dpi * 25.4)
+    return found
+
+
+@pytest.mark.parametrize("later", [False, True])
+def test_letters_and_arrowheads_of_all_drawings_in_a_figure_are_of_one_size(later):
+    """Capitals are 2.5 mm high and heads 3.2 mm long, as on the sheets, in axes of every size."""
+    names = ("pump", str(SCENES / "oscillating-slide.toml"), str(SCENES / "gears-planet.toml"))
+    figure = Figure((9, 10))
+    for row, name in zip(figure.subplots(3, 2), names, strict=True):
+        for ax, which in zip(row, ("velocity", "acceleration"), strict=True):
+            load(name).plot(ax, which, language="en")
+    for ax in figure.axes:
+        box = ax.get_position()
+        if later:
+            ax.set_position((box.x0, box.y0, 1.3 * box.width, 0.9 * box.height))
+            ax.apply_aspect()
+        assert max(heads(ax)) == pytest.approx(3.2)
+        assert signs(ax)
+        assert signs(ax) == pytest.approx([SIGN.height] * len(signs(ax)))
+
+
+@pytest.mark.parametrize("inches", [(3, 2.5), (6.4, 4.8), (12, 9)])
+def test_a_drawing_fills_its_axes_in_millimetres_of_the_sheet(inches):
+    """Its longest vector takes up what the letters beside it leave of the axes."""
+    ax = load("pump", n=7).plot(Figure(inches).subplots(), "velocity")
+    longest = max(lines(ax, BLUE, STYLES["velocity"].width), key=abs)
+    assert abs(longest) == pytest.approx(60)
+    width, height = size_of(ax)
+    left, right = ax.get_xlim()
+    assert (right - left) / width == pytest.approx(np.diff(ax.get_ylim())[0] / height)
+    assert abs(longest.imag) * width / (right - left) > 0.4 * height
+
+
+def test_axes_too_small_for_the_letters_are_refused():
+    ax = Figure((1.2, 1)).subplots()
+    with pytest.raises(PageError, match="axes of 24 × 20 mm are too small: does not fit"):
+        load("pump", n=7).plot(ax, "acceleration")
 
 
 def test_a_plan_of_which_nothing_is_asked_is_refused(tmp_path):

@@ -11,11 +11,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely import LineString, MultiLineString, Point, box
 
-from graphkin.paper.chords import SAGITTA, segments
+from graphkin.paper.chords import SAGITTA, pieces_of, segments
 from graphkin.paper.clashes import BESIDE, PAD, Clashes, Places
 from graphkin.paper.detail import free_place, within
 from graphkin.paper.marks import Arc, Circle, Line, Text, reach
-from graphkin.paper.shapes import NOWHERE, meeting
+from graphkin.paper.shapes import NOWHERE, meeting, met
+from graphkin.paper.shapes import segments as shapes_of
 
 spots = st.tuples(st.floats(0, 80), st.floats(0, 60))
 halves = st.tuples(st.floats(0.1, 6), st.floats(0.1, 3))
@@ -116,6 +117,12 @@ def test_a_free_disc_is_free(ends, near, room):
         drawn = [LineString([(m.x1, m.y1), (m.x2, m.y2)]) for m in marks[:-1]]
         drawn.append(box(*reach(marks[-1])))
         assert all(shape.distance(Point(place)) >= room - 1e-9 for shape in drawn)
+
+
+def test_how_many_lines_run_into_each_box():
+    drawn = shapes_of(pieces_of([Line(0, 5, 30, 5, "link"), Line(4, 0, 4, 9, "link")]))
+    assert met([(2, 2, 8, 8), (12, 2, 18, 8), (2, 12, 8, 18)], drawn).tolist() == [2, 1, 0]
+    assert met([(2, 2, 8, 8)], shapes_of(pieces_of([]))).tolist() == [0]
 
 
 def test_the_nearest_free_disc_is_taken_and_one_in_sight_before_it():

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.handout import drawings_of, language_of, proved
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.richtext import plain
+from graphkin.scaling import shown
 from graphkin.text import LANGUAGES, words
 from tests.paper.made_up import made_up
+from tests.paper.sheet_tools import mechanism_named
 
 SCENES = {
     "slides on moving links": (
@@ -179,3 +182,12 @@ def test_a_mechanism_without_wheels_does_not_speak_of_slip():
 def test_the_data_can_be_said_in_every_language(name, language):
     found = said(name, language)
     assert len(found) == len(said(name)) and not [piece for piece in found if "{" in piece]
+
+
+def test_a_negative_speed_that_is_a_parameter_says_so():
+    mechanism = mechanism_named("gears-planet")
+    verdict = proved(mechanism, shown(mechanism))
+    (drawing, *_) = drawings_of(mechanism, verdict, language_of(mechanism, "en"))
+    found = [plain(piece) for piece in given(drawing)]
+    assert "n = −50 rev/min" in found
+    assert "n1 = −n = 50 rev/min = constant, turning clockwise" in found

@@ -62,6 +62,21 @@ def test_each_page_says_its_sentence_and_draws_it(name):
             assert new or any(each in words for each in UNDRAWN), words
 
 
+@pytest.mark.parametrize(
+    ("language", "said"),
+    [("en", "1/2 · step 2 of {}"), ("it", "1/2 · passo 2 di {}"), ("ro", "1/2 · pasul 2 din {}")],
+)
+def test_the_title_block_of_each_page_tells_which_of_how_many_it_is(language, said):
+    found = hand_out(load("pump", n=7), view="steps", language=language)
+    for i, sheet in enumerate(found, 1):
+        total, numbers = len(sheet.pages), []
+        for page in sheet.pages:
+            numbers.append(" ".join(m.markup for m in page.marks if m.name == "sheet"))
+        assert numbers[1] == said.format(total).replace("1/2", f"{i}/2")
+        assert len(set(numbers)) == total > 2
+        assert numbers[-1].endswith(f" {total} {said.split()[-2]} {total}")
+
+
 def test_an_arrow_stands_as_soon_as_its_ends_do():
     for kind, grown in pages("pump", "steps").items():
         letter = "b" if kind == "velocity" else "b′"

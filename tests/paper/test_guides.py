@@ -1,0 +1,52 @@
+"""The drawn part of a guide of the frame stays clear of fixed pivots, in every kind of number."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphkin.paper.slides import AWAY, LEAST, REACH, clear_of_pivots, rails_of
+from tests.paper.made_up import field_of, made_up
+
+SCENE = """
+[frame]
+O = [0, {below}]
+G = [0, 0]
+[links.1]
+O-B = 40
+[links.2]
+A = [0, 0]
+slides = {{ on = 0, through = "G", angle = 0 }}
+"""
+SPANS = {
+    30: (30 - REACH, 30 + REACH),
+    20: (AWAY, 20 + REACH),
+    10: (10 - LEAST, 10 + REACH),
+    -10: (-10 - REACH, -10 + LEAST),
+    -20: (-20 - REACH, -AWAY),
+    -30: (-30 - REACH, -30 + REACH),
+}
+"""The drawn part, in mm from a pivot on the guide, by where the block stands."""
+
+
+def span(middle, below=0):
+    """The part about a block whose middle stands there, with the pivot so far below the guide."""
+    points = {"O": -1j * below, "G": 0j, "B": 40 - 1j * below, "A": 0j}
+    drawing = made_up(SCENE.format(below=-below), points)
+    (rail,) = rails_of(drawing)
+    return clear_of_pivots(drawing, field_of(drawing), rail, middle)
+
+
+@pytest.mark.parametrize("middle", SPANS)
+def test_a_guide_ends_before_a_pivot_but_holds_its_block(middle):
+    assert span(float(middle)) == pytest.approx(SPANS[middle])
+
+
+def test_many_places_at_once_give_what_each_gives_alone():
+    low, high = span(np.array(list(SPANS), float))
+    expected = np.array(list(SPANS.values())).T
+    assert (low, high) == (pytest.approx(expected[0]), pytest.approx(expected[1]))
+
+
+def test_a_pivot_well_beside_the_guide_shortens_nothing():
+    assert span(10.0, below=20) == pytest.approx((10 - REACH, 10 + REACH))
