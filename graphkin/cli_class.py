@@ -105,12 +105,10 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
 
 def warn_of_languages(students: list[Student]) -> None:
     """Say which languages of a class list are none of the pages'."""
-    from graphkin.roster.languages import unknown_languages
+    from graphkin.roster.languages import named_languages, unknown_lines
 
-    for text, count in unknown_languages(students).items():
-        who = "1 student" if count == 1 else f"{count} students"
-        found = f'"{text[:40]}" is no language of the pages'
-        complain(f"{who}: {found} (ro, en, it); feedback is in that of the lab then")
+    for line in unknown_lines(named_languages(students)):
+        complain(line)
 
 
 def warn_of(found: list[Assigned]) -> None:

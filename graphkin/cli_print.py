@@ -75,7 +75,8 @@ def print_sheets(
     Writes into DIR/print a task sheet (A3) and a form (A4) for every student, and what else
     --view names; then one file of each view with all students in the order of the roster, for the
     printer: class-task.pdf, class-key.pdf. Name, group and an opaque code stand on every sheet,
-    the code also as a QR square where it has room.
+    the code also as a QR square where it has room. A column language of the class list gives each
+    student's own; --lang is for those who have none.
 
     A run that was stopped goes on where it was: the same command again makes what is missing, and
     the same bytes come of it. Two runs into one folder are refused.
@@ -148,6 +149,8 @@ def report(outcome: Outcome) -> None:
         complain(f"an earlier run did not end ({outcome.left}); what it had finished was kept")
     for variant in outcome.lost:
         complain(f'{variant.id}: "{variant.name}" has signs that the font of the sheets lacks: ?')
+    for line in outcome.strange:
+        complain(line)
     for variant, problems in outcome.refused:
         for problem in problems:
             complain(f"{variant.id} {variant.name}: {problem}")

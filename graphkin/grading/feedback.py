@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from html import escape as escaped
 
-from graphkin.grading.html import feedback_table, marked_up, page
+from graphkin.grading.html import feedback_table, page
 from graphkin.grading.model import Graded, Status
 from graphkin.grading.rows import (
     COLUMNS,
@@ -23,6 +23,7 @@ from graphkin.paper.areas import A4_AREA, A4_SIZE
 from graphkin.paper.frame import page_frame
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.richtext import escape, extent, flowed, plain, words_of
+from graphkin.paper.tags import marked_up
 from graphkin.text import Words
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
@@ -56,8 +57,8 @@ def total(graded: Graded, words: Words) -> str:
     text = words("feedback.total", earned=earned, points=points)
     if not graded.pending:
         return text
-    waiting = points_words(graded.pending, words)
-    return f"{text}, {words('feedback.waiting', pending=waiting)}"
+    waiting, every = (points_words(each, words) for each in (graded.pending, graded.points))
+    return f"{text}, {words('feedback.waiting', pending=waiting, all=every)}"
 
 
 def notes(graded: Graded, words: Words) -> list[str]:
@@ -208,8 +209,10 @@ def columns(texts: Sequence[str], y: float) -> list[Mark]:
         if text:
             height = LETTER if extent(text, LETTER)[0] <= width - 1 else SMALL
             shown = text if extent(text, height)[0] <= width - 1 else shortened(text, width - 1)
-            anchor = ("start", x) if i == 0 else ("end", x + width - 1)
-            marks.append(Text(anchor[1], y, shown, "table", height, anchor[0]))  # type: ignore[arg-type]
+            if i == 0:
+                marks.append(Text(x, y, shown, "table", height))
+            else:
+                marks.append(Text(x + width - 1, y, shown, "table", height, "end"))
         x += width
     return marks
 

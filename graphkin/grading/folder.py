@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphkin.grading.book import Book
-from graphkin.grading.languages import languages
 from graphkin.grading.model import Taker
 from graphkin.printing.manifest import Edition, read_edition, tables
 from graphkin.roster.model import Student
@@ -25,7 +24,6 @@ def open_class(folder: Path) -> ClassFolder:
     """The class in a folder. Raises SceneError with what is wrong with its manifest."""
     edition = read_edition(folder)
     rows = tables(folder)["students"]
-    spoken = languages(folder)
     takers = tuple(
         Taker(
             Student(
@@ -38,7 +36,7 @@ def open_class(folder: Path) -> ClassFolder:
             variant.settings,
             variant.code,
             variant.compute,
-            spoken.get(variant.id, ""),
+            variant.language,
         )
         for place, (variant, row) in enumerate(zip(edition.variants, rows, strict=True), 1)
     )

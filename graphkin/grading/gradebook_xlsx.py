@@ -20,7 +20,7 @@ from graphkin.grading.gradebook import Cell, Filled, GradebookError, filled, pla
 from graphkin.grading.gradebook_csv import read_gradebook
 from graphkin.roster.errors import RosterError
 from graphkin.roster.tables import MOST_COLUMNS, MOST_ROWS, bytes_of
-from graphkin.roster.xlsx import cell_text, refuse_bomb
+from graphkin.roster.xlsx import cell_text, open_sheet, opened
 
 START = b"PK\x03\x04"
 """The first bytes of an XLSX, which is a ZIP file."""
@@ -53,7 +53,7 @@ class Workbook:
 
 def read_workbook(data: bytes, name: str) -> Workbook:
     """An export as it stands. Raises GradebookError where it is no table."""
-    sheet = sheet_of(opened(data, name))
+    sheet = open_sheet(to_change(data, name))
     if sheet.max_row > MOST_ROWS or sheet.max_column > MOST_COLUMNS:
         found = f"{sheet.max_row} rows, {sheet.max_column} columns"
         expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns"
@@ -67,27 +67,12 @@ def read_workbook(data: bytes, name: str) -> Workbook:
     return Workbook(name, data, rows)
 
 
-def opened(data: bytes, name: str) -> Any:
+def to_change(data: bytes, name: str) -> Any:
     """The workbook, to be changed. Raises GradebookError where it cannot be read."""
     try:
-        from openpyxl import load_workbook
-    except ImportError:
-        found = "is an XLSX file, and openpyxl, which reads those, is not installed"
-        hint = "or install it: pip install 'graphkin[class]'"
-        raise GradebookError(Problem(name, found, "an export as CSV", hint)) from None
-    try:
-        refuse_bomb(data, name)
-        return load_workbook(io.BytesIO(data))
+        return opened(data, name)
     except RosterError as error:
         raise GradebookError(error.problems) from error
-    except Exception as error:
-        hint = "open it in a spreadsheet and save it again, or export it as CSV"
-        raise GradebookError(Problem(name, "cannot be read as XLSX", "a workbook", hint)) from error
-
-
-def sheet_of(workbook: Any) -> Any:
-    """The sheet that was open last."""
-    return workbook.active if workbook.active is not None else workbook.worksheets[0]
 
 
 def filled_workbook(
@@ -98,8 +83,8 @@ def filled_workbook(
 ) -> Filled:
     """The workbook with the marks in a column. Raises GradebookError where that cannot be told."""
     found = places(book, marks, column, ids)
-    workbook = opened(book.data, book.name)
-    sheet = sheet_of(workbook)
+    workbook = to_change(book.data, book.name)
+    sheet = open_sheet(workbook)
     for line, who in found.lines.items():
         mark = round(marks[who], 2)
         whole = mark.denominator == 1

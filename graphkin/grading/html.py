@@ -7,7 +7,7 @@ from html import escape
 
 from graphkin.grading.model import Status
 from graphkin.grading.rows import COLUMNS, HEADS, Row
-from graphkin.paper.richtext import Piece, pieces
+from graphkin.paper.tags import marked_up
 from graphkin.text import Words
 
 STYLE = """
@@ -49,19 +49,6 @@ def page(title: str, language: str, body: Iterable[str]) -> str:
             "",
         )
     )
-
-
-def marked_up(markup: str) -> str:
-    """A markup of the sheets in that of a page."""
-    return "".join(map(tagged, pieces(markup)))
-
-
-def tagged(piece: Piece) -> str:
-    """A piece of text in the tags of its face and its level."""
-    text = escape(piece.text)
-    text = f"<i>{text}</i>" if piece.italic else text
-    tag = {-1: "sub", 1: "sup"}.get(piece.level)
-    return f"<{tag}>{text}</{tag}>" if tag else text
 
 
 def heads(texts: Sequence[str]) -> str:

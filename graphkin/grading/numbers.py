@@ -14,8 +14,13 @@ NUMBER = re.compile(
     r"(?:(?:[eE]|\s?[*x×·]\s?10\s?\^\s?)(?P<power>[+-]?[0-9]{1,3}))?"
 )
 """A number in ASCII digits, with a point or a comma, perhaps with a power of ten."""
-MISTYPED = re.compile(r"^[0-9_']|[.,]|^[oOlI]$")
-"""What stands after the beginning of a number and is no unit: 1o,5 is not 1 of something."""
+MISTYPED = re.compile(
+    r"^[\s()\[\]^*·/-]*[0-9_']|[.,]|^[oOlI]+(?:[0-9\s]|$)|[A-Za-z](?![23](?![0-9]))[0-9]"
+)
+"""What stands after the beginning of a number and is no unit: 5o0 is not 5 of something.
+
+Of digits after letters only the powers 2 and 3 belong to units.
+"""
 LONGEST = 60
 """Characters of an answer; a longer one is no number."""
 UNITS: dict[str, dict[str, float]] = {
@@ -66,11 +71,12 @@ def read_number(text: str, stripped: str, unit: str) -> Answer:
     found = NUMBER.match(stripped) if len(stripped) <= LONGEST else None
     if found is None:
         return Answer(text, problem="number")
-    written = plain_unit(stripped[found.end() :])
+    rest = stripped[found.end() :]
+    written = plain_unit(rest)
     known = UNITS.get(unit, {unit: 1.0})
     factor = 1.0 if not written else known.get(written)
     if factor is None:
-        return Answer(text, problem="number" if MISTYPED.search(written) else "unit")
+        return Answer(text, problem="number" if MISTYPED.search(rest) else "unit")
     digits = found["digits"].replace(",", ".")
     value = float(f"{digits}e{found['power'] or 0}") * factor
     if not isfinite(value):

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from graphkin.curves.style import INK, look, written
 from graphkin.grading.model import Graded, Mark, Status
 from graphkin.grading.rows import SLIPS
-from graphkin.paper.richtext import plain
+from graphkin.lab.model import Item
+from graphkin.paper.richtext import pieces, plain
 from graphkin.text import Words
 
 if TYPE_CHECKING:
@@ -87,13 +88,29 @@ def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
                 label=words(key),
             )
         left = [a + b for a, b in zip(left, parts, strict=True)]
-    ax.set_yticks(range(len(columns)), [column[0].item.field for column in columns])
+    ax.set_yticks(range(len(columns)), [called(column[0].item, words) for column in columns])
     ax.invert_yaxis()
     ax.set_xlim(0, 100)
     ax.set_xlabel(words("class.share_axis"))
     ax.grid(axis="y", visible=False)
     drawn.legend(loc="outside upper center", ncols=3)
     return drawn
+
+
+def called(item: Item, words: Words) -> str:
+    """A field by its symbol, with the unit in which it is asked; a sense by the word for it."""
+    unit = words("table.sense") if item.what == "sense" else item.unit
+    return f"{mathtext(item.symbol)}, {unit}"
+
+
+def mathtext(markup: str) -> str:
+    """A markup as matplotlib sets it."""
+    parts = []
+    for piece in pieces(markup):
+        text = "".join(f"\\{sign}" if sign in "_$%#&{}^" else sign for sign in piece.text)
+        text = f"\\mathit{{{text}}}" if piece.italic else f"\\mathrm{{{text}}}"
+        parts.append({0: text, 1: f"^{{{text}}}", -1: f"_{{{text}}}"}[piece.level])
+    return f"${''.join(parts)}$"
 
 
 def worth(graded: Graded) -> list[Mark]:

@@ -8,12 +8,13 @@ from html import escape
 from statistics import mean, median
 
 from graphkin.grading.answers import Answers, Unread
-from graphkin.grading.html import RIGHT, marked_up, page
+from graphkin.grading.html import RIGHT, page
 from graphkin.grading.model import Graded, Result, Suspicion, Taker
 from graphkin.grading.numbers import shown
 from graphkin.grading.pictures import pictures, slip_counts
 from graphkin.grading.rows import SLIPS, points_words
 from graphkin.grading.rows import unread as unread_words
+from graphkin.paper.tags import marked_up
 from graphkin.roster.languages import language_in
 from graphkin.roster.model import Student
 from graphkin.text import Words

@@ -12,6 +12,8 @@ from typing import Any
 
 from graphkin.errors import Problem, SceneError
 from graphkin.lab.model import Lab
+from graphkin.roster.languages import language_in
+from graphkin.variants.languages import languages
 from graphkin.variants.manifest import COPY, FORMAT, MANIFEST
 
 FILES = ("scene.toml", "lab.toml")
@@ -23,7 +25,8 @@ AGAIN = "make the folder again with graphkin variants"
 class Variant:
     """One student's sheet: who, the opaque code, and the scene's parameters as exact text.
 
-    ``compute``: the fields of the form that are reckoned, too small to be measured.
+    ``compute``: the fields of the form that are reckoned, too small to be measured. ``language``
+    is what the class list says of it, by code or by name; nothing where it is silent.
     """
 
     id: str
@@ -32,6 +35,12 @@ class Variant:
     name: str = ""
     group: str = ""
     compute: tuple[str, ...] = ()
+    language: str = ""
+
+    @property
+    def spoken(self) -> str | None:
+        """The code of the student's language; None where it is that of the class."""
+        return language_in(self.language)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +54,10 @@ class Edition:
 
 
 def read_edition(folder: Path) -> Edition:
-    """The class folder that ``graphkin variants`` wrote. Raises SceneError with what is wrong."""
+    """The class folder that ``graphkin variants`` wrote.
+
+    Raises SceneError with what is wrong, RosterError where its table cannot be read.
+    """
     from graphkin.lab.read import read_lab
 
     raw = tables(folder)
@@ -59,6 +71,8 @@ def read_edition(folder: Path) -> Edition:
     problems += twins(variants)
     if problems:
         raise SceneError(problems)
+    own = languages(folder)
+    variants = [replace(each, language=own.get(each.id, "")) for each in variants]
     lab = replace(read_lab(folder / COPY), name=str(raw.get("lab", COPY)))
     scene = (folder / COPY / FILES[0]).read_text(encoding="utf-8-sig")
     return Edition(folder, lab, scene, tuple(variants))

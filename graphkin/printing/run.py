@@ -24,6 +24,7 @@ from graphkin.printing.merge import merge
 from graphkin.printing.names import in_the_way, inside, stems
 from graphkin.printing.personal import lost
 from graphkin.printing.work import Made, Order, Wanted, make
+from graphkin.roster.languages import unknown_lines
 from graphkin.scene.read import read_text
 
 FOLDER = "print"
@@ -57,7 +58,8 @@ class Means:
 class Outcome:
     """What came of a run: students, those made now and those that stood already, files, doubts.
 
-    ``files`` are those for the printer; ``refused`` the students who got none.
+    ``files`` are those for the printer; ``refused`` the students who got none; ``strange`` tells
+    of languages that no page has.
     """
 
     folder: Path
@@ -68,6 +70,7 @@ class Outcome:
     refused: list[tuple[Variant, tuple[Problem, ...]]] = field(default_factory=list)
     left: str = ""
     lost: list[Variant] = field(default_factory=list)
+    strange: list[str] = field(default_factory=list)
 
 
 Tell = Callable[[int, int], None]
@@ -123,13 +126,15 @@ class Run:
         self.keys = dict(self.all_keys())
         self.outcome = Outcome(journal.folder, len(variants))
         self.outcome.lost = [one for one in variants if lost(one.name) or lost(one.group)]
+        self.outcome.strange = list(unknown_lines(one.language for one in variants))
 
     def all_keys(self) -> Iterator[tuple[str, str]]:
         """Each part with a hash of all that decides its bytes."""
         order = self.order
-        shared = (__version__, order.lab.name, order.language, order.ink)
         texts = [sha256(text.encode()).hexdigest() for text in (order.scene, order.lab.text)]
         for one in self.edition.variants:
+            language = one.spoken or order.language
+            shared = (__version__, order.lab.name, language, order.ink)
             own = (one.name, one.group, one.id, one.code, dict(one.settings), one.compute)
             for view, kind in self.parts():
                 key = key_of(shared, texts, own, self.stems[one.code], view, kind)
@@ -243,6 +248,9 @@ def part_of(code: str, view: str, kind: str) -> str:
 
 
 def spoken(edition: Edition, wishes: Wishes) -> str:
-    """The language of the pages: the one wished, or the scene's. Raises SceneError for no such."""
+    """The language of who has no own: the one wished, or the scene's.
+
+    Raises SceneError for one that is not there.
+    """
     mechanism = Mechanism(read_text(edition.scene, edition.lab.name))
     return language_of(mechanism, wishes.language).language

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from threading import Lock
 
 from graphkin.errors import GraphkinError, Problem
@@ -37,7 +38,8 @@ FORM = "form"
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """What all sheets of a class share: the lab, the text of its scene, language and ink."""
+    """What the sheets of a class share: the lab, the text of its scene, ink; the language of those
+    who have none of their own."""
 
     lab: Lab
     scene: str
@@ -93,7 +95,7 @@ class Sheets:
         scene = read_text(order.scene, order.lab.name, settings=dict(variant.settings))
         self.mechanism = Mechanism(scene)
         self.whose: Owner = owner(variant)
-        self.words: Words = language_of(self.mechanism, order.language)
+        self.words: Words = language_of(self.mechanism, variant.spoken or order.language)
         verdict = proved(self.mechanism, shown(self.mechanism))
         self.drawings = drawings_of(self.mechanism, verdict, self.words)
         self.made: dict[str, list[Sheet]] = {}
@@ -108,10 +110,11 @@ class Sheets:
         """The sheets of a view, each page with its student's name and code."""
         total = len(self.drawings)
         for i, drawing in enumerate(self.drawings, 1):
-            pages = drawn(owned(drawing, self.whose), view, f"{i}/{total}")
+            own = replace(owned(drawing, self.whose), computed=self.computed)
+            pages = drawn(own, view, f"{i}/{total}")
             yield Sheet(drawing.kind, tuple(signed(pages, view, self.whose)))
         if view in ("task", "key"):
-            pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed())
+            pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed)
             pages = tuple(signed(pages, view, self.whose))
             kind = FORM if view == "task" else "calculation"
             yield Sheet(kind, (*pages, *self.answers()) if view == "task" else pages)
@@ -146,8 +149,11 @@ class Sheets:
         form = items(self.mechanism, self.lab)
         return asked_of(form, self.lab.rubric.points, self.variant.compute)
 
+    @cached_property
     def computed(self) -> dict[str, str]:
         """Why some quantities are computed instead of measured, by their symbols."""
+        if not self.variant.compute:
+            return {}
         fields = items(self.mechanism, self.lab)
         compute = self.variant.compute
         return {quantity_of(i): why(i, self.words) for i in fields if i.field in compute}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from graphkin.roster.model import Student
 from graphkin.roster.tables import folded
@@ -24,10 +24,16 @@ def language_in(text: str) -> str | None:
     return CODES.get(folded(text)) or CODES.get(folded(text.partition("-")[0]))
 
 
-def unknown_languages(students: Iterable[Student]) -> Counter[str]:
-    """What a class list says of languages that is none of the pages', and of how many students."""
+def named_languages(students: Iterable[Student]) -> Iterator[str]:
+    """What a class list says of its students' languages."""
     heads = {folded(head) for head in HEADS}
-    named = (
-        text for each in students for head, text in each.extra.items() if folded(head) in heads
-    )
-    return Counter(text for text in named if text and language_in(text) is None)
+    return (text for each in students for head, text in each.extra.items() if folded(head) in heads)
+
+
+def unknown_lines(named: Iterable[str]) -> Iterator[str]:
+    """A line for each language that is none of the pages', with how many students it is of."""
+    unknown = Counter(text for text in named if text and language_in(text) is None)
+    for text, count in unknown.items():
+        who = "1 student" if count == 1 else f"{count} students"
+        found = f'"{text[:40]}" is no language of the pages'
+        yield f"{who}: {found} (ro, en, it); theirs are in that of the class"

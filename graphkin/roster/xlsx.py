@@ -25,10 +25,9 @@ def xlsx_rows(data: bytes, name: str) -> Iterator[Row]:
     """The rows of the sheet that was open last; leading zeros that its format shows are kept."""
     from graphkin.roster.tables import MOST_COLUMNS, MOST_ROWS, Row
 
-    book = opened(data, name)
+    book = opened(data, name, read_only=True, data_only=True)
     try:
-        sheet = book.active if book.active is not None else book.worksheets[0]
-        rows = sheet.iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1)
+        rows = open_sheet(book).iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1)
         for number, cells in enumerate(rows, 1):
             bare = frozenset(i for i, cell in enumerate(cells) if is_bare(cell))
             yield Row(number, tuple(map(cell_text, cells)), bare)
@@ -40,8 +39,16 @@ def xlsx_rows(data: bytes, name: str) -> Iterator[Row]:
         book.close()
 
 
-def opened(data: bytes, name: str) -> Any:
-    """The workbook. Raises RosterError where openpyxl is missing, or the file is no workbook."""
+def open_sheet(book: Any) -> Any:
+    """The sheet that was open last."""
+    return book.active if book.active is not None else book.worksheets[0]
+
+
+def opened(data: bytes, name: str, **how: bool) -> Any:
+    """The workbook, opened as openpyxl is told how to.
+
+    Raises RosterError where openpyxl is missing, or the file is no workbook.
+    """
     try:
         from openpyxl import load_workbook
     except ImportError:
@@ -50,7 +57,7 @@ def opened(data: bytes, name: str) -> Any:
         raise RosterError(Problem(name, found, "the table saved as CSV UTF-8", hint)) from None
     try:
         refuse_bomb(data, name)
-        return load_workbook(io.BytesIO(data), read_only=True, data_only=True)
+        return load_workbook(io.BytesIO(data), **how)
     except RosterError:
         raise
     except Exception as error:

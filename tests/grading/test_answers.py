@@ -9,8 +9,10 @@ import pytest
 from graphkin.grading.answers import Unread, read_answers
 from graphkin.grading.model import Answer
 from graphkin.grading.numbers import read_answer, rounding
+from graphkin.grading.rows import unread
 from graphkin.lab.model import Item
 from graphkin.roster.errors import RosterError
+from graphkin.text import words
 
 LENGTH = Item("v_D_mm", "segment", "v", "mm", "velocity", "D")
 SPEED = Item("v_D", "value", "v", "m/s", "velocity", "D")
@@ -246,6 +248,23 @@ def test_who_is_not_in_the_class_is_told_what_to_do(tmp_path):
         read_answers(written(tmp_path, "a.csv", "id,v_D\n9999,3.8\n"), FORM, IDS)
 
 
-@pytest.mark.parametrize("text", ["1o,5", "3.8.2", "1O", "2l"])
+@pytest.mark.parametrize(
+    "text",
+    ["1o,5", "3.8.2", "1O", "2l", "5o0", "5O0 m/s", "1o m/s", "47b3,2", "4b7", "3x12", "1/2"],
+)
 def test_a_mistyped_number_is_no_matter_of_units(text):
     assert read_answer(text, SPEED).problem == "number"
+
+
+@pytest.mark.parametrize("text", ["12 kg", "3 kg/m3", "3 m³", "4 N/m2", "5 mm^2", "2 l", "7 oz"])
+def test_a_unit_of_something_else_is_no_mistyped_number(text):
+    assert read_answer(text, SPEED).problem == "unit"
+
+
+@pytest.mark.parametrize(
+    ("language", "said"),
+    [("en", "is not a number"), ("ro", "nu este un număr"), ("it", "non è un numero")],
+)
+def test_letters_among_the_digits_are_told_as_no_number(language, said):
+    answer = read_answer("5o0", HARD)
+    assert unread(answer.problem, HARD.unit, words(language)) == said

@@ -162,7 +162,7 @@ def test_a_student_is_told_what_waits_and_what_could_have_been_read(language):
     assert spoken.decimal("1.5") in note
     assert "v" in plain(note)
     decided = spoken("feedback.total", earned="19", points="19")
-    waits = spoken("feedback.waiting", pending=spoken.decimal("1.5"))
+    waits = spoken("feedback.waiting", pending=spoken.decimal("1.5"), all=spoken.decimal("20.5"))
     assert total(found, spoken) == f"{decided}, {waits}"
     assert plain(spoken("unread.turning")) in why(found, "omega_2_sense", language)
     cells = [row.cells[-1] for row in rows(found, spoken) if row.status is Status.UNREADABLE]
@@ -221,7 +221,7 @@ def test_the_table_and_the_summary_leave_out_what_waits():
     assert row["v_D why"] == "unreadable"
     said = summary([found, graded({})], words("en"))
     assert "mean 100.0 %" in said
-    assert "for 1 of them some points wait" in said
+    assert "for 1 of them points are still open" in said
 
 
 def test_a_form_of_which_nothing_can_be_read_has_no_share():

@@ -147,6 +147,32 @@ def test_a_segment_too_short_to_be_measured_leaves_one_row_with_all_the_points(e
         assert sum(line.startswith("vB = ") for line in lines) == 1
 
 
+def table_of(page: Page, name: str) -> list[str]:
+    """The cells of a row of the tables."""
+    found = (m for m in page.marks if isinstance(m, Text) and (m.cls, m.name) == ("table", name))
+    return [plain(mark.markup) for mark in found]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_tables_of_the_sheets_tell_which_lengths_are_computed(edition, language):
+    """In brackets on the key, with the form's own words below the tables; never else."""
+    spoken = words(language)
+    why, said = spoken("form.compute"), []
+    for variant in edition.variants:
+        sheets = Sheets(order(edition, language), variant)
+        for view in ("task", "key"):
+            page = sheets.of(view)[0].pages[0]
+            said.append(
+                [plain(m.markup) for m in page.marks if getattr(m, "name", "") == "computed"]
+            )
+        measured = [table_of(page, name)[-2] for name in ("v_A", "v_B")]
+        exact = standard(sheets.mechanism, items(sheets.mechanism, edition.lab), edition.lab.rubric)
+        length = spoken.fixed(exact.key["v_B_mm"], 2)
+        wanted = f"({length})" if "v_B" in variant.compute else length
+        assert measured == [spoken.fixed(60, 2), wanted]
+    assert said == [[], [], [f"vB: {why}"], [f"vB: {why}"]]
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     """In mm on paper from the first fixed pivot, to the right and up, which the form says."""

@@ -1,10 +1,9 @@
-"""The language in which each student is answered: a column of the class list, in any language."""
+"""The language of each student's sheets and feedback: a column of the class list."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from graphkin.roster.errors import RosterError
 from graphkin.roster.languages import HEADS
 from graphkin.roster.tables import columns, read_sheet
 from graphkin.roster.written import RUNS
@@ -13,12 +12,13 @@ from graphkin.variants.manifest import TABLE
 
 def languages(folder: Path) -> dict[str, str]:
     """What the table of a class folder says of each student's language, by id; nothing where it
-    has no such column, or cannot be read: the table is not needed for anything else.
+    has no such column, or where there is no table, which is needed for nothing else.
+
+    Raises RosterError where the table cannot be read.
     """
-    try:
-        sheet = read_sheet(folder / TABLE)
-    except RosterError:
+    if not (folder / TABLE).exists():
         return {}
+    sheet = read_sheet(folder / TABLE)
     where = columns(sheet, {"id": (), "language": HEADS})
     if len(where) < 2:
         return {}
