@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -42,7 +43,7 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     \b
     Examples:
       graphkin studio
-      graphkin studio pump
+      graphkin studio pump --lang en
       graphkin studio mine.toml --no-browser --port 8080
     """
     if missing := [name for name in NEEDED if not find_spec(name)]:
@@ -62,4 +63,6 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
         import webbrowser
 
         webbrowser.open(served.address)
+    gc.collect()
+    gc.freeze()  # what is loaded stays: a search for garbage during a move passes it over
     served.server.run()

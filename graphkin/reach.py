@@ -11,7 +11,7 @@ from graphkin.errors import ClosureError, Problem
 from graphkin.meeting import Meeting, loci_of, meeting
 from graphkin.ranges import MOST, closing_ranges, where_it_closes
 from graphkin.scene.model import Scene
-from graphkin.scene.quantity import shortest
+from graphkin.scene.quantity import LENGTHS, shortest
 from graphkin.steps.program import Part, Program, Step
 from graphkin.steps.run import StepFailed, Trace, Values, evaluate
 from graphkin.steps.trying import Closer, ClosingError, sign_table
@@ -107,7 +107,7 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
     """The problem of a group of higher class that does not close, or not in so many ways."""
     links = failed.step.says["list"]
     if not error.ways:
-        found = f"links {links} do not close{least_miss(failed)}"
+        found = f"links {links} do not close{least_miss(scene, failed)}"
         return Problem("position", found, "loci that cross", where_it_closes(scene))
     elsewhere = ""
     if closes_elsewhere(scene):
@@ -127,7 +127,7 @@ def branch_of(scene: Scene, links: str) -> str:
     return next((name for name in names if name in scene.branches), names[0])
 
 
-def least_miss(failed: StepFailed) -> str:
+def least_miss(scene: Scene, failed: StepFailed) -> str:
     """By how much a group of higher class fails to close, at the trial that comes nearest."""
     import numpy as np
 
@@ -146,7 +146,7 @@ def least_miss(failed: StepFailed) -> str:
         least = np.nanmin(missed, initial=least)
     if not np.isfinite(least):
         return ", wherever the first of them is tried"
-    return f": they miss each other by {millimetres(least)}"
+    return f": they miss each other by {measured(scene, least)}"
 
 
 def why(scene: Scene, program: Program, failed: StepFailed) -> str:
@@ -162,15 +162,15 @@ def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
     """Words for two loci that miss each other, or touch and do not cross."""
     step = program.steps[number]
     if found.missed >= TOUCH * found.size:
-        return miss_words(step, found.missed)
+        return miss_words(scene, step, found.missed)
     words = f"{in_line(scene, program, number)}, a dead point"
-    return f"{words}, but {miss_words(step, found.missed)}" if found.apart else words
+    return f"{words}, but {miss_words(scene, step, found.missed)}" if found.apart else words
 
 
-def miss_words(step: Step, missed: float) -> str:
+def miss_words(scene: Scene, step: Step, missed: float) -> str:
     """By how much the loci of a step miss each other."""
     loci = "the arcs miss each other" if "q" in step.says else "the arc misses the guide"
-    return f"{loci} by {millimetres(missed)}"
+    return f"{loci} by {measured(scene, missed)}"
 
 
 def no_single_crossing(step: Step) -> Problem:
@@ -243,6 +243,7 @@ def refuse_blind(scene: Scene, trace: Trace) -> None:
         raise ClosureError(not_found(program, number, words, DEAD))
 
 
-def millimetres(length: float) -> str:
-    """A length (m) in mm, with four digits."""
-    return f"{shortest(float(f'{1e3 * length:.4g}'))} mm"
+def measured(scene: Scene, length: float) -> str:
+    """A length (m) in the unit of the scene, with four digits."""
+    unit = scene.units["length"]
+    return f"{shortest(float(f'{length / float(LENGTHS[unit]):.4g}'))} {unit}"

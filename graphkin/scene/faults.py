@@ -8,11 +8,20 @@ PARTS = "a line holds one heading in brackets, or one key = value, and a comment
 VALUE = "a value is a number, a text in quotes, a list [ ] or a table { }"
 POINT = "a point has digits on both sides: 40.0, 0.5"
 HEADING = "a heading ends as it begins: [links.2], [[drivers]]"
-OPEN = "the text is not closed: put its quote at its end"
+UNCLOSED = "the quote of this text is not closed"
+OPEN = "put its quote at its end"
 DATE = "a date is no value of a scene: put it in quotes"
 UNSEEN = "a sign that cannot be seen stands here: take it out"
 COMMENT = "a comment begins with #"
 NOUGHT = "a number has no nought in front: 12"
+NUMBER = 'a number stands here, in the unit that units states, or an expression in quotes: "2*n"'
+PLAIN = "a number stands here: 12"
+MEASURED = frozenset(
+    ("angle", "speed", "acceleration", "position", "offset", "length", "radius", "module")
+)
+"""Keys of numbers with a unit, beside those of lengths and angles between points."""
+COUNTED = frozenset(("value", "min", "max", "step", "teeth", "time"))
+"""Keys of numbers that no unit of the scene measures."""
 ADVICE = (
     ("expected '='", "between a key and its value stands ="),
     ("expected ']", HEADING),
@@ -53,6 +62,18 @@ def certain(found: str, line: str, rest: str) -> str:
     if word:
         return f"write {word[1].lower()}"
     return DATE if found.startswith("invalid date") else ""
+
+
+def number_hint(before: str) -> str:
+    """What is to stand where a key wants a number; nothing where none is known to.
+
+    ``before`` is the line as far as the value.
+    """
+    key = re.search(r"([\w-]+)[ \t]*=[ \t]*$", before)
+    name = key[1] if key else ""
+    if name in MEASURED or "-" in name:
+        return NUMBER
+    return PLAIN if name in COUNTED else ""
 
 
 def general(found: str, before: str, rest: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.expression import unit_hint
-from graphkin.scene.faults import advice
+from graphkin.scene.faults import OPEN, UNCLOSED, advice, number_hint
 from graphkin.scene.findings import visible
 from graphkin.scene.measures import FloatText
 
@@ -93,6 +93,8 @@ def syntax_problem(message: str, text: str) -> Problem:
         written = lines[int(line) - 1]
         known = hint or value_hint(written, column - 1)
         hint = advice(found, written, column - 1, known)
+    if hint == OPEN:
+        found = UNCLOSED
     return Problem(f"line {line}", f"not TOML: {found}", hint=hint)
 
 
@@ -111,5 +113,6 @@ def value_hint(line: str, at: int) -> str:
         return ""
     if re.fullmatch(r"[\d._ ]+", value):
         return ""
-    kind = "expression" if re.search(r"[\d*/+(^]|^-", value) else "text"
-    return unit_hint(value) or f'put the {kind} in quotes: "{visible(value)}"'
+    if re.search(r"[\d*/+(^]|^-", value):
+        return unit_hint(value) or f'put the expression in quotes: "{visible(value)}"'
+    return number_hint(line[:begins]) or f'put the text in quotes: "{visible(value)}"'

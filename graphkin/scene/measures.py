@@ -83,11 +83,13 @@ class Measures:
     def knows_names(self, read: Quantity, law: bool) -> bool:
         """Whether each name in a quantity is a parameter, or ``t`` in a law of time."""
         unknown = sorted(read.uses() - self.values.keys() - {TIME})
+        known = listed(key for key in self.values if key != TIME)
+        number = f"a number in {read.unit}" if read.unit else "a number"
         for name in unknown:
             self.findings.add(
                 read.place,
                 f"{shown(read.text)} uses {name}, which is no parameter",
-                listed(key for key in self.values if key != TIME) or "a number",
+                f"{number}, or an expression with {known}" if known else number,
                 nearest(name, self.values),
             )
         if TIME not in read.uses():

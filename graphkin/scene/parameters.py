@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.expression import RESERVED, UnreadableError
+from graphkin.scene.expression import RESERVED, Name, UnreadableError
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.measures import quantity
 from graphkin.scene.model import Parameter
@@ -61,8 +61,11 @@ def rational(place: str, raw: object, findings: Findings) -> Quantity | None:
     try:
         read = quantity(raw, "", place)
         if read.uses():
-            used = ", ".join(sorted(read.uses()))
-            findings.add(place, f"{shown(read.text)} uses {used}", "a number, without parameters")
+            says = "is no number", "a number"
+            if not isinstance(read.tree, Name):
+                used = ", ".join(sorted(read.uses()))
+                says = f"uses {used}", "a number, without parameters"
+            findings.add(place, f"{shown(read.text)} {says[0]}", says[1])
             return None
         if isinstance(read.number({}), Fraction):
             return read

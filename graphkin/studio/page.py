@@ -63,6 +63,7 @@ SPOKEN = (
     "studio.on_velocity",
     "studio.on_acceleration",
     "studio.old",
+    "studio.checked_before",
     "studio.gone",
     "studio.failed",
     "studio.drawings",

@@ -6,14 +6,12 @@ the page's own.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from math import ceil, floor
 
 from graphkin.errors import PageError, Problem
-from graphkin.grading.html import marked_up
 from graphkin.paper.areas import Rect
 from graphkin.paper.detail import with_detail
 from graphkin.paper.drawing import Drawing
@@ -22,8 +20,9 @@ from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Mark, Text, reach
 from graphkin.paper.sheet import left_board, right_board
-from graphkin.paper.style import BLACK, BLUE, GREY, LIGHT, PALE, PURPLE, RED, TEAL, WHITE
+from graphkin.paper.style import in_variables
 from graphkin.paper.svg import element, rules
+from graphkin.paper.tags import marked_up
 from graphkin.studio.riding import Seats, riding, seats_of
 
 MECHANISM = "mechanism"
@@ -31,18 +30,6 @@ AROUND = 3.0
 """Room around the marks of a drawing, in mm."""
 GRID = 5.0
 """Edges of a drawing lie on such a grid, in mm, so that it keeps still while values move."""
-COLOURS = {
-    BLACK: "ink",
-    GREY: "grey",
-    BLUE: "blue",
-    TEAL: "teal",
-    RED: "red",
-    PURPLE: "purple",
-    LIGHT: "light",
-    PALE: "pale",
-    WHITE: "paper",
-}
-"""The custom property of the page for each colour, so that a dark page has its own."""
 
 
 class StaleError(Exception):
@@ -137,5 +124,5 @@ def picture(name: str, marks: Iterable[Mark], edges: Rect, drawing: Drawing) -> 
 
 def style(found: Iterable[Panel]) -> str:
     """The rules for the marks of some drawings, in the colours of the page."""
-    text = "\n".join(rules((mark for panel in found for mark in panel.marks), "colour"))
-    return re.sub("#[0-9a-f]{6}", lambda hit: f"var(--{COLOURS[hit[0]]})", text)
+    marks = (mark for panel in found for mark in panel.marks)
+    return in_variables("\n".join(rules(marks, "colour")))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import ceil, floor, log10
 
 from graphkin.paper.settings import unit_of
@@ -46,14 +48,15 @@ def sliders(scene: Scene) -> Iterator[Slider]:
 def slider(scene: Scene, parameter: Parameter) -> Slider:
     """The slider of one parameter, as it is set."""
     value = Fraction(str(scene.values[parameter.name]))
-    places = stops(parameter, value)
-    nearest = min(range(len(places)), key=lambda i: abs(places[i] - value))
+    low, high = ends(parameter, value)
+    step = plain(parameter.step) if parameter.step else None
+    places, names = stops(plain(parameter.minimum or parameter.value), low, high, step)
     return Slider(
         parameter.name,
         written(value),
         unit_of(scene, parameter.name),
-        tuple(map(written, places)),
-        nearest,
+        names,
+        nearest(places, value),
         bound(parameter.minimum),
         bound(parameter.maximum),
     )
@@ -75,25 +78,38 @@ def plain(quantity: Quantity) -> Fraction:
     return Fraction(quantity.number({}))
 
 
-def stops(parameter: Parameter, value: Fraction) -> list[Fraction]:
-    """The values at which a slider stands: on the steps, within the bounds, both ends included."""
+def nearest(places: Sequence[Fraction], value: Fraction) -> int:
+    """The index of the place nearest to a value; the lower of two equally near."""
+    after = bisect_left(places, value)
+    beside = [i for i in (after - 1, after) if 0 <= i < len(places)]
+    return min(beside, key=lambda i: abs(places[i] - value))
+
+
+def ends(parameter: Parameter, value: Fraction) -> tuple[Fraction, Fraction]:
+    """How far a slider goes: to the bounds, or where there are none, about its own value."""
     own = plain(parameter.value)
     least = plain(parameter.minimum) if parameter.minimum else None
     most = plain(parameter.maximum) if parameter.maximum else None
     span = abs(own) * HALF or Fraction(1)
     low = least if least is not None else min(own - span, value)
     high = most if most is not None else max(own + span, value)
-    if parameter.step:
-        step = plain(parameter.step)
-        start = least if least is not None else own
-    else:
-        step, start = fine(high - low), Fraction(0)
-    first, last = ceil((low - start) / step), floor((high - start) / step)
-    stride = max(1, ceil(Fraction(last - first, MOST)))
-    found = [start + step * k for k in range(first, last + 1, stride)]
-    if parameter.step:
-        return found or [own]
-    return sorted({low, *found, high})
+    return low, high
+
+
+@lru_cache(maxsize=256)
+def stops(
+    start: Fraction, low: Fraction, high: Fraction, step: Fraction | None
+) -> tuple[Sequence[Fraction], tuple[str, ...]]:
+    """The values at which a slider stands, and how they are written: the same while it moves.
+
+    They lie on the steps from ``start``; without steps on round values, both ends included.
+    """
+    stride, begin = (fine(high - low), Fraction(0)) if step is None else (step, start)
+    first, last = ceil((low - begin) / stride), floor((high - begin) / stride)
+    each = max(1, ceil(Fraction(last - first, MOST)))
+    found = [begin + stride * k for k in range(first, last + 1, each)]
+    places = sorted({low, *found, high}) if step is None else found or [start]
+    return places, tuple(map(written, places))
 
 
 def fine(span: Fraction) -> Fraction:

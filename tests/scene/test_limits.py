@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.faults import PARTS, VALUE
+from graphkin.scene.faults import NUMBER, PARTS, PLAIN, VALUE
 from graphkin.scene.read import read_scene, read_text
 
 HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'
@@ -79,7 +79,12 @@ def test_syntax_errors_name_their_line() -> None:
         ("pin = True", "write true"),
         ("length = 5 // long", "a comment begins with #"),
         ("length 5", "between a key and its value stands ="),
-        ('title = "Pump', "the text is not closed: put its quote at its end"),
+        ('title = "Pump', "put its quote at its end"),
+        ("speed = fast", NUMBER),
+        ("slides = { on = 0, angle = n }", NUMBER),
+        ("O2-B = long", NUMBER),
+        ("n = { value = seven }", PLAIN),
+        ("2 = arm", 'put the text in quotes: "arm"'),
         ("[[drivers]", "a heading ends as it begins: [links.2], [[drivers]]"),
         ("length = { a = 1", "the table { } is not closed: } or a comma is missing"),
         ("length = 3*n # a student’s", 'put the expression in quotes: "3*n"'),
@@ -90,6 +95,13 @@ def test_syntax_errors_say_how_to_write_it(line: str, hint: str) -> None:
     assert wrong.place == "line 2"
     assert wrong.found.startswith("not TOML: ")
     assert wrong.hint == hint
+
+
+@pytest.mark.parametrize("line", ['title = "Pump', "title = 'Pump", 'title = """Pump', 'a = ["b]'])
+def test_a_quote_that_is_not_closed_is_told(line: str) -> None:
+    wrong = first_problem(f"graphkin = 1\n{line}\n")
+    assert wrong.found == "not TOML: the quote of this text is not closed"
+    assert wrong.hint == "put its quote at its end"
 
 
 def test_a_link_written_twice_is_named() -> None:

@@ -460,7 +460,7 @@ def refusal(text: str) -> str:
 
 def test_a_rod_too_short_for_the_guide_misses_it_by_so_much():
     assert refusal(slider(0.05, 0.03, 90)) == (
-        "position of B: B cannot be found: the arc misses the guide by 20 mm; "
+        "position of B: B cannot be found: the arc misses the guide by 0.02 m; "
         "expected loci that cross; it closes for driver angles "
         "-36.87° to 36.87°, 143.13° to 216.87°"
     )
@@ -476,10 +476,8 @@ def test_the_closing_ranges_are_those_of_trigonometry():
 
 
 def test_two_arcs_too_short_or_one_inside_the_other_miss_each_other():
-    assert "B cannot be found: the arcs miss each other by 5000 mm;" in refusal(
-        four_bar(3, 4, 4, 180)
-    )
-    assert "B cannot be found: the arcs miss each other by 4560 mm;" in refusal(
+    assert "B cannot be found: the arcs miss each other by 5 m;" in refusal(four_bar(3, 4, 4, 180))
+    assert "B cannot be found: the arcs miss each other by 4.56 m;" in refusal(
         four_bar(3, 18, 3, 90)
     )
 
@@ -491,7 +489,7 @@ def test_a_mechanism_that_never_closes_says_so():
 
 
 def test_large_misses_are_written_out():
-    assert "by 50000000 mm;" in refusal(slider(1e5, 5e4, 90))
+    assert "by 50000 m;" in refusal(slider(1e5, 5e4, 90))
 
 
 def test_at_a_dead_point_the_two_lines_are_parallel():

@@ -12,10 +12,10 @@ from graphkin.errors import WitnessError
 from graphkin.handout import drawings_of, hand_out
 from graphkin.mechanism import Mechanism, load
 from graphkin.paper.flattest import crossings_on
-from graphkin.paper.style import STYLES, style_of
+from graphkin.paper.style import INKS, STYLES, style_of
 from graphkin.scaling import shown
 from graphkin.steps.solution import Verdict
-from graphkin.studio.panels import COLOURS, Memory, StaleError
+from graphkin.studio.panels import Memory, StaleError
 from graphkin.studio.tables import FLATTEST
 from graphkin.text import LANGUAGES, words
 from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
@@ -144,7 +144,7 @@ def test_a_scene_that_asks_only_velocities_has_no_acceleration_plan():
 def test_every_colour_of_the_sheets_has_one_on_the_page():
     known = {style_of(cls, "colour").colour for cls in STYLES}
     known |= {style_of(cls, "colour").fill for cls in STYLES} - {""}
-    assert known <= set(COLOURS)
+    assert known <= set(INKS)
     assert not re.search("#[0-9a-f]", seen()["style"])
 
 

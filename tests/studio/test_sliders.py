@@ -63,6 +63,13 @@ def test_bounds_that_are_stated_are_the_ends_of_the_slider():
     assert (slider.stops[0], slider.stops[-1]) == ("0.123", "1.777")
 
 
+def test_a_value_between_the_places_is_shown_at_the_nearest():
+    written = "{ value = 0, min = 0, max = 100000, step = 5 }"  # a place at each 100
+    for value, nearest in (("145", "100"), ("150", "100"), ("155", "200"), ("100000", "100000")):
+        slider = one(written, p=value)
+        assert (slider.value, slider.stops[slider.index]) == (value, nearest)
+
+
 def test_a_slider_has_the_unit_of_what_it_changes():
     text = PUMP.replace(GIVEN, f"{GIVEN}\nrod = 20").replace("C-D = 20", 'C-D = "rod"')
     units = {slider.name: slider.unit for slider in sliders(read_text(text, "s"))}

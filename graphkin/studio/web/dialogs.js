@@ -1,5 +1,6 @@
 // Opening and saving, and the questions before anything is replaced or lost.
 
+import { sentence } from "./mistakes.js";
 import { values } from "./sliders.js";
 import { ask, find, language, listed, say, tell } from "./talk.js";
 
@@ -90,11 +91,4 @@ export function saveSheets(fields) {
     }
   };
   dialog.showModal();
-}
-
-/** A problem in one sentence. */
-export function sentence({ place, found, expected, hint }) {
-  return [place && `${place}: ${found}`, expected && `expected ${expected}`, hint]
-    .filter(Boolean)
-    .join("; ");
 }

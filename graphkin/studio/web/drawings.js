@@ -11,6 +11,7 @@ const NARROW = 2.6; // and below it, where a drawing may be moved in its frame
 const narrow = matchMedia("(max-width: 60rem)");
 const sheet = new CSSStyleSheet();
 let rules = "";
+let checked = ""; // what the independent check says of what is drawn
 document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
 
 /** The plan whose construction stands on the mechanism. */
@@ -26,7 +27,10 @@ export function showDrawings(answer) {
   const drawn = answer.panels !== undefined;
   old.hidden = drawn || !all.querySelector("svg");
   find("seeing").classList.toggle("old", !drawn);
-  if (!drawn) return;
+  if (!drawn) {
+    if (checked) find("verdict").textContent = say("studio.checked_before", { words: checked });
+    return;
+  }
   if (answer.style !== rules) {
     rules = answer.style;
     sheet.replaceSync(rules);
@@ -47,7 +51,8 @@ export function showDrawings(answer) {
   shown.hidden = answer.kinds.length < 2;
   all.dataset.plans = String(answer.kinds.length);
   const verdict = find("verdict");
-  verdict.textContent = `${answer.verdict.agrees ? "✓" : "✗"} ${answer.verdict.words}`;
+  checked = answer.verdict.words;
+  verdict.textContent = `${answer.verdict.agrees ? "✓" : "✗"} ${checked}`;
   verdict.classList.toggle("wrong", !answer.verdict.agrees);
   set(find("results"), answer.results);
   set(find("margins"), answer.margins);
@@ -59,11 +64,14 @@ function set(element, markup) {
 }
 
 /** Let no drawing be so small that its letters cannot be read; it can be moved in its frame,
- * and begins with its middle. */
+ * and begins with its middle. Enlarged on a narrow page it fills its frame both ways. */
 function legible(frame) {
   const svg = frame.querySelector("svg");
   const { width, height } = svg.viewBox.baseVal;
-  const least = narrow.matches ? NARROW : SMALLEST;
+  let least = narrow.matches ? NARROW : SMALLEST;
+  if (narrow.matches && frame.closest(".large")) {
+    least = Math.max(least, frame.clientWidth / width, frame.clientHeight / height);
+  }
   svg.style.minWidth = `${Math.round(width * least)}px`;
   svg.style.minHeight = `${Math.round(height * least)}px`;
   if (frame.seen) return;
@@ -71,11 +79,15 @@ function legible(frame) {
   frame.scrollTo((frame.scrollWidth - frame.clientWidth) / 2, 0);
 }
 
-/** Give one drawing the room of all, or all their own. */
+/** Give one drawing the room of all, or all their own; it stays where it is seen. */
 function enlarge(figure, large) {
   for (const name of names) find(name).classList.toggle("large", large && name === figure.id);
-  all.classList.toggle("one", large);
+  find("seeing").classList.toggle("one", large);
   figure.querySelector(".enlarge").setAttribute("aria-pressed", String(large));
+  const frame = figure.querySelector(".drawing");
+  frame.seen = false;
+  if (frame.firstChild) legible(frame);
+  figure.scrollIntoView({ block: "nearest" });
 }
 
 for (const name of names) {

@@ -1,6 +1,7 @@
 // The text of the scene: its lines numbered, mistakes marked where they stand.
 
-import { find, onSpeaking, say } from "./talk.js";
+import { counted, matter, whereabouts } from "./mistakes.js";
+import { find, onSpeaking } from "./talk.js";
 
 const text = find("text");
 const gutter = find("gutter");
@@ -53,12 +54,6 @@ function follow() {
   under.style.transform = `translateY(${-text.scrollTop}px)`;
 }
 
-/** How many mistakes there are, in words. */
-export function counted(many) {
-  if (many === 0) return say("studio.none_wrong");
-  return many === 1 ? say("studio.one_wrong") : say("studio.some_wrong", { count: many });
-}
-
 /** Show every problem: in the gutter, under its key, and in the list. */
 export function showProblems(problems) {
   if (JSON.stringify(problems) === shown && under.querySelectorAll("mark").length) return;
@@ -98,13 +93,9 @@ function item(problem) {
   const entry = document.createElement("li");
   const body = document.createElement(problem.line ? "button" : "div");
   const where = document.createElement("strong");
-  const place = problem.place.startsWith("line ") ? "" : problem.place;
-  const at = problem.line ? say("studio.line", { line: problem.line }) : "";
-  const column = problem.column ? say("studio.column", { column: problem.column }) : "";
-  where.textContent = [[at, column].filter(Boolean).join(", "), place].filter(Boolean).join(" · ");
+  where.textContent = whereabouts(problem);
   const words = document.createElement("span");
-  const expected = problem.expected && `expected ${problem.expected}`;
-  words.textContent = [problem.found, expected, problem.hint].filter(Boolean).join("; ");
+  words.textContent = matter(problem);
   words.lang = "en";
   body.append(where, " ", words);
   if (problem.line) {

@@ -1,8 +1,9 @@
 // The page: what is written or moved is asked of the studio, and what it answers is shown.
 
-import { agreed, choose, saved, saveSheets, sentence } from "./dialogs.js";
+import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
-import { change, counted, onWriting, showProblems, written } from "./editor.js";
+import { change, onWriting, showProblems, written } from "./editor.js";
+import { counted, sentence } from "./mistakes.js";
 import { forgetMoves, markSliders, onMoving, settings, showSliders } from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
 
@@ -73,7 +74,7 @@ function soon() {
 
 const isSafe = () => written() === safe;
 
-/** Say at the top whether something is not saved. */
+/** Say at the top whether something is not saved; what had failed is said no longer. */
 function state() {
   document.title = `${isSafe() ? "" : "• "}${file.value} – graphkin`;
   if (find("status").classList.contains("wrong")) tell("");
@@ -111,6 +112,7 @@ async function settled() {
 
 async function save() {
   if (document.querySelector("dialog[open]")) return;
+  state();
   try {
     const values = await settled();
     if (values === null) return;
@@ -149,9 +151,7 @@ async function sheets() {
   if (find("status").classList.contains("wrong")) return;
   if (!wrong.length) saveSheets(scene);
   else {
-    const { line } = wrong[0];
-    const where = line ? `${say("studio.line", { line })}: ` : "";
-    tell(`${say("studio.mend_first")} ${where}${sentence(wrong[0])}`, "wrong");
+    tell(`${say("studio.mend_first")} ${sentence(wrong[0])}`, "wrong");
     find("problems").querySelector("button")?.focus();
   }
 }
@@ -189,8 +189,15 @@ onWriting(() => {
 });
 onMoving((quick) => (quick ? move() : look(false)));
 onChoosing(() => look(false));
-find("new").addEventListener("click", () => go("?"));
-find("open").addEventListener("click", () => choose(go).catch((error) => tell(error.message, "wrong")));
+file.addEventListener("input", state);
+find("new").addEventListener("click", () => {
+  state();
+  go("?");
+});
+find("open").addEventListener("click", () => {
+  state();
+  choose(go).catch((error) => tell(error.message, "wrong"));
+});
 find("save").addEventListener("click", save);
 find("sheets").addEventListener("click", sheets);
 find("language").addEventListener("change", another);

@@ -92,6 +92,7 @@ function made(name) {
   });
   field.addEventListener("change", () => {
     const value = field.value.trim().replace(",", ".").replace("−", "-");
+    if (value && value === moved[name]) return; // Enter was pressed before
     if (value) moved[name] = value;
     enable();
     changed(false);
