@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from graphkin.report.pieces import pieces_words
+from graphkin.report.places import LETTER, at_words, length_words, short
 from graphkin.report.record import plain, settings_words
 from graphkin.report.table import labelled, listed
-from graphkin.scene.model import Closure, Side
-from graphkin.scene.quantity import SI
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
     from graphkin.motion.events import Singular
     from graphkin.motion.limits import Follower, Limit
     from graphkin.motion.loop import Loop
-    from graphkin.motion.pieces import Piece
     from graphkin.motion.sweep import Sweep
 
 FLAT = 1e-10
@@ -23,12 +22,8 @@ FLAT = 1e-10
 acceleration is known no better, least of all where all of its kind are nought."""
 SAME = 1e-6
 """Distance of two limits, in degrees, m or s, that are one."""
-NOTHING = 1e-12
-"""A length, in the scene's unit, that is rounding."""
 SHOWN = 6
 """Places left out that are listed."""
-
-LETTER = {"turn": "φ", "slide": "s", "roll": "s", "time": "t"}
 
 
 def cycle_lines(cycle: Cycle) -> Iterator[str]:
@@ -44,8 +39,7 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
     yield from labelled("range", range_words(cycle))
     yield from labelled("dead", [singular_words(cycle, s) for s in of_kind(cycle, "dead")])
     yield from labelled("change", [singular_words(cycle, s) for s in of_kind(cycle, "change")])
-    if len(cycle.pieces) > 1:
-        yield from labelled("pieces", [piece_words(cycle, piece) for piece in cycle.pieces])
+    yield from labelled(*pieces_words(cycle))
     several = len(cycle.path.ranges) > 1
     for i in range(len(cycle.path.ranges)):
         steady = not any(stops(cycle, i))
@@ -62,28 +56,6 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
 def of_kind(cycle: Cycle, kind: str) -> Iterable[Singular]:
     """Dead points, or change points."""
     return (each for each in cycle.singulars if each.kind == kind)
-
-
-def at_words(sweep: Sweep, at: float, name: bool = True) -> str:
-    """A place of the sweep, such as φ = 28.955°."""
-    head = f"{LETTER[sweep.what]} = " if name else ""
-    if sweep.what == "turn":
-        return f"{head}{at:.3f}°".replace("-0.000°", "0.000°")
-    if sweep.what == "time":
-        return f"{head}{short(at)} s"
-    return head + length_words(sweep, at)
-
-
-def length_words(sweep: Sweep, value: float) -> str:
-    """A length in the scene's unit."""
-    unit = sweep.original.units["length"]
-    size = value / float(SI[unit][0])
-    return f"{short(size if abs(size) > NOTHING else 0.0)} {unit}"
-
-
-def short(value: float) -> str:
-    """A number with at most six digits."""
-    return f"{value + 0.0:.6g}"
 
 
 def sweep_words(cycle: Cycle) -> Iterator[str]:
@@ -135,22 +107,6 @@ def singular_words(cycle: Cycle, found: Singular) -> str:
     if found.kind == "dead":
         return f"{where}: limit position of the driver, {found.pin} cannot be found beyond"
     return f"{where}: change point, passed as the velocity leads"
-
-
-def piece_words(cycle: Cycle, piece: Piece) -> str:
-    """The signs of a piece."""
-    sweep = cycle.sweep
-    low, high = (at_words(sweep, end.at, name=False) for end in (piece.low, piece.high))
-    branches = []
-    for name, branch in piece.branches.items():
-        if isinstance(branch, Side):
-            side = "left" if branch.side > 0 else "right"
-            branches.append(f"{name} {side} of {branch.first}-{branch.second}")
-        elif isinstance(branch, Closure):
-            branches.append(f"{name} closure {branch.number}")
-        else:
-            branches.append(f"{name} {'forward' if branch.way > 0 else 'backward'}")
-    return f"{LETTER[sweep.what]} from {low} to {high}: {', '.join(branches) or 'nothing to pick'}"
 
 
 def stops(cycle: Cycle, number: int) -> tuple[bool, bool]:

@@ -10,6 +10,7 @@ import pytest
 from graphkin.mechanism import load
 from graphkin.motion import cycle
 from graphkin.motion.limits import followers
+from graphkin.report.pieces import pieces_words
 from graphkin.scene.model import Closure
 
 
@@ -46,3 +47,32 @@ def test_a_link_turns_round_where_the_other_driver_has_its_dead_point():
     here = cycle(load("examples/scenes/stephenson-3-crank.toml"), low=145, high=160, steps=15)
     crank = next(each for each in followers(here) if each.name == "1")
     assert crank.high.value == pytest.approx(dead, abs=1e-6)
+
+
+def told(found) -> list[str]:
+    """The lines about the closures."""
+    label, lines = pieces_words(found)
+    assert label == "closures"
+    assert lines[0] == "one motion through the whole range; to stand in it, write in [branches]"
+    return lines[1:]
+
+
+def test_each_number_is_told_as_a_scene_writes_it(swept):
+    first, *_, last = lines = told(swept)
+    assert first == 'φ from 95.000° to 101.862°: 1 = "closure 3"'
+    assert last == 'φ from 120.635° to 125.000°: 1 = "closure 1"'
+    assert len(lines) == len(swept.pieces)
+
+
+def test_pieces_of_one_number_are_told_as_one_and_what_lies_between_has_no_rows():
+    """Where the crank of the rapid return stands on the guide, two of its closures meet."""
+    found = cycle(load("examples/scenes/rapid-return.toml"), low=80, high=280, steps=20)
+    assert any(piece.high.at - piece.low.at < 1e-3 for piece in found.pieces)
+    assert told(found) == [
+        'φ from 35.000° to 269.988°: 2 = "closure 2"',
+        'φ from 269.988° to 270.000°: 2 = "closure 3"',
+        'φ from 270.000° to 280.000°: 2 = "closure 2"',
+        "φ from 89.958° to 90.500°: no rows, two closures lie too close together",
+        "φ from 270.000° to 270.500°: no rows, two closures lie too close together",
+    ]
+    assert {90.0, 270.0} == set(found.left_out)
