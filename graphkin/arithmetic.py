@@ -190,3 +190,13 @@ def either(condition: Any, one: Point, other: Point) -> Point:
 def least(a: Real, b: Real) -> Real:
     """The smaller of two numbers, element by element in a batch; NaN where either is."""
     return pick(a < b, a, pick(a == a, b, a))  # noqa: PLR0124
+
+
+def smaller(a: Real, b: Real) -> Real:
+    """The smaller of two numbers."""
+    return pick(a <= b, a, b)
+
+
+def larger(a: Real, b: Real) -> Real:
+    """The larger of two numbers."""
+    return pick(a <= b, b, a)

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from graphkin.arithmetic import pick
+from graphkin.arithmetic import larger, smaller
 from graphkin.paper.bodies import Guideway
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Circle, Line, Mark, Polyline
 from graphkin.paper.slides import (
-    AWAY,
     BEYOND,
-    LEAST,
     REACH,
+    STROKE,
     Rail,
     clear_of_pivots,
     guide_bar,
@@ -25,11 +24,11 @@ from graphkin.paper.slides import (
     slot_ends,
     within,
 )
-from graphkin.paper.symbols import BLOCK, PIVOT, block, rails, slot
+from graphkin.paper.symbols import BLOCK, block, rails, slot
 from graphkin.plane import cross, dot
 from graphkin.scene.model import FRAME
 from graphkin.screen.binding import SPACING, Bench, Binding, Told, still
-from graphkin.screen.poses import Pose, larger, smaller
+from graphkin.screen.poses import Pose
 from graphkin.screen.rolling import of_touch, of_wheel
 
 NEAR = 1e-9
@@ -95,34 +94,14 @@ def of_frame_rail(bench: Bench, rail: Rail) -> Told:
         if (low, high) in parts:
             moving = parts[low, high] * field.mm
             now = float(bench.shelf.now(moving))
-            span = clear_span(bench, rail, moving)
+            span = clear_of_pivots(drawing, field, rail, moving)
             found.update(of_sides(bench, rail, marks, span, moving - now))
     for moved, middle in coordinates(bench, rail, pins=True):
         name = next(name for c, name in rail.slots if abs(c - middle) < NEAR)
-        ends = middle * field.mm - 13.0, middle * field.mm + 13.0
+        ends = middle * field.mm - STROKE, middle * field.mm + STROKE
         mark = slot(at, way, *ends, name)
         found[mark] = stretched(bench, Pose(rail.zero, rail.along), ends, moved * field.mm)
     return found
-
-
-def clear_span(bench: Bench, rail: Rail, middle: Any) -> tuple[Any, Any]:
-    """The drawn part of a guide about its block, in mm, clear of fixed pivots, as paper has it."""
-    drawing, field = bench.places.drawing, bench.field
-    low, high, (x, y) = middle - REACH, middle + REACH, field(rail.zero)
-    u, v = field.way(rail.along)
-    moving = {point for link in drawing.scene.links.values() for point in link.points}
-    for name in drawing.scene.frame.points:
-        if name not in moving or name not in drawing.positions:
-            continue
-        at = field(drawing.positions[name])
-        dx, dy = at[0] - x, at[1] - y + PIVOT / 2
-        along, aside = dx * u + dy * v, dy * u - dx * v
-        if abs(aside) < AWAY:
-            before, after = along > middle, along <= middle
-            shorter = larger(smaller(high, along - AWAY), middle + LEAST)
-            later = smaller(larger(low, along + AWAY), middle - LEAST)
-            high, low = pick(before, shorter, high), pick(after, later, low)
-    return low, high
 
 
 def of_sides(

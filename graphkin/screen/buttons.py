@@ -1,4 +1,4 @@
-"""Buttons with a picture instead of words, and with the words for those who do not see it."""
+"""Buttons with a picture, and with words for those to whom it tells nothing."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ ICONS = {
 """The drawings on a button, in a square of 16: those of its states."""
 
 
-def button(name: str, label: str, more: str = "") -> str:
-    """A button by its id; ``more`` are further attributes."""
+def button(name: str, label: str, more: str = "", short: str = "") -> str:
+    """A button by its id; ``more`` are further attributes, ``short`` is a word to be seen."""
     told = f'aria-label="{escape(label)}" title="{escape(label)}"'
     drawn = "".join(
         f'<svg viewBox="0 0 16 16" aria-hidden="true"><path d="{path}"/></svg>'
         for path in ICONS[name]
     )
-    return f'<button type="button" id="{name}" {told} {more}>{drawn}</button>'
+    word = f"<span>{escape(short)}</span>" if short else ""
+    return f'<button type="button" id="{name}" {told} {more}>{drawn}{word}</button>'

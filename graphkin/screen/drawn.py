@@ -7,7 +7,7 @@ from functools import cached_property
 from math import hypot, pi
 from typing import Any
 
-from graphkin.arithmetic import pick
+from graphkin.arithmetic import larger, pick, smaller
 from graphkin.paper.centre import STRAIGHT
 from graphkin.paper.coriolis import is_coriolis
 from graphkin.paper.desk import TINY, above_foot
@@ -21,7 +21,7 @@ from graphkin.plane import Line as Carrier
 from graphkin.plane import Ratio, Vector, dot
 from graphkin.screen.binding import Binding, only_at_start
 from graphkin.screen.places import place_of
-from graphkin.screen.poses import larger, smaller, unit
+from graphkin.screen.poses import unit
 from graphkin.screen.visible import ALIKE, Seen
 from graphkin.steps.program import Part, Plane, Step
 
@@ -187,7 +187,8 @@ class Steps(Seen):
             if pivot is not None:
                 yield shelf.lifted(pivot), shelf.lifted(value.point)
             if self.key(number) == "coriolis-ray":
-                yield (shelf.lifted(self.value(step.args[i])) for i in (1, 3))  # type: ignore[misc]
+                start, end = (shelf.lifted(self.value(step.args[i])) for i in (1, 3))
+                yield start, end
             return
         drawing = self.bench.places.drawing
         if number in drawing.tags and leg_start(self.desk, step) is not None:

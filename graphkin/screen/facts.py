@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
-from graphkin.grading.html import marked_up
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.members import members
+from graphkin.paper.ruled import plan_at
+from graphkin.paper.scale import digits
 from graphkin.paper.sheet import asked
 from graphkin.paper.standing import lettered
 from graphkin.paper.tables import Row, slide_rows, slide_sense, turning_rows, vector_rows
+from graphkin.paper.tags import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
 """What is asked of a block on each sheet."""
@@ -102,8 +104,12 @@ def data(drawing: Drawing, datum: str = "") -> str:
 
 
 def wanted(drawing: Drawing) -> str:
-    """What a sheet asks for, piece by piece."""
-    return listed([*asked(drawing), members(drawing)])
+    """At which scales a task is to be drawn, and what it asks for, piece by piece."""
+    words, kL = drawing.words, drawing.words.decimal(digits(drawing.scales.kL))
+    first = words("task.to_scale", scale=drawing.scales.words, kL=kL)
+    then = plan_at(drawing)
+    scales = f'<p class="scales"><strong>{marked_up(first)}</strong> {marked_up(then)}</p>'
+    return scales + listed([*asked(drawing), members(drawing)])
 
 
 def listed(markups: Iterable[str]) -> str:

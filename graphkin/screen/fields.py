@@ -3,42 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
 
 from graphkin.paper.areas import Rect
 from graphkin.paper.glyphs import font_face
 from graphkin.paper.marks import Mark, Text
-from graphkin.paper.style import (
-    BLACK,
-    BLUE,
-    GREY,
-    LIGHT,
-    PALE,
-    PURPLE,
-    RED,
-    TEAL,
-    WHITE,
-    Ink,
-)
+from graphkin.paper.style import Ink, in_variables
 from graphkin.paper.svg import LETTERING, element, number, rules
 from graphkin.screen.telling import Timed
+from graphkin.text import Words
 
-INKS = {
-    BLACK: "ink",
-    GREY: "grey",
-    BLUE: "blue",
-    TEAL: "teal",
-    RED: "red",
-    PURPLE: "purple",
-    LIGHT: "light",
-    PALE: "pale",
-    WHITE: "paper",
-}
-"""The variable of the page that holds each ink."""
-COLOUR = re.compile("|".join(INKS))
 WIDTH = re.compile(r"stroke-width:([\d.]+)")
 THINNEST = 0.24
 """Lines no thinner than this, in mm, on a screen whose dots are coarser than paper's grain."""
+BAR = 20
+"""Millimetres of paper that the bar of a field's scale is long, until a script finds others."""
 
 
 def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str) -> str:
@@ -50,6 +30,22 @@ def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str)
     box = " ".join(map(number, (left, top, right - left, bottom - top)))
     drawn = "\n".join(placed(name, timed) for name, timed in marks)
     return f'<svg viewBox="{box}" role="img" aria-labelledby="{named_by}">\n{drawn}\n</svg>'
+
+
+def scale_bar(words: Words) -> str:
+    """A bar as long as some millimetres of paper are in a field, which its style sheet knows."""
+    told, paper = escape(words("screen.bar")), escape(words("screen.on_paper"))
+    return (
+        f'<span class="bar" aria-hidden="true" title="{told}"><span class="mm">{BAR}</span> mm'
+        f'<span class="paper"> {paper}</span><i></i></span>'
+    )
+
+
+def bar_rules(fields: str, rects: Sequence[Rect]) -> Iterator[str]:
+    """What of each of some fields side by side its bar is to know: how wide and high it is."""
+    for place, (left, top, right, bottom) in enumerate(rects, 1):
+        box = f"--bar:{BAR};--wide:{number(right - left)};--high:{number(bottom - top)}"
+        yield f"{fields}>:nth-child({place}){{{box}}}"
 
 
 def placed(name: str, timed: Timed) -> str:
@@ -76,9 +72,9 @@ def faces() -> str:
 
 def themed(rule: str) -> str:
     """A rule of the sheets in inks that follow light and dark, its lines as strong as told."""
-    rule = COLOUR.sub(lambda found: f"var(--{INKS[found[0]]})", rule)
     return WIDTH.sub(
-        lambda found: f"stroke-width:calc({max(float(found[1]), THINNEST):g}px*var(--w))", rule
+        lambda found: f"stroke-width:calc({max(float(found[1]), THINNEST):g}px*var(--w))",
+        in_variables(rule),
     )
 
 

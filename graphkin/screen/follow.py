@@ -26,6 +26,8 @@ from graphkin.screen.poses import Pose, unit
 
 SOLID = ("link", "plate", "weld", "spoke", "guide-bar", "block", "slider", "disc", "gear-disc")
 """The classes of marks that are parts of the link whose name they bear."""
+LABELS = ("label", "number", "leader")
+"""The classes of a letter and of the circle and the leader that go with it."""
 PINS = ("pin", "hinge", "fixed-pivot")
 """The classes of marks at the point whose name they bear."""
 FIXED = ("caption", "guide", "ground", "centre-line", "fixed-pivot", "title", "panel")
@@ -93,11 +95,20 @@ class Following:
         """Whether a label can as well stand on the other side of what it names: that of a vector or
         a line, or a letter at a point, unless a leader or a circle goes with it."""
         before = {mark.cls.split()[0] for mark in self.marks[max(k - 2, 0) : k]}
-        if before & {"leader", "number"}:
+        return not before & {"leader", "number"} and (record[0] == "b" or self.is_upright(record))
+
+    def keeps_off(self, k: int, record: Record) -> bool:
+        """Whether a letter, or the leader or circle that goes with it, stands off a point."""
+        text = self.text_of(k) if self.marks[k].cls.split()[0] in LABELS else None
+        if text is None or record[0] not in "tmf" or not self.is_upright(record):
             return False
+        return text.step is not None or text.name in self.bench.places.spots
+
+    def is_upright(self, record: Record) -> bool:
+        """Whether what a pose carries does not turn."""
         graph, outputs = self.bench.shelf.graph, self.bench.shelf.outputs
         way = [outputs[record[3] + i] for i in (0, 1)]
-        return record[0] == "b" or all(graph.constant(node) is not None for node in way)
+        return all(graph.constant(node) is not None for node in way)
 
     def more(self) -> Iterator[tuple[int, str, str, Record]]:
         """Marks that are not drawn where the scene stands, after those of the same step: number of
@@ -127,7 +138,7 @@ class Following:
         if found is not None:
             return found
         first = mark.cls.split()[0]
-        if first in ("label", "number", "leader"):
+        if first in LABELS:
             return self.label(k, mark)
         if mark.step is not None:
             return self.steps.binding(mark) or only_at_start

@@ -13,17 +13,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
 from itertools import groupby
-from pathlib import Path
 
-from graphkin.grading.html import marked_up
-from graphkin.grading.numbers import LONGEST, NUMBER, UNITS
+from graphkin.grading.numbers import LONGEST, MISTYPED, NUMBER, UNITS
 from graphkin.lab.items import items as fields_of
 from graphkin.lab.model import Item, Lab
 from graphkin.mechanism import Mechanism
+from graphkin.paper.tags import marked_up
 from graphkin.printing.form import advice, why
+from graphkin.screen.scripts import FORM, together
+from graphkin.screen.skeleton import part
 from graphkin.text import Words
-
-HERE = Path(__file__).resolve().parent
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +108,10 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "memory": identity.memory,
         "separator": ";" if words("decimal_mark") == "," else ",",
         "number": NUMBER.pattern.replace("(?P<", "(?<"),
+        "mistyped": MISTYPED.pattern,
         "longest": LONGEST,
         "units": {unit: UNITS.get(unit, {unit: 1}) for unit in sorted({i.unit for i in items})},
+        "sense": words("table.sense"),
         "words": {key.partition(".")[2]: words.sentences[key] for key in SAID},
     }
 
@@ -156,7 +157,8 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> I
     """One field: its label, where it is written, its unit, its points, and room for a message."""
     name = f"answer-{escape(item.field)}"
     said = words("table.sense") if item.what == "sense" else words(KINDS[item.what])
-    what = ", ".join(filter(None, (marked_up(item.symbol), escape(said), escape(item.unit))))
+    symbol = f'<span class="symbol">{marked_up(item.symbol)}</span>'
+    what = ", ".join(filter(None, (symbol, escape(said), escape(item.unit))))
     hint = why(item, words) if computed else ""
     more = f"{words('form.points')}: {words.decimal(f'{float(worth):.4g}')}" if worth else ""
     about = f'id="{name}" name="{escape(item.field)}" aria-describedby="{name}-more {name}-wrong"'
@@ -204,9 +206,9 @@ def first_pivot(mechanism: Mechanism) -> str:
 
 def style() -> str:
     """The rules of the form, for a <style> of its page."""
-    return (HERE / "form.css").read_text(encoding="utf-8")
+    return part("form.css")
 
 
 def script() -> str:
     """What reads, keeps, saves and opens answers, for a <script> after the form."""
-    return (HERE / "form.js").read_text(encoding="utf-8")
+    return together(FORM)

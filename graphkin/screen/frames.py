@@ -44,6 +44,8 @@ SMALL = 2.5
 UNITS = {"velocity": "m/s", "acceleration": "m/s²"}
 TRIED = 16
 """Moments over which the places of letters are chosen."""
+EDGE = 3.0
+"""Guides and tracks end so far within the edge of their field, in mm."""
 MECHANISM = "mechanism"
 """The name of the field of the mechanism, beside those of the kinds of plans."""
 
@@ -136,7 +138,10 @@ class Stage:
         """What stands below the mechanism in every picture: paths, and what it slides on."""
         for path in self.paths:
             yield Polyline(tuple(self.mechanism(place) for place in path), "construction")
-        yield from standing([moment.alone for moment in self.motion.moments], self.mechanism)
+        left, top, right, bottom = self.mechanism.rect
+        inner = (left + EDGE, top + EDGE, right - EDGE, bottom - EDGE)
+        drawings = [moment.alone for moment in self.motion.moments]
+        yield from standing(drawings, replace(self.mechanism, rect=inner))
 
     def heading(self, moment: Moment) -> Iterator[Mark]:
         """Where the driver is, at the right of the title."""

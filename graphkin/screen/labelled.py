@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 
@@ -29,5 +30,6 @@ def as_labelled(markup: str, names: Iterable[str], labels: Mapping[str, str]) ->
     count = Counter(bases.values())
     for name, base in bases.items():
         if count[base] == 1:
-            markup = markup.replace(symbol(base), labels[name])
+            bare = re.escape(symbol(base)) + r"(?![_^])"
+            markup = labels[name].join(re.split(bare, markup))
     return markup

@@ -23,8 +23,12 @@ if TYPE_CHECKING:
 
 LETTER = 3.5
 """Height of letters, in mm."""
-FAR = (4.2, 6.0, 8.0)
+FAR = (4.2, 6.0, 8.0, 11.0)
 """How far a letter may stand from its point, in mm; wide ones farther to the side."""
+MOVING = 3
+"""A letter that other points may lead takes one of the first so many: farther off it would seem
+to belong to none of what moves.
+"""
 TURNS = 16
 """Directions that are tried."""
 LEFT: XY = (-0.8, -0.6)
@@ -145,9 +149,11 @@ def rules_over(moments: Sequence[Seen], rect: Rect, fars: Sequence[float]) -> di
     covered = [obstacles(seen.marks) for seen in moments]
     boxes: list[list[tuple[XY, float]]] = [[] for _ in moments]
     for name, letter in moments[0].letters.items():
-        rules, width = list(rules_for(moments[0].near[name], fars)), letter.width
+        near, width = moments[0].near[name], letter.width
+        own = fars[:MOVING] if near else fars
+        rules = list(rules_for(near, own))
         cost = np.array([DISTANT * len(moments) * FAR.index(rule.far) for rule in rules])
-        spots = [spots_of(seen, name, fars) for seen in moments]
+        spots = [spots_of(seen, name, near, own) for seen in moments]
         for here, lies, others in zip(spots, covered, boxes, strict=True):
             cost += price(here, width, lies, others, rect)
         best = int(np.argmin(np.round(cost, 9)))
@@ -177,13 +183,13 @@ def turns() -> tuple[XY, ...]:
     return tuple((round(cos(a), 6), round(sin(a), 6)) for a in angles)
 
 
-def spots_of(seen: Seen, name: str, fars: Sequence[float]) -> Any:
+def spots_of(seen: Seen, name: str, near: tuple[str, ...], fars: Sequence[float]) -> Any:
     """Where the rules put the letter of a point at one moment, in their order (n by 2, mm)."""
     import numpy as np
 
     at, wide, found = seen.places[name], seen.letters[name].width / 4, []
     c, s = np.array(turns()).T
-    for others in frames_of(seen.near[name]):
+    for others in frames_of(near):
         u, v = off(at, [seen.places[other] for other in others]) if others else (1.0, 0.0)
         x, y = u * c - v * s, u * s + v * c
         if not (u or v):

@@ -9,8 +9,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import GraphkinError
@@ -25,6 +23,7 @@ from graphkin.screen.extents import box_of, half
 from graphkin.screen.follow import Following
 from graphkin.screen.passage import Course
 from graphkin.screen.places import Places
+from graphkin.screen.scripts import MOVING, joined
 from graphkin.screen.tracing import Tracing
 from graphkin.steps.crossings import is_drawn
 from graphkin.steps.script import MATH, script_source
@@ -43,10 +42,11 @@ class Moving:
     """JavaScript that moves the marks of a page.
 
     ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step,
-    set(x, element), extent(x, sheet, field), values(x), margins(x)}: ``set`` writes the coordinates
-    of all marks, which ``element`` finds by their ids, and tells {ok: false} where the mechanism
-    does not close; ``extent`` is the box (x, y, width, height) that must be in sight of a field, 0
-    the mechanism or 1 the plan;
+    set(x, element, times), extent(x, sheet, field, times), values(x), margins(x)}: ``set`` writes
+    the coordinates of all marks, which ``element`` finds by their ids, and tells {ok: false} where
+    the mechanism does not close; ``extent`` is the box (x, y, width, height) that must be in sight
+    of a field, 0 the mechanism or 1 the plan; ``times``, of each field of each sheet or of one, is
+    how many times larger what keeps its size on the screen is drawn, 1 if not told;
     ``values`` are in SI by the names of the rows of the tables, ``margins`` sines of crossings by
     the step. ``data`` is what it knows of the marks, ``tracing`` what it reckons.
     """
@@ -137,10 +137,11 @@ def followed(
     """What must be in sight of both fields of a sheet.
 
     ``records`` takes those of its marks, each with the id of its mark, ``more`` the marks that a
-    page makes itself: by id after which one, element and class. A field has its room, the box of
-    what stands still in it, of each mark that must be in sight the place of its record and how far
-    it reaches across and down, and the same of its labels, as their steps are drawn, with 1 where
-    one may stand on the other side of what it names.
+    page makes itself: by id after which one, element and class. A field has the place of its first
+    record, its room, the box of what stands still in it, of each mark that must be in sight the
+    place of its record and how far it reaches across and down, and the same of its labels, as their
+    steps are drawn, with 1 where one may stand on the other side of what it names; and the places
+    of the records of what stands off a point.
     """
     angles, first = tracing.driven.angles(tracing.x), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
@@ -148,12 +149,14 @@ def followed(
     for marks, field in fields:
         bench = Bench(places, field, rects)
         following = Following(bench, sheet.layout, marks, angles)
-        still, seen = set(marks), []
+        still, seen, off, began = set(marks), [], [], len(records)
         labels: list[tuple[int, list[float]]] = []
         for k, record in following.records():
             still.discard(marks[k])
             if following.in_sight(marks[k], record):
                 seen.append([len(records), *half(marks[k])])
+            if following.keeps_off(k, record):
+                off.append(len(records))
             if record[0] in "tb" and isinstance(marks[k], Text):
                 own = [len(records), *half(marks[k]), int(following.has_sides(k, record))]
                 labels.append((-1 if (step := marks[k].step) is None else step, own))
@@ -162,8 +165,8 @@ def followed(
             before = f"m{s}-{first + k}"
             more[f"{before}h"] = (before, element, cls)
             records.append([f"{before}h", *record])
-        found.append({"room": bench.room, "still": box_of(still), "seen": seen})
-        found[-1]["labels"] = [own for _, own in sorted(labels)]
+        found.append({"first": began, "room": bench.room, "still": box_of(still), "seen": seen})
+        found[-1] |= {"off": off, "labels": [own for _, own in sorted(labels)]}
         first += len(marks)
     return found
 
@@ -214,7 +217,7 @@ def source(data: dict[str, Any], tracing: Tracing) -> str:
         script_source(tracing.graph, tracing.shelf.outputs, tracing.inputs, "run"),
         *misses(tracing),
         f"const data = {text};",
-        script(),
+        joined(MOVING),
         "})();",
     ]
     return "\n".join(lines) + "\n"
@@ -241,10 +244,3 @@ def way_through(course: Course, tracing: Tracing, reach: Reach) -> dict[str, Any
         "sizes": sizes,
         "turn": turn,
     }
-
-
-@lru_cache(maxsize=1)
-def script() -> str:
-    """What lays the marks out, on every page the same."""
-    text = Path(__file__).with_name("moving.js").read_text(encoding="utf-8")
-    return "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("//"))

@@ -10,7 +10,6 @@ from html import escape
 from itertools import chain
 from math import degrees
 
-from graphkin.grading.html import marked_up
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
@@ -18,9 +17,12 @@ from graphkin.paper.marks import Mark
 from graphkin.paper.sheet import title_of
 from graphkin.paper.style import Ink
 from graphkin.paper.svg import number
+from graphkin.paper.tags import marked_up
 from graphkin.screen import facts
 from graphkin.screen.buttons import button
-from graphkin.screen.fields import field_picture, headline, ink_sheet
+from graphkin.screen.fields import bar_rules, field_picture, headline, ink_sheet, scale_bar
+from graphkin.screen.legend import legend
+from graphkin.screen.scripts import STEP_PAGE, together
 from graphkin.screen.sheets import ScreenSheet, screen_sheets
 from graphkin.screen.skeleton import data_block, offline_page, part
 from graphkin.screen.slider import Slider, slider
@@ -82,16 +84,17 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
             "</div>",
             *construction(sheets, told),
             *outcome(sheets, moves.datum),
+            *legend(sheets),
             "</main>",
             *foot(sheets),
             dock(sheets[0].drawing.words, told, moves),
             data_block("run", record(sheets, told)),
         )
     )
-    scripts = [part("page.js")]
+    scripts = [together(STEP_PAGE)]
     if moves.source:
         scripts.insert(0, moves.source)
-    return written(sheets, body, ink, (), scripts)
+    return written(sheets, body, ink, [part("steps.css")], scripts)
 
 
 def task_page(
@@ -134,12 +137,14 @@ def all_marks(sheet: ScreenSheet) -> tuple[Mark, ...]:
 
 
 def shapes(sheets: Sequence[ScreenSheet]) -> str:
-    """How wide the two fields of each sheet stand beside one another."""
-    return "\n".join(
-        f"#fields-{place}{{--left:{number(width(sheet.layout.mechanism.rect))}fr;"
-        f"--right:{number(width(sheet.layout.plan.rect))}fr}}"
-        for place, sheet in enumerate(sheets)
-    )
+    """How wide the two fields of each sheet stand beside one another, and what their bars know."""
+    found = []
+    for place, sheet in enumerate(sheets):
+        rects = (sheet.layout.mechanism.rect, sheet.layout.plan.rect)
+        left, right = (number(width(rect)) for rect in rects)
+        found.append(f"#fields-{place}{{--left:{left}fr;--right:{right}fr}}")
+        found += bar_rules(f"#fields-{place}", rects)
+    return "\n".join(found)
 
 
 def width(rect: Rect) -> float:
@@ -191,7 +196,8 @@ def figure_pair(
         shown = [*own[1:], *(("", mark) for mark in more[side])]
         label = f"caption-{place}-{side}"
         found += [
-            f'<figure><figcaption id="{label}">{marked_up(caption)}</figcaption>',
+            f'<figure><figcaption><span id="{label}">{marked_up(caption)}</span>',
+            f"{scale_bar(drawing.words)}</figcaption>",
             f'<div class="view">{field_picture(shown, rect, label)}</div></figure>',
         ]
     return [*found, "</div>", "</section>"]
@@ -285,12 +291,12 @@ def dock(words: Words, told: Telling, moves: Slider) -> str:
             '<div id="told">',
             '<div id="say" aria-live="polite" aria-atomic="true"><p id="count"></p>'
             '<p id="sentence"></p></div>',
+            f'<details id="because" open><summary>{escape(words("screen.because"))}</summary>'
+            '<p id="reason"></p></details>',
             f'<p id="behind"><span id="new-key">{escape(words("screen.new"))}</span> '
             f'<span id="from-key">{escape(words("screen.from"))}</span> ',
             '<span id="from"></span></p>',
             '<p id="crossing"></p>',
-            f'<details id="because" open><summary>{escape(words("screen.because"))}</summary>'
-            '<p id="reason"></p></details>',
             "</div>",
             '<div id="keys">',
             button("previous", words("screen.previous")),
@@ -298,13 +304,20 @@ def dock(words: Words, told: Telling, moves: Slider) -> str:
             button("next", words("screen.next")),
             f'<input type="range" id="step" min="1" max="{steps}" step="1" value="1"'
             f' aria-label="{escape(words("screen.step"))}">',
-            button("follow", words("screen.follow"), 'aria-pressed="false"'),
+            button(
+                "follow",
+                words("screen.follow"),
+                'aria-pressed="false"',
+                words("screen.follow_short"),
+            ),
             "</div>",
             f'<div id="stops" role="group" aria-label="{escape(words("screen.stops"))}">',
             *stops,
             "</div>",
             *moves.controls(words),
-            f'<p id="help"><span>{escape(words("screen.help"))}</span> {moves.limits(words)}</p>',
+            f'<p id="help"><span>{escape(words("screen.help"))}</span>',
+            *moves.help(words),
+            "</p>",
             "</div>",
             "</template>",
         )

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any
 
-from graphkin.arithmetic import pick
+from graphkin.arithmetic import larger, pick, smaller
 from graphkin.paper.drawing import ENDLESS, NOISE
 from graphkin.paper.layout import BEYOND, FAR, SWEEP
 from graphkin.plane import Circle, Line, Ratio, dot
-from graphkin.screen.poses import Bodies, larger, smaller, unit
+from graphkin.screen.poses import Bodies, unit
 from graphkin.steps.program import Part
 
 

@@ -7,7 +7,6 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from graphkin.errors import Problem, SceneError
-from graphkin.grading.html import marked_up
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
@@ -19,6 +18,7 @@ from graphkin.paper.scale import Scales
 from graphkin.paper.sheet import title_of
 from graphkin.paper.svg import number
 from graphkin.paper.symbolic import symbol
+from graphkin.paper.tags import marked_up
 from graphkin.scaling import WANTED, natural_seconds, targets_of
 from graphkin.screen.buttons import button
 from graphkin.screen.facts import asked_rows, senses
@@ -30,6 +30,7 @@ from graphkin.screen.moments import Motion, made, place_in
 from graphkin.screen.moving import Moving, moving
 from graphkin.screen.panes import AIR, room_in
 from graphkin.screen.pictured import driver_marks
+from graphkin.screen.scripts import PLAYER, together
 from graphkin.screen.sheets import ScreenSheet
 from graphkin.screen.skeleton import data_block, offline_page, part
 from graphkin.screen.telling import Timed
@@ -71,7 +72,7 @@ def player_page(motion: Motion, words: Words) -> str:
     marks = [mark for sheet in sheets for mark in (*sheet.left, *sheet.right)]
     marks += [mark for own in fixed for mark in own]
     looks = (ink_sheet(marks, "colour"), part("page.css"), part("player.css"), shape(set_up))
-    scripts = (moved.source, part("player.js"))
+    scripts = (moved.source, together(PLAYER))
     return offline_page(title, words.language, body, looks, scripts)
 
 

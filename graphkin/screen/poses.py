@@ -38,16 +38,6 @@ def unit(way: Any) -> Any:
     return way / abs(way)
 
 
-def smaller(a: Any, b: Any) -> Any:
-    """The smaller of two numbers."""
-    return pick(a <= b, a, b)
-
-
-def larger(a: Any, b: Any) -> Any:
-    """The larger of two numbers."""
-    return pick(a <= b, b, a)
-
-
 @dataclass(frozen=True)
 class Bodies:
     """The bodies of one sheet: its drawing, and the traced values of its steps."""

@@ -15,6 +15,8 @@ from graphkin.steps.program import Part, Plane, Step
 from graphkin.text import Words
 
 WHY = {
+    (Part.POSITION, "contact-of-wheels"): "why.touch",
+    (Part.POSITION, "contact-on-track"): "why.touch",
     (Part.POSITION, "arcs-meet"): "why.arcs",
     (Part.POSITION, "arc-cuts-line"): "why.arc",
     (Part.POSITION, "swing-through"): "why.lever",
@@ -34,6 +36,7 @@ WHY = {
     (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
     (Part.ACCELERATION, "square-to"): "why.tangential",
     (Part.ACCELERATION, "parallel-to"): "why.along_acceleration",
+    (Part.ACCELERATION, "along-bar"): "why.no_slip",
     (Part.ACCELERATION, "lay-off-coriolis"): "why.coriolis",
     (Part.ACCELERATION, "lay-back-coriolis"): "why.coriolis",
     (Part.ACCELERATION, "similar-point"): "why.similar",
@@ -45,7 +48,11 @@ WHY = {
 """The key of the reason for an action in a part of the work; others need none."""
 EACH = ("why.square", "why.along")
 """The reasons that are given for each line, not only for the first of its kind."""
-AGAIN = {"why.height": "why.height_again"}
+AGAIN = {
+    "why.height": "why.height_again",
+    "why.normal": "why.normal_again",
+    "why.tangential": "why.tangential_again",
+}
 """What is said of the second and each further one of a kind."""
 LAST = "why.meet"
 """The reason that is given at the end."""
@@ -99,9 +106,11 @@ def gaps(words: Words, key: str) -> Iterator[str]:
 
 def fields(step: Step) -> dict[str, str]:
     """The letters of a step as markup, each empty where the step has none."""
-    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "bar", "letter"), "")
+    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "t", "bar", "letter"), "")
     says = {key: lettered(str(name)) for key, name in step.says.items() if name}
     known |= names_in(says)
+    if says.get("k") and step.name:
+        known["t"] = symbol(lettered(f"{step.name}@{step.says['k']}"))
     if "p" in says and "q" in says:
         known["bar"] = bar(says["p"], says["q"])
         known["letter"] = symbol(says["q"].lower())

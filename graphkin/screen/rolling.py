@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 from typing import Any
 
-from graphkin.arithmetic import pick
+from graphkin.arithmetic import larger, pick, smaller
 from graphkin.paper.bodies import Disc, Touch
 from graphkin.paper.field import Field
 from graphkin.paper.gears import BASE, ROOT, teeth_beside
@@ -15,7 +15,7 @@ from graphkin.paper.wheels import CONTACT, SPARE, spokes, track, wheel
 from graphkin.plane import cross, dot
 from graphkin.scene.model import FRAME
 from graphkin.screen.binding import SPACING, Bench, Binding, Told
-from graphkin.screen.poses import Pose, larger, smaller
+from graphkin.screen.poses import Pose
 
 
 def of_wheel(bench: Bench, disc: Disc) -> Told:

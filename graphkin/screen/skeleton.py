@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-HERE = Path(__file__).resolve().parent
+WEB = Path(__file__).resolve().parent / "web"
 ENDS = re.compile(r"</(?:script|style)|<!--", re.IGNORECASE)
 """What would end a script or a style sheet before its end."""
 OWN = "font-src data:; img-src data: blob:; base-uri 'none'; form-action 'none'"
@@ -69,7 +69,7 @@ def data_block(name: str, value: Any) -> str:
     return f'<script type="application/json" id="{escape(name)}">{text}</script>'
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=32)
 def part(name: str) -> str:
-    """A file beside this module: a script or a style sheet."""
-    return (HERE / name).read_text(encoding="utf-8")
+    """A file of those that a browser reads: a script or a style sheet."""
+    return (WEB / name).read_text(encoding="utf-8")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
+from math import floor, log10
 
-from graphkin.grading.html import marked_up
 from graphkin.mechanism import Mechanism
 from graphkin.paper.data import angle_symbol
+from graphkin.paper.tags import marked_up
 from graphkin.screen.buttons import button
 from graphkin.screen.driven import Driven, Reach, window
 from graphkin.screen.moving import moving, still
@@ -21,8 +22,8 @@ class Slider:
     """The script that moves a mechanism and its plans by ``name``, markup of the driver's symbol.
 
     ``datum`` is that symbol as the data have it, ``unit`` that of its place, ``ends`` the least
-    and the greatest, ``stops`` those of them beyond which nothing closes. Without a script, ``why``
-    is the key of the sentence why they stand still.
+    and the greatest, ``stops`` those of them beyond which nothing closes, ``digits`` the decimals
+    that tell it. Without a script, ``why`` is the key of the sentence why they stand still.
     """
 
     source: str = ""
@@ -31,6 +32,7 @@ class Slider:
     unit: str = ""
     ends: tuple[float, float] = (0.0, 0.0)
     stops: tuple[float, ...] = ()
+    digits: int = 1
     why: str = ""
 
     def controls(self, words: Words) -> Iterator[str]:
@@ -43,8 +45,9 @@ class Slider:
             yield f"<span>{escape(words('screen.driver'))}</span> {marked_up(self.name)}</label>"
             yield f'{low}<input type="range" id="driver">{high}'
             unit = escape(self.place(words, None))
-            yield f'<output id="driven" for="driver" data-unit="{unit}"></output>'
-            yield button("back", words("screen.back")) + "</div>"
+            yield f'<output id="driven" for="driver" data-unit="{unit}"'
+            yield f' data-digits="{self.digits}"></output>'
+            yield button("back", words("screen.back"), "", words("screen.back_short")) + "</div>"
             told, moved = escape(words("screen.results")), escape(words.sentences["screen.moved"])
             yield f'<div id="read" data-moved="{moved}"'
             yield f' data-name="{escape(marked_up(self.datum))}">'
@@ -58,14 +61,17 @@ class Slider:
     def place(self, words: Words, at: float | None) -> str:
         """A place of the driver in words, or its unit alone."""
         unit = words("unit.deg") if self.unit == "deg" else f" {self.unit}"
-        return unit if at is None else words.fixed(at, 1) + unit
+        return unit if at is None else words.fixed(at, self.digits) + unit
 
-    def limits(self, words: Words) -> str:
-        """Why the driver goes no farther; nothing where it turns freely, or as far as is shown."""
+    def help(self, words: Words) -> Iterator[str]:
+        """Which keys move the driver, and why it goes no farther, unless it turns freely or as far
+        as is shown."""
+        if self.source:
+            yield f"<span>{escape(words('screen.help_driver'))}</span>"
         if not self.stops:
-            return ""
+            return
         places = " / ".join(self.place(words, at) for at in self.stops)
-        return f'<span id="limits">{escape(words("screen.limits", list=places))}</span>'
+        yield f'<span id="limits">{escape(words("screen.limits", list=places))}</span>'
 
 
 def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
@@ -76,7 +82,8 @@ def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
     driven, reach = found.driven, found.reach
     datum = angle_symbol(driven.scene, driven.driver) if driven.driver else driven.name
     ends = (reach.low, reach.high)
-    return Slider(found.source, driven.name, datum, driven.unit, ends, stopped(driven, reach))
+    stops, digits = stopped(driven, reach), max(1, -floor(log10(reach.step)))
+    return Slider(found.source, driven.name, datum, driven.unit, ends, stops, digits)
 
 
 def stopped(driven: Driven, reach: Reach) -> tuple[float, ...]:

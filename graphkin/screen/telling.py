@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import crossings_on
-from graphkin.paper.marks import Mark
+from graphkin.paper.marks import Circle, Mark, Text
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import sentences
 from graphkin.paper.stages import behind, stage_of, stages
@@ -29,6 +29,12 @@ STOPS = (
 """The parts of the work to whose beginnings one may go."""
 GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
+CONTACTS = ("contact-on-track", "contact-of-wheels")
+"""The steps that find where a wheel touches its track."""
+NO_STEP = -1
+"""Whose reason it is that belongs to no step."""
+SAME = 1e-6
+"""Millimetres between places that are one."""
 DETAIL = "detail"
 """The name of the small circle about what is enlarged beside it."""
 
@@ -115,6 +121,8 @@ def telling(sheets: Sequence[ScreenSheet]) -> Telling:
         labels = labels_of(sheet)
         names |= labels
         said += spoken(place, sheet.drawing, own, staged, labels)
+        if magnified := words_of_detail(sheet):
+            said[-1] = replace(said[-1], why=(*said[-1].why, magnified), of=(*said[-1].of, NO_STEP))
         first = bounds_of(said, place)[0]
         for step, stage, tint in tinted(sheet.drawing, own, staged):
             if at.get(step) == first + stage:
@@ -139,6 +147,15 @@ def telling(sheets: Sequence[ScreenSheet]) -> Telling:
         tuple(found.number for found in lines_of(sheets) if found.part in (Part.CENTRE, Part.POLE)),
         {step: args for step in shown if (args := square_to(program.steps[step]))},
     )
+
+
+def words_of_detail(sheet: ScreenSheet) -> str:
+    """What the last sentence tells of a detail that is drawn enlarged; nothing without one."""
+    for marks, more in ((sheet.left, sheet.more_left), (sheet.right, sheet.more_right)):
+        if any(mark.name == DETAIL for mark in marks):
+            scale = next(m.markup for m in more if isinstance(m, Text) and m.markup.endswith(":1"))
+            return sheet.drawing.words("screen.detail", scale=scale)
+    return ""
 
 
 def bounds_of(said: Sequence[Said], sheet: int) -> tuple[int, int]:
@@ -215,14 +232,32 @@ def timed_marks(
     sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int], before: int
 ) -> tuple[Timed, ...]:
     """The marks of a sheet with the sentences that draw them."""
-    found = []
+    found, touched = [], dict(contacts(sheet))
     for mark in (*sheet.left, *sheet.right):
-        stage = stage_of(sheet.drawing, mark, staged, own)
+        step = touched.get(mark)
+        if step is None:
+            step, stage = step_of(sheet.drawing, mark), stage_of(sheet.drawing, mark, staged, own)
+        else:
+            stage = staged[step]
         stage = len(own) - 1 if mark.name == DETAIL else stage
-        found.append(
-            Timed(mark, before + stage + 1 if stage >= 0 else 0, step_of(sheet.drawing, mark))
-        )
+        found.append(Timed(mark, before + stage + 1 if stage >= 0 else 0, step))
     return tuple(found)
+
+
+def contacts(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
+    """The marks of the contacts of wheels and their letters, each with the step that finds it."""
+    steps, field = sheet.drawing.trace.program.steps, sheet.layout.mechanism
+    for number, at in sheet.drawing.trace.values.items():
+        action = steps[number].action
+        if action is None or action.key not in CONTACTS:
+            continue
+        place = complex(*field(at))
+        for mark in sheet.left:
+            if isinstance(mark, Circle) and mark.cls == "contact":
+                if abs(complex(mark.cx, mark.cy) - place) < SAME:
+                    yield mark, number
+            elif isinstance(mark, Text) and mark.step is None and mark.name == steps[number].name:
+                yield mark, number
 
 
 def step_of(drawing: Drawing, mark: Mark) -> int | None:

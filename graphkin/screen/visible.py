@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from graphkin.arithmetic import smaller
 from graphkin.paper.coriolis import is_coriolis
 from graphkin.paper.desk import TINY, Desk
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
 from graphkin.plane import Line as Carrier
 from graphkin.screen.binding import Bench
-from graphkin.screen.poses import smaller
 from graphkin.steps.program import Part, Plane, Step
 
 ALIKE = 1e-6

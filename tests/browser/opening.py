@@ -6,7 +6,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import pytest
 
@@ -34,11 +34,21 @@ def chromium() -> Iterator[Any]:
         browser.close()
 
 
-def missing(reason: str) -> None:
+def missing(reason: str) -> NoReturn:
     """Skip, or fail where browsers are a must."""
     if os.environ.get(MUST):
         pytest.fail(reason)
     pytest.skip(reason)
+
+
+def barred(page: Any) -> list[tuple[str, list[str]]]:
+    """What axe finds against a page: each rule, and what breaks it."""
+    try:
+        from axe_playwright_python.sync_playwright import Axe
+    except ImportError:
+        missing("axe-playwright-python is not installed")
+    found = Axe().run(page).response["violations"]
+    return [(rule["id"], [node["html"][:120] for node in rule["nodes"]]) for rule in found]
 
 
 @pytest.fixture

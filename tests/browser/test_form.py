@@ -18,7 +18,7 @@ from graphkin.lab.model import Item
 from graphkin.screen.form import Identity, form_fragment, script, style
 from graphkin.screen.skeleton import offline_page
 from graphkin.text import words
-from tests.browser.opening import Opened
+from tests.browser.opening import Opened, barred
 from tests.cli.conftest import Run, run  # noqa: F401
 from tests.grading.students import marker_of
 
@@ -207,9 +207,9 @@ def test_a_file_that_is_not_of_this_form_changes_nothing(
 PLAIN = """
 3 -3 +3 −3 3,5 3.5 ,5 .5 5, 1e3 1E-3 1,5·10^3 1.5*10^-3 1.234,5 1'000 12a abc -- 3_000 3mm 3cm
 0,1m 2in 3m/s 3(m/s) 3m·s^-1 3ms⁻¹ 3m/s² 3m/s^2 3rad/s 3s^-1 3s⁻² 30rpm 3°/s 30rot/min 3deg/s
-1e999 1e308 3kg =1+1 @x 1e400 ٣ Infinity NaN 0x10 ½ , . + e5 3e5e5
+5o0 5O0m/s 1o 4b7 1e999 1e308 3kg 3kg/m3 =1+1 @x 1e400 ٣ Infinity NaN 0x10 ½ , . + e5 3e5e5
 """
-SPACED = ["3\u00a0mm", "3 mm", " 3 ", "3 m / s", "1 000", "3 x 10 ^ 2", "3 m/s ²"]
+SPACED = ["3\u00a0mm", "3 mm", " 3 ", "3 m / s", "5O mm", "1 000", "3 x 10 ^ 2", "3 m/s ²"]
 TEXTS = [*PLAIN.split(), *SPACED, "7" * 61, "a" * 40]
 SAID = {"number": "no_number", "unit": "no_unit", "large": "too_large"}
 UNITS = {"v_D_mm": "mm", "v_D": "m/s", "a_D": "m/s²", "omega_2": "rad/s", "epsilon_2": "rad/s²"}
@@ -293,7 +293,7 @@ def test_what_is_still_empty_is_named_and_not_counted_when_opened(
     coming.value.save_as(path)
     status, count = page.get_by_role("status"), len(UNITS)
     saved = words("en")("answers.saved", file=path.name, count=count - 1, all=count)
-    empty = words("en")("answers.empty", list="a_D")
+    empty = words("en")("answers.empty", list="a (m/s²)")
     assert status.inner_text() == f"{saved} {empty}"
     page.set_input_files("input.file", path)
     said = words("en")("answers.opened", file=path.name, count=count - 1)
@@ -347,14 +347,11 @@ def test_the_task_page_is_accessible(
     look: str,
     width: int,
 ):
-    from axe_playwright_python.sync_playwright import Axe
-
     page = opened(page_of(folder), color_scheme=look, viewport={"width": width, "height": 900})
     field = page.locator("form.answers input[name]").first
     field.fill("12 kg")
     field.dispatch_event("change")
-    found = Axe().run(page).response["violations"]
-    assert not found, [(each["id"], [n["html"][:120] for n in each["nodes"]]) for each in found]
+    assert not barred(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 

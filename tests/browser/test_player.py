@@ -16,7 +16,7 @@ from graphkin.screen.frames import Stage, stage
 from graphkin.screen.moments import Motion, motion
 from graphkin.screen.player import player_page
 from graphkin.text import words
-from tests.browser.opening import Opened
+from tests.browser.opening import Opened, barred
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 NAMES = ("pump", "slotted-lever", "oldham", "trammel", "gears-ring", "roller", "five-bar")
@@ -192,21 +192,33 @@ def moved(page: Any) -> float:
     return abs(float(page.input_value("#at")) - before)
 
 
-def test_it_plays_by_itself_and_stops_when_told(page_of):
-    page = page_of("pump")
-    assert moved(page) > 0
-    page.get_by_role("button", name="Pause").click()
-    assert moved(page) == 0
-    page.get_by_role("button", name="Play").click()
-    assert moved(page) > 0
-
-
-def test_who_wants_less_motion_gets_it_only_when_asked(page_of):
-    page = page_of("pump", **STILL)
+@pytest.mark.parametrize("motion", ["no-preference", "reduce"])
+def test_it_stands_until_it_is_told_to_play(page_of, motion):
+    page = page_of("pump", reduced_motion=motion)
     assert moved(page) == 0
     assert float(page.input_value("#at")) == pytest.approx(44, abs=0.3)
     page.get_by_role("button", name="Play").click()
     assert moved(page) > 0
+    page.get_by_role("button", name="Pause").click()
+    assert moved(page) == 0
+
+
+@pytest.mark.parametrize("height", [844, 640])
+@pytest.mark.parametrize("name", ["pump", "oscillating-slide"])
+def test_a_phone_shows_all_fields_and_the_controls_at_once(page_of, name, height):
+    page = page_of(name, viewport={"width": 390, "height": height}, **STILL)
+    boxes = [figure.bounding_box() for figure in page.locator("figure").all()]
+    bar = page.locator("#bar").bounding_box()
+    assert len(boxes) == 3
+    assert all(box["y"] + box["height"] <= bar["y"] for box in boxes)
+    assert bar["y"] + bar["height"] <= height
+
+
+def test_a_quantity_that_is_told_takes_one_line(page_of):
+    page = page_of("oscillating-slide", viewport={"width": 1280, "height": 800}, **STILL)
+    rows = page.locator("#values div:not([hidden])").all()
+    heights = {row.bounding_box()["height"] for row in rows}
+    assert len(heights) == 1
 
 
 def test_keys_play_move_and_go_back(page_of):
@@ -256,12 +268,9 @@ def test_what_is_asked_is_told_at_each_place(page_of):
 @pytest.mark.parametrize("look", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 390])
 def test_the_page_is_accessible(page_of, look, width):
-    from axe_playwright_python.sync_playwright import Axe
-
     shape = {"width": width, "height": 844}
     page = page_of("slotted-lever", color_scheme=look, viewport=shape, **STILL)
-    found = Axe().run(page).response["violations"]
-    assert not found, [(each["id"], [n["html"][:120] for n in each["nodes"]]) for each in found]
+    assert not barred(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 

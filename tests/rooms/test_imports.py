@@ -97,12 +97,11 @@ TABLE: dict[str, set[str]] = {
         "loci",
         "text",
         "lab",
-        "grading.html",
         "grading.numbers",
         "printing.form",
     },
     "printing": NUMERIC
-    | {"text", "paper", "scaling", "handout", "lab", "variants", "screen", "__version__"},
+    | {"text", "paper", "scaling", "handout", "lab", "roster", "variants", "screen", "__version__"},
     "cli_print": {"options", "printing", "paper", "console"},
     "grading": NUMERIC
     | {
@@ -114,12 +113,10 @@ TABLE: dict[str, set[str]] = {
         "curves.style",
         "lab",
         "roster",
-        "variants.manifest",
         "printing",
     },
     "studio": NUMERIC
     | {
-        "grading.html",
         "handout",
         "lab.new",
         "paper",

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from graphkin.mechanism import load
 from graphkin.motion import cycle
 from graphkin.paper.marks import Text, reach
-from graphkin.screen.frames import Stage, stage
+from graphkin.screen.frames import EDGE, Stage, stage
 from graphkin.screen.gif import PAUSE, gif
 from graphkin.screen.grounds import STILL
 from graphkin.screen.lettered import crossed, obstacles
@@ -202,6 +202,24 @@ def test_letters_of_the_mechanism_seldom_lie_on_bars_and_never_on_one_another(na
     assert covered < 0.16 * letters
 
 
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_letters_of_the_frame_stand_clear_of_hatching(name, beside):
+    set_up = closely(name, beside=beside)
+    moment = set_up.motion.moments[0]
+    marks = [*mechanism_seen(moment.alone, set_up.mechanism).marks, *set_up.ground]
+    ends = obstacles([mark for mark in marks if mark.cls.split()[0] == "ground"])[0]
+    fixed = set_up.motion.cycle.scene.frame.points
+    placed = set_up.mechanism_marks(moment.alone)
+    letters = [m for m in placed if isinstance(m, Text) and m.name in fixed]
+    assert len(letters) == len(fixed)
+    for text in letters:
+        box = reach(text)
+        middle = np.array([[(box[0] + box[2]) / 2, (box[1] + box[3]) / 2]])
+        half = (box[2] - box[0]) / 2, (box[3] - box[1]) / 2
+        assert not crossed(middle, half, ends).any(), text
+
+
 @pytest.mark.parametrize("name", ["pump", "slotted-lever"])
 def test_letters_go_smoothly_with_their_points(name):
     """Each as far from its point as at any other moment, but where it yields to another."""
@@ -227,6 +245,19 @@ def test_what_belongs_to_the_frame_does_not_travel(name):
         for moment in found.moments
     ]
     assert all(marks == fixed[0] for marks in fixed)
+
+
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("name", ["pump", "trammel", "roller"])
+def test_guides_and_tracks_end_within_their_field(name, beside):
+    set_up = stage(shown(name), words("en"), beside=beside)
+    left, top, right, bottom = set_up.mechanism.rect
+    marks = [mark for mark in set_up.ground if mark.cls.split()[0] in STILL]
+    assert marks
+    for mark in marks:
+        box = reach(mark)
+        assert left + EDGE <= box[0] + SLACK and box[2] - SLACK <= right - EDGE, mark
+        assert top + EDGE <= box[1] + SLACK and box[3] - SLACK <= bottom - EDGE, mark
 
 
 @pytest.mark.parametrize("name", ["pump", "trammel"])

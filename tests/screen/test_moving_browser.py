@@ -48,6 +48,17 @@ RUN = """([source, places]) => {
     return { ok, marks, values: motion.values(x), margins: motion.margins(x) };
   });
 }"""
+LARGER = """([source, x, times]) => {
+  const motion = new Function(source + ';return graphkinMotion')();
+  return [undefined, times].map((asked) => {
+    const marks = {};
+    motion.set(x, (id) => ({
+      setAttribute: (name, value) => { (marks[id] = marks[id] || {})[name] = value; },
+      removeAttribute: () => { marks[id] = marks[id] || {}; },
+    }), asked);
+    return marks;
+  });
+}"""
 DRAWN = """([source, svg, x]) => {
   document.body.innerHTML = svg;
   const motion = new Function(source + ';return graphkinMotion')();
@@ -254,3 +265,41 @@ def test_bodies_move_as_their_bindings_say(page, name):
                 assert at == pytest.approx(wanted[mark_id], abs=LIMIT), mark_id
             else:
                 assert not at and not wanted[mark_id], mark_id
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_in_one_field_labels_stand_farther_off_and_heads_are_larger(page, name):
+    """What keeps its size on the screen is drawn larger where a field is shown smaller; what is
+    constructed stays, and so does every other field."""
+    found = page_of(name)[1]
+    x = found.reach.low + 0.7 * (found.reach.high - found.reach.low)
+    plain, larger = page.evaluate(LARGER, [found.source, x, [[1, 1], [1, 3]]])
+    first, off = (found.data["fields"][1][1][name] for name in ("first", "off"))
+    heads = letters = 0
+    for i, (mark, kind, _, *rest) in enumerate(found.data["marks"]):
+        before, after = plain[mark], larger[mark]
+        if i < first:
+            assert before == after
+        elif kind == "h" and "hidden" not in (before.get("visibility"), after.get("visibility")):
+            ends = [read(None, written) for written in (before, after)]
+            assert ends[0][:2] == ends[1][:2]
+            assert long(ends[0]) <= long(ends[1]) <= 3 * long(ends[0]) + LIMIT
+            heads += long(ends[1]) > long(ends[0])
+        elif kind == "t" and i in off and before.get("transform") and after.get("transform"):
+            a, b = rest[2:4]
+            shift, farther = (
+                [float(n) for n in re.findall(r"-?\d+\.?\d*", written["transform"])]
+                for written in (before, after)
+            )
+            more = abs(complex(*shift) - complex(*farther)) / abs(complex(a, b))
+            assert min(abs(more - 2), abs(more - 4)) < 0.01  # 4 if it is now on the other side
+            letters += 1
+        elif kind in "lgfrx":
+            assert before == after or i in off
+    assert heads and letters
+
+
+def long(points: Sequence[float]) -> float:
+    """The length of an arrowhead."""
+    (x, y), (a, b), (c, d) = zip(points[::2], points[1::2], strict=True)
+    return abs(complex(x, y) - (complex(a, b) + complex(c, d)) / 2)

@@ -16,6 +16,7 @@ from graphkin.paper.marks import Circle, Text, reach
 from graphkin.paper.richtext import plain
 from graphkin.paper.sentences import sentences
 from graphkin.paper.stages import behind
+from graphkin.paper.svg import number
 from graphkin.paper.tables import turning_rows, vector_rows
 from graphkin.scene.read import read_text
 from graphkin.screen import page
@@ -156,10 +157,76 @@ def test_b_of_the_pump_is_drawn_from_what_its_sentence_names():
 def test_the_reasons_of_b_are_those_of_rigid_bars():
     said = telling(screen_sheets(load("pump"), "en")).said[5]
     assert [plain(why) for why in said.why] == [
-        "AB keeps its length: against A, B can move only square to it",
-        "O2B keeps its length: against O2, B can move only square to it",
+        "AB keeps its length: relative to A, B can move only perpendicular to it",
+        "O2B keeps its length: relative to O2, B can move only perpendicular to it",
         "each line alone holds b, so it lies where they meet",
     ]
+
+
+def test_both_lines_of_the_second_image_of_b_have_their_reasons():
+    (why,) = (
+        [plain(reason) for reason in one.why]
+        for one in telling(screen_sheets(load("pump"), "en")).said
+        if one.sheet == 1 and "they meet in *b*′" in one.markup
+    )
+    assert why == [
+        "B goes round A: along AB its acceleration relative to A is v2/AB, towards A",
+        "what else B has relative to A is the tangential component ε·AB: perpendicular to AB, "
+        "its length not known yet",
+        "likewise relative to O2: v2/O2B along O2B, towards O2",
+        "and ε·O2B perpendicular to O2B, its length not known yet",
+        "each line alone holds b′, so it lies where they meet",
+    ]
+
+
+@pytest.mark.parametrize("name", ["oscillating-slide", "gears-planet", "gears-ring"])
+def test_a_letter_in_a_reason_has_its_index_once(name):
+    labels = {plain(letter) for letter in told_of(name).letters.values()}
+    for said in told_of(name).said:
+        for why in said.why:
+            found = re.search("each line alone holds (.*), so", plain(why))
+            assert found is None or found.group(1) in labels
+
+
+def test_what_touches_without_slip_says_so():
+    said = [*told_of("gears-planet").said]
+    touch = next(one for one in said if "touch in *T*" in one.markup)
+    assert any("called T3" in plain(why) for why in touch.why)
+    assert any("(= *t*_{3}, for nothing slips)" in one.markup for one in said)
+    assert any("common normal" in why for one in said for why in one.why)
+
+
+def test_a_contact_appears_with_the_sentence_that_finds_it():
+    run = telling(sheets_of("gears-planet"))
+    steps = sheets_of("gears-planet")[0].drawing.trace.program.steps
+    found = [one for one in run.timed[0] if one.step is not None and steps[one.step].name == "T"]
+    assert {type(one.mark) for one in found} == {Circle, Text}
+    assert {one.at for one in found} == {3}
+    assert "*T*" in run.said[2].markup
+
+
+def test_a_detail_is_told_by_the_last_sentence_of_its_sheet():
+    run, sheets = telling(sheets_of("pump")), sheets_of("pump")
+    told = words("en")("screen.detail", scale="5:1")
+    assert [told in said.why for said in run.said] == [step == 20 for step in range(1, 21)]
+    assert [bool(sheet.more_left or sheet.more_right) for sheet in sheets] == [False, True]
+
+
+@pytest.mark.parametrize("name, digits", [("pump", "1"), ("gears-planet", "3")])
+def test_the_place_of_the_driver_has_the_decimals_that_its_slider_needs(name, digits):
+    assert f'data-digits="{digits}"' in page_of(name)
+
+
+@pytest.mark.parametrize("make", [step_page, task_page])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_field_has_its_bar(make, language):
+    text = make(load("pump"), language)
+    assert text.count('class="bar"') == text.count("<figure>") == 4
+    assert words(language)("screen.on_paper") in text
+    for place, sheet in enumerate(screen_sheets(load("pump"), language)):
+        left, top, right, bottom = sheet.layout.plan.rect
+        rule = f"#fields-{place}>:nth-child(2){{--bar:20;--wide:{number(right - left)};"
+        assert rule + f"--high:{number(bottom - top)}}}" in text
 
 
 @pytest.mark.parametrize("name", FEW)
@@ -260,7 +327,7 @@ def test_each_field_shows_its_own_rectangle(name):
     boxes = re.findall(r'<svg viewBox="([\d. -]+)" role="img"', page_of(name))
     rects = [r for s in sheets_of(name) for r in (s.layout.mechanism.rect, s.layout.plan.rect)]
     for box, (left, top, right, bottom) in zip(boxes, rects, strict=True):
-        found = [float(number) for number in box.split()]
+        found = [float(one) for one in box.split()]
         assert found == pytest.approx([left, top, right - left, bottom - top], abs=1e-3)
 
 
@@ -350,8 +417,8 @@ def test_a_task_gives_nothing_of_the_key_away(name):
     text = seen(page)
     for sheet in sheets_of(name):
         values = [row.cells[-2:] for row in vector_rows(sheet.drawing, empty=False)]
-        for number in {cell for cells in values for cell in cells if len(cell) > 3}:
-            assert number not in page
+        for shown in {cell for cells in values for cell in cells if len(cell) > 3}:
+            assert shown not in page
         hidden = {mark.name for mark in sheet.left if isinstance(mark, Text)} - given
         assert hidden
         assert not [n for n in hidden if f'data-name="{n}"' in page]

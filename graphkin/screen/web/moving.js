@@ -94,10 +94,10 @@ const shapes = {
     return arc(laid(o, d, a, b), r, start + turned, end + turned);
   },
   a: (c, r, start, end) => (Math.abs(y[end] - y[start]) > 0.5 ? arc(point(c), y[r], y[start], y[end]) : null),
-  h: (tail, tip) => {
+  h: (tail, tip, times = 1) => {
     const p = point(tail), q = point(tip), long = Math.hypot(q[0] - p[0], q[1] - p[1]);
-    if (!(long >= SHORT)) return null;
-    const size = Math.min(HEAD, 0.4 * long), half = 0.17 * size, u = (q[0] - p[0]) / long, v = (q[1] - p[1]) / long;
+    if (!(long >= SHORT * times)) return null;
+    const size = Math.min(HEAD * times, 0.4 * long), half = 0.17 * size, u = (q[0] - p[0]) / long, v = (q[1] - p[1]) / long;
     const back = [q[0] - size * u, q[1] - size * v];
     return { points: listed([q, [back[0] - half * v, back[1] + half * u], [back[0] + half * v, back[1] - half * u]]) };
   },
@@ -149,19 +149,36 @@ const corners = {
   b: (o, d, a, b) => [laid(o, d, a, b)],
 };
 
-const extent = (at, sheet, side) => {
+// What keeps its size on the screen is drawn larger in a field that is shown smaller: the heads of
+// arrows, and how far labels stand off, with their leaders.
+const growth = new Float64Array(data.marks.length).fill(1);
+const standing = new Set(data.fields.flat().flatMap(({ off }) => off));
+const grow = (times) => {
+  data.fields.forEach((sheet, s) => sheet.forEach(({ first }, side) => growth.fill(times?.[s][side] ?? 1, first)));
+};
+const grown = (i, times = growth[i]) => {
+  const [, ...own] = data.marks[i], [kind, shown, o, d, a, b, u, v, ...box] = own;
+  if (times === 1) return own;
+  if (kind === "h") return [...own, times];
+  if (kind === "b") return [kind, shown, o, d, a, b * times, u, v, ...box.map((size) => size * times)];
+  if (!standing.has(i)) return own;
+  const more = kind === "f" ? [u * times, v * times, ...box] : [u, v, ...box];
+  return [kind, shown, o, d, a * times, b * times, ...more];
+};
+
+const extent = (at, sheet, side, times = 1) => {
   if (!reckon(at)) return null;
   const { room, still, seen } = data.fields[sheet][side];
   const box = still ? [...still] : [Infinity, Infinity, -Infinity, -Infinity];
   for (const [i, across, down] of seen) {
-    const [, kind, shown, ...rest] = data.marks[i];
+    const [kind, shown, ...rest] = grown(i, times), size = kind === "t" || kind === "b" ? times : 1;
     if (shown >= 0 && !(y[shown] > 0)) continue;
     for (const [u, v] of corners[kind](...rest)) {
       if (!Number.isFinite(u) || !Number.isFinite(v)) continue;
-      box[0] = Math.min(box[0], u - across);
-      box[1] = Math.min(box[1], v - down);
-      box[2] = Math.max(box[2], u + across);
-      box[3] = Math.max(box[3], v + down);
+      box[0] = Math.min(box[0], u - size * across);
+      box[1] = Math.min(box[1], v - size * down);
+      box[2] = Math.max(box[2], u + size * across);
+      box[3] = Math.max(box[3], v + size * down);
     }
   }
   const [left, top, right, bottom] = [0, 1, 2, 3].map((k) => Math.min(Math.max(box[k], room[k % 2]), room[2 + k % 2]));
@@ -171,7 +188,7 @@ const extent = (at, sheet, side) => {
 // A label that would lie on one drawn before it stands on the other side of what it names; where
 // that is no better, the letter of a point stays and what names a vector is hidden.
 const overturned = ([kind, shown, o, d, a, b, ...rest]) => [kind, shown, o, d, kind === "b" ? a : -a, -b, ...rest];
-const free = (record, [, across, down], placed) => {
+const free = (record, [across, down], placed) => {
   const [u, v] = middles[record[0]](...record.slice(2));
   const hit = ([x, z, w, h]) => Math.abs(u - x) < w + across - OVER && Math.abs(v - z) < h + down - OVER;
   return placed.some(hit) ? null : [u, v, across, down];
@@ -182,10 +199,11 @@ const arranged = () => {
   for (const { labels } of data.fields.flat()) {
     const placed = [];
     for (const label of labels) {
-      const [i, across, down, sides] = label, [, ...own] = data.marks[i], other = overturned(own);
+      const [i, ...rest] = label, own = grown(i), other = overturned(own);
+      const [across, down] = rest.map((size) => size * growth[i]), sides = rest[2];
       if (own[1] >= 0 && !(y[own[1]] > 0)) continue;
-      let box = free(own, label, placed);
-      if (!box && sides && (box = free(other, label, placed))) found.set(i, other);
+      let box = free(own, [across, down], placed);
+      if (!box && sides && (box = free(other, [across, down], placed))) found.set(i, other);
       else if (!box && own[0] === "b") found.set(i, null);
       placed.push(box || [...middles[own[0]](...own.slice(2)), across, down]);
       if (found.get(i) === null) placed.pop();
@@ -206,13 +224,14 @@ const made = (id, element) => {
   return mark;
 };
 
-const draw = (at, element) => {
+const draw = (at, element, times) => {
   if (!reckon(at)) return { ok: false };
+  grow(times);
   const turned = arranged();
-  for (const [i, [id, ...own]] of data.marks.entries()) {
+  for (const [i, [id]] of data.marks.entries()) {
     const mark = element(id) || made(id, element);
     if (!mark) continue;
-    const [kind, shown, ...rest] = turned.get(i) || own, hidden = turned.get(i) === null;
+    const [kind, shown, ...rest] = turned.get(i) || grown(i), hidden = turned.get(i) === null;
     const found = !hidden && (shown < 0 || y[shown] > 0) ? shapes[kind](...rest) : null;
     const good = found && Object.values(found).every((text) => !text.includes("NaN") && !text.includes("Infinity"));
     if (!good) mark.setAttribute("visibility", "hidden");

@@ -1,0 +1,81 @@
+// The driver, and with it all that follows.
+const DEAD = Math.sin(Math.PI / 180), FAR = 1e-4; // sines of crossings below which no hand can tell where; those of far centres and poles
+const driver = motion && byId("driver"), datum = motion && byId("datum");
+const given = [...(datum?.childNodes ?? [])];
+const notes = motion ? [...document.querySelectorAll(".sheet h2, #given-name")].map(name => {
+  const one = document.createElement("small");
+  one.className = "moved-note";
+  name.after(one);
+  return one;
+}) : [];
+if (motion) {
+  const { low, high, start, step } = motion;
+  const min = start - Math.floor((start - low) / step) * step; // so that one stop is where it starts
+  for (const [name, value] of Object.entries({ min, max: high, step })) driver.setAttribute(name, value);
+}
+
+/** Set it. */
+function drive(x) {
+  const place = meant(x);
+  const there = Math.abs(place - motion.start) < 1e-6 * motion.step;
+  state.x = Number.isFinite(place) && !there ? place : motion.start;
+  driver.value = state.x;
+  const shown = place_of(state.x);
+  byId("driven").textContent = shown;
+  driver.setAttribute("aria-valuetext", shown);
+  const ok = put();
+  page.classList.toggle("moved", moved());
+  byId("back").disabled = !moved();
+  note(shown);
+  const flat = ok ? flat_crossings() : [];
+  const dead = flat.some(step => !data.aside.includes(step));
+  state.dead = !ok || dead;
+  clear_off(step => !ok || flat.some(crossing => data.hangs[step].includes(crossing)));
+  byId("place").textContent = !ok ? byId("place").dataset.open : dead ? byId("place").dataset.dead : "";
+  if (!state.dead) read();
+  page.classList.toggle("silent", state.dead);
+  warn(byId("told"), state.step);
+  trace();
+  remember();
+}
+
+/** The place of the driver that is meant by a number: an angle may be whole turns off. */
+function meant(x) {
+  const { low, high, unit } = motion, off = x < low || x > high;
+  const turned = off && unit === "deg" ? x - 360 * Math.round((x - (low + high) / 2) / 360) : x;
+  return Math.min(Math.max(turned, low), high);
+}
+
+/** A place of the driver in words. */
+function place_of(x) {
+  const { digits, unit } = byId("driven").dataset;
+  return written(x, Number(digits)) + unit;
+}
+
+/** The steps at which lines cross too flat. */
+function flat_crossings() {
+  const sines = Object.entries(motion.margins(state.x)).map(([step, sine]) => [Number(step), sine]);
+  return sines.filter(([step, sine]) => sine < (data.aside.includes(step) ? FAR : DEAD)).map(([step]) => step);
+}
+
+/** Take what hangs on lines that do not cross off the drawings. */
+function clear_off(hangs) {
+  for (const { of } of sheets) {
+    for (const [step, marks] of of) {
+      const gone = step in data.hangs && hangs(step);
+      for (const mark of marks) mark.classList.toggle("void", gone);
+    }
+  }
+}
+
+/** Say beside drawings and data where the driver now is, and what they were given and checked for. */
+function note(shown) {
+  const { name, moved: words } = byId("read").dataset, start = `${name} = ${place_of(motion.start)}`;
+  const here = `${name} = ${shown}`; // markup of a symbol, escaped where it was made
+  for (const one of notes) {
+    one.innerHTML = words.replace("{place}", here).replace("{start}", start);
+    one.hidden = !moved();
+  }
+  if (datum && moved()) datum.innerHTML = here;
+  else datum?.replaceChildren(...given);
+}

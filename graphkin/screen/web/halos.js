@@ -1,0 +1,90 @@
+// The marker pen's strokes beneath the marks of some steps and of what those are drawn from, and above
+// all the heads of the vectors that are drawn, so large that one sees where they point.
+const TINTS = 4; // colours that tell apart what one sentence draws for several points
+const ARROW = 12, CORNER = 2.2, NONE = 0.5; // mm of a velocity at its pin, of a right angle, of no velocity
+const TIP = 12, SHARE = 0.55; // dots of a head, as far as this part of its vector; with its size in steps.css
+const UNMARKED = ".later,.void,[visibility],.arrowhead,.leader,.square-mark,.caption,.detail,[data-aside]";
+
+/** The class of the colour of a step. */
+function tint(step) {
+  return `t${(data.tints[step] ?? 0) % TINTS}`;
+}
+
+/** Draw them in each field in sight. */
+function halos() {
+  const sheet = sheets[here()], steps = looked_at(), from = sources(steps);
+  const fresh = state.over ? steps.flatMap(step => sheet.of.get(step) ?? []) :
+    sheet.marks.filter(mark => mark.classList.contains("now"));
+  for (const { svg, halo, front } of sheet.fields) {
+    const strokes = steps.flatMap(step => side(sheet, svg, data.sides[step] ?? []));
+    strokes.push(...steps.flatMap(step => squares(sheet, svg, data.squares[step] ?? [])));
+    const add = (mark, look) => {
+      if (svg.contains(mark) && !mark.matches(UNMARKED)) strokes.push(stroke(mark, look));
+    };
+    for (const step of from) for (const mark of sheet.of.get(step) ?? []) add(mark, "old");
+    for (const mark of fresh) add(mark, `new ${tint(mark.dataset.of)}`);
+    halo.replaceChildren(...strokes);
+    front.replaceChildren(...fresh.filter(mark => svg.contains(mark)).flatMap(head));
+  }
+}
+
+/** A stroke of the shape of a mark. */
+function stroke(mark, look) {
+  const copy = mark.cloneNode(true), shell = mark.closest(".lettering")?.cloneNode();
+  for (const name of ["id", "data-at", "data-of"]) copy.removeAttribute(name);
+  copy.setAttribute("class", look);
+  shell?.append(copy);
+  return shell ?? copy;
+}
+
+/** The side of the mechanism to which a line of the plan is square. */
+function side(sheet, svg, points) {
+  const [p, q] = points.map(point => pin(sheet, point));
+  return p && q && svg.contains(p) ? [between(p, q)] : [];
+}
+
+/** A stroke from one pin to another. */
+function between(p, q) {
+  const line = document.createElementNS(SVG, "line");
+  line.setAttribute("class", "side");
+  for (const [end, mark] of [["1", p], ["2", q]]) {
+    for (const axis of ["x", "y"]) line.setAttribute(axis + end, mark.getAttribute("c" + axis));
+  }
+  return line;
+}
+
+/** A velocity at its pin, with the right angle in which a line stands to it; in its plan a stroke. */
+function squares(sheet, svg, points) {
+  const [at, pole, image] = points.map(point => pin(sheet, point));
+  if (!image || !pole || !at) return [];
+  if (svg.contains(pole)) return [between(pole, image)];
+  const [[x, y], tail, tip] = [at, pole, image].map(circle => ["cx", "cy"].map(name => Number(circle.getAttribute(name))));
+  const size = Math.hypot(tip[0] - tail[0], tip[1] - tail[1]);
+  if (size < NONE) return [];
+  const [u, v] = [(tip[0] - tail[0]) / size, (tip[1] - tail[1]) / size];
+  const place = (along, across) => `${x + along * u - across * v},${y + along * v + across * u}`;
+  const drawn = (name, points, look) => {
+    const line = document.createElementNS(SVG, name);
+    line.setAttribute("points", points.join(" "));
+    line.setAttribute("class", look);
+    return line;
+  };
+  return [
+    drawn("polyline", [place(0, 0), place(ARROW, 0)], "aid"),
+    drawn("polygon", [place(ARROW, 0), place(ARROW - 3, 0.6), place(ARROW - 3, -0.6)], "aid head"),
+    drawn("polyline", [place(CORNER, 0), place(CORNER, CORNER), place(0, CORNER)], "aid"),
+  ];
+}
+
+/** The head of a vector once more, as large as the style sheet tells; none of what has no place or no line. */
+function head(mark) {
+  const line = mark.previousElementSibling;
+  if (!mark.matches(".arrowhead:not(.later,.void,[visibility],[data-aside])") || line?.tagName !== "line") return [];
+  const [x1, y1, x2, y2] = ["x1", "y1", "x2", "y2"].map(name => Number(line.getAttribute(name)));
+  const { x, y } = mark.points[0], [u, v] = [x - (x1 + x2) / 2, y - (y1 + y2) / 2];
+  const most = SHARE * Math.hypot(x2 - x1, y2 - y1) / TIP, copy = document.createElementNS(SVG, "polygon");
+  copy.setAttribute("class", `arrowhead ${mark.classList[1]}`);
+  copy.setAttribute("points", `0,0 ${-TIP},${-TIP / 3} ${-TIP},${TIP / 3}`);
+  copy.style.transform = `translate(${x}px,${y}px) rotate(${Math.atan2(v, u)}rad) scale(min(max(var(--dot),var(--least)),${most}))`;
+  return [copy];
+}

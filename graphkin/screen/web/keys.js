@@ -1,0 +1,67 @@
+// Keys, buttons, sliders, marks and the window; last of all, where the page begins.
+
+function key(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  const at = event.target;
+  if (at.matches("input:not([type=range]),select,textarea")) return;
+  const range = at.matches("input[type=range]"), pressed = at.matches("button,a,summary");
+  const stop = data.stops[Number(event.key) - 1];
+  const act = {
+    ArrowLeft: range ? null : () => go(state.step - 1),
+    ArrowRight: range ? null : () => go(state.step + 1),
+    Home: range ? null : () => go(1),
+    End: range ? null : () => go(last),
+    " ": pressed ? null : toggle,
+    z: zoom,
+  }[event.key] ?? (stop ? () => go(stop) : null);
+  if (!act) return;
+  event.preventDefault();
+  act();
+}
+
+/** Show what a mark that is pointed at is drawn from, alone. */
+function point_at(step) {
+  if (state.over === step) return;
+  state.over = step;
+  trace();
+}
+
+document.addEventListener("keydown", key);
+slider.addEventListener("input", () => go(Number(slider.value)));
+byId("previous").addEventListener("click", () => go(state.step - 1));
+byId("next").addEventListener("click", () => go(state.step + 1));
+play.addEventListener("click", toggle);
+follow.addEventListener("click", zoom);
+for (const stop of document.querySelectorAll("#stops button")) {
+  stop.addEventListener("click", () => go(Number(stop.dataset.stop)));
+}
+places.forEach(({ link }, i) => link.addEventListener("click", event => {
+  event.preventDefault();
+  go(i + 1);
+}));
+for (const { element } of sheets) {
+  const step = event => event.target.closest("[data-of]")?.dataset.of;
+  element.addEventListener("click", event => {
+    const at = data.at[step(event)];
+    if (at) go(at);
+  });
+  element.addEventListener("pointerover", event => {
+    const over = event.pointerType === "mouse" && step(event);
+    if (over) point_at(over);
+  });
+  element.addEventListener("pointerout", event => {
+    if (!event.relatedTarget?.closest?.("[data-of]")) point_at(null);
+  });
+}
+if (motion) {
+  driver.addEventListener("input", () => drive(Number(driver.value)));
+  byId("back").addEventListener("click", () => drive(motion.start));
+}
+addEventListener("hashchange", follow_address);
+addEventListener("resize", fit);
+addEventListener("beforeprint", whole);
+addEventListener("afterprint", look);
+byId("because").open = !SMALL.matches;
+byId("because").addEventListener("toggle", reason_in_sight);
+follow_address();
+fit();

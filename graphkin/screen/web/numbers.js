@@ -1,0 +1,16 @@
+// Numbers as the language of the page writes them.
+
+/** A number with so many places after the mark. */
+function written(number, places) {
+  const text = (Number(number.toFixed(places)) + 0).toFixed(places);
+  return text.replace("-", "−").replace(".", data.mark);
+}
+
+/** A number rounded to so many significant digits, by powers of ten when far from one. */
+function significant(number, digits = 4) {
+  if (number === 0) return "0";
+  const [mantissa, power] = number.toExponential(digits - 1).split("e");
+  if (power >= -4 && power < 6) return written(Number(number.toExponential(digits - 1)), Math.max(digits - 1 - power, 0));
+  const signs = [...String(Number(power))].map(sign => sign === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[sign]);
+  return `${mantissa.replace("-", "−").replace(".", data.mark)}·10${signs.join("")}`;
+}

@@ -1,0 +1,30 @@
+// What the page holds and where it stands; small helps that every part uses.
+const page = document.documentElement;
+const byId = id => document.getElementById(id);
+const data = JSON.parse(byId("run").textContent);
+const motion = typeof graphkinMotion === "undefined" ? null : graphkinMotion;
+const last = data.bounds.at(-1)[1];
+const SMALL = matchMedia("(max-width:40rem),(max-height:34rem)"); // as in page.css
+const state = { step: 1, x: motion ? motion.start : 0, over: null, dead: false };
+
+page.classList.add("js");
+motion?.set(motion.start, byId); // what moves may add marks
+byId("desk").append(byId("controls").content.cloneNode(true));
+const slider = byId("step"), play = byId("play"), follow = byId("follow");
+const own = Array.from({ length: last + 1 }, () => []); // the steps that each sentence draws
+for (const [step, at] of Object.entries(data.at)) own[at].push(step);
+
+/** Whether the driver has left the drawn position. */
+function moved() {
+  return motion !== null && state.x !== motion.start;
+}
+
+/** Copies of what an element holds. */
+function copies(element) {
+  return [...element.cloneNode(true).childNodes];
+}
+
+/** Set a property of style where it is not so yet: all that it touches is laid out anew. */
+function style(element, name, value) {
+  if (element.style.getPropertyValue(name) !== value) element.style.setProperty(name, value);
+}

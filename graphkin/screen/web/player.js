@@ -1,0 +1,179 @@
+// The page of a cycle: plays the motion when told, moves it by hand, and tells what is asked at
+// each place.
+const motion = graphkinMotion;
+const data = JSON.parse(document.getElementById("run").textContent);
+const TURN = 5, WAY = 3.5; // seconds of a whole turn or a time, and of a way from end to end
+const span = data.high - data.low;
+const found = new Map();
+// What is not there yet is looked for again: a mark may be made when it is first needed.
+const byId = (id) => {
+  if (!found.has(id)) {
+    const element = document.getElementById(id);
+    if (!element) return null;
+    found.set(id, element);
+  }
+  return found.get(id);
+};
+const play = byId("play"), slider = byId("at"), speed = byId("speed"), back = byId("back");
+const rows = [...document.querySelectorAll("[data-row]")];
+const state = { x: data.start, sense: 1, playing: false, last: 0 };
+
+const numbers = (mark, names) => names.map((name) => Number(mark.getAttribute(name)));
+const hides = (mark) => mark.getAttribute("visibility") === "hidden";
+
+// How far a plan from low to high is moved into its room; one that is larger leaves on both sides.
+function aside(low, high, pole, start, end) {
+  if (high - low <= end - start) return Math.max(start - low, 0) + Math.min(end - high, 0);
+  return start + ((pole - low) / (high - low)) * (end - start) - pole;
+}
+
+// Move the window over a plan so that the plan has room; say when it has none.
+function seat({ figure, rect, room, pole }) {
+  const svg = byId(figure).querySelector("svg"), xs = [], ys = [];
+  for (const mark of svg.querySelectorAll(":scope > line, :scope > circle")) {
+    if (hides(mark)) continue;
+    const names = mark.tagName === "line" ? ["x1", "x2", "y1", "y2"] : ["cx", "cx", "cy", "cy"];
+    const [u, w, v, z] = numbers(mark, names);
+    xs.push(u, w);
+    ys.push(v, z);
+  }
+  const [x, y] = numbers(byId(pole), ["cx", "cy"]);
+  const [left, right] = [Math.min(...xs, x), Math.max(...xs, x)];
+  const [top, bottom] = [Math.min(...ys, y), Math.max(...ys, y)];
+  const u = aside(left, right, x, room[0], room[2]), v = aside(top, bottom, y, room[1], room[3]);
+  const window = [rect[0] - u, rect[1] - v, rect[2] - rect[0], rect[3] - rect[1]];
+  svg.setAttribute("viewBox", window.map((number) => number.toFixed(3)).join(" "));
+  const fixed = `translate(${(-u).toFixed(3)} ${(-v).toFixed(3)})`;
+  svg.querySelector(".fixed").setAttribute("transform", fixed);
+  const inside = left + u >= rect[0] && right + u <= rect[2] && top + v >= rect[1] && bottom + v <= rect[3];
+  byId(figure).querySelector(".beyond").hidden = inside;
+}
+
+// The way from some places to another, all of them alike; null where none tells it.
+function off(here, others) {
+  let [u, v] = [0, 0];
+  for (const [x, y] of others) {
+    const far = Math.hypot(here[0] - x, here[1] - y);
+    if (far > 1) [u, v] = [u + (here[0] - x) / far, v + (here[1] - y) / far];
+  }
+  const size = Math.hypot(u, v);
+  return size > 0.1 ? [u / size, v / size] : null;
+}
+
+// Set each letter by its rule beside its point, on another side where a letter stands.
+function letter(letters) {
+  const [height, gap, leftward, upward] = data.letter, taken = [];
+  const place = (id) => numbers(byId(id), ["cx", "cy"]);
+  const meets = (s, width, t) =>
+    Math.abs(s[0] - t[0]) < (width + t[2]) / 2 + gap && Math.abs(s[1] - t[1]) < height + gap;
+  for (const [id, point, x, y, width, far, c, s, others] of letters) {
+    const text = byId(id), here = place(point);
+    const from = others.length ? off(here, others.map(place)) : [1, 0];
+    const [u, v] = from ? [from[0] * c - from[1] * s, from[0] * s + from[1] * c] : [leftward, upward];
+    const ways = [[u, v], [-v, u], [v, -u], [-u, -v]];
+    const spots = ways.map(([a, b]) => [here[0] + a * (far + width / 4), here[1] + b * far, width]);
+    const free = hides(byId(point)) ? null : spots.find((spot) => !taken.some((t) => meets(spot, width, t)));
+    if (!free) {
+      text.setAttribute("visibility", "hidden");
+      continue;
+    }
+    taken.push(free);
+    text.removeAttribute("visibility");
+    text.setAttribute("transform", `translate(${(free[0] - x).toFixed(3)} ${(free[1] - y).toFixed(3)})`);
+  }
+}
+
+// Put the mechanism and its plans where the driver stands.
+function show(x) {
+  state.x = Math.min(Math.max(x, data.low), data.high);
+  const { ok } = motion.set(state.x, byId);
+  if (ok) {
+    data.letters.forEach(letter);
+    data.panes.forEach(seat);
+  }
+  const told = written(state.x, span > 50 ? 1 : span > 5 ? 2 : 3) + data.unit;
+  slider.value = state.x;
+  slider.setAttribute("aria-valuetext", told);
+  byId("told").textContent = told;
+  const values = ok ? motion.values(state.x) : {};
+  for (const row of rows) {
+    const value = values[row.dataset.row];
+    row.hidden = value === undefined;
+    if (value !== undefined) tell(row, value);
+  }
+}
+
+// Size and sense of what is asked.
+function tell(row, value) {
+  const senses = data.senses[row.dataset.row];
+  row.querySelector(".size").textContent = significant(Math.abs(value));
+  row.querySelector(".sense").innerHTML = value && senses ? `, ${senses[value > 0 ? 0 : 1]}` : "";
+}
+
+// Go on by some seconds: round, from end to end, or to and fro.
+function go(seconds) {
+  const way = (seconds * span * Number(speed.value)) / (data.whole || data.once ? TURN : WAY);
+  let x = state.x + state.sense * way;
+  if (data.whole || data.once) {
+    x = data.low + ((x - data.low) % span);
+  } else if (x > data.high || x < data.low) {
+    state.sense = x > data.high ? -1 : 1;
+    x = 2 * (x > data.high ? data.high : data.low) - x;
+  }
+  show(x);
+}
+
+function frame(now) {
+  if (!state.playing) return;
+  go(Math.min(now - state.last, 100) / 1000);
+  state.last = now;
+  requestAnimationFrame(frame);
+}
+
+function start() {
+  state.playing = true;
+  state.last = performance.now();
+  named("pause");
+  requestAnimationFrame(frame);
+}
+
+function pause() {
+  state.playing = false;
+  named("play");
+}
+
+// Say what the button does.
+function named(what) {
+  play.toggleAttribute("data-on", what === "pause");
+  play.setAttribute("aria-label", play.dataset[what]);
+  play.title = play.dataset[what];
+}
+
+const toggle = () => (state.playing ? pause() : start());
+const rest = (x) => {
+  pause();
+  show(x);
+};
+
+document.addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  const at = event.target;
+  const step = span / 100;
+  const act = {
+    " ": at.matches("button,select") ? null : toggle,
+    ArrowLeft: at.matches("input,select") ? null : () => rest(state.x - step),
+    ArrowRight: at.matches("input,select") ? null : () => rest(state.x + step),
+    Home: at.matches("input,select") ? null : () => rest(data.start),
+  }[event.key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+});
+slider.min = data.low;
+slider.max = data.high;
+slider.step = span / 720;
+slider.addEventListener("input", () => rest(Number(slider.value)));
+play.addEventListener("click", toggle);
+back.addEventListener("click", () => rest(data.start));
+for (const id of ["bar", "values", "help"]) byId(id).hidden = false;
+show(data.start);

@@ -1,0 +1,68 @@
+// The sentences: each a link in the list, and that of the step in sight above the keys.
+const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
+  const link = document.createElement("a");
+  link.href = `#step=${i + 1}`;
+  link.dataset.number = i + 1;
+  link.append(...item.childNodes);
+  item.append(link);
+  const parts = own[i + 1].some(step => data.tints[step]) ? link.querySelectorAll("[data-for]") : [];
+  for (const part of parts) part.className = `tint ${tint(part.dataset.for)}`;
+  return { link, say: link.querySelector(".say"), why: link.querySelector(".why"), crossings: [...link.querySelectorAll(".crossing")] };
+});
+
+/** Say the sentence of the step, and mark it in the list. */
+function say() {
+  const count = data.count.replace("{number}", state.step).replace("{all}", last);
+  byId("count").textContent = count;
+  slider.setAttribute("aria-valuetext", count);
+  tell(byId("told"), state.step);
+  byId("told").scrollTop = 0;
+  places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
+  const list = byId("steps");
+  if (list.scrollHeight > list.clientHeight + 4) {
+    const { offsetTop, offsetHeight } = places[state.step - 1].link;
+    list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
+  }
+  for (const stop of byId("stops").children) {
+    const is = stop.dataset.stop <= state.step && state.step <= stop.dataset.end;
+    current(stop, is, "true");
+    if (is) into_sight(stop);
+  }
+}
+
+/** Once why has been asked: it stands below the sentence, which may take all the room there is. */
+function reason_in_sight() {
+  fit();
+  const told = byId("told"), reason = byId("reason");
+  const hidden = reason.offsetTop + reason.offsetHeight - told.offsetTop - told.clientHeight;
+  if (byId("because").open && hidden > 0) told.scrollTop = Math.min(hidden, reason.offsetTop - told.offsetTop);
+}
+
+/** Move the row of an element that is wider than the screen to where it is seen. */
+function into_sight(element) {
+  const row = element.parentElement;
+  row.scrollLeft = element.offsetLeft - row.offsetLeft - (row.clientWidth - element.offsetWidth) / 2;
+}
+
+/** Say of an element whether it is the one in sight. */
+function current(element, is, word) {
+  if (is) element.setAttribute("aria-current", word);
+  else element.removeAttribute("aria-current");
+}
+
+/** Write the sentence of a step, why, and its flattest crossing. */
+function tell(told, step) {
+  const { say: words, why } = places[step - 1];
+  told.querySelector("#sentence").replaceChildren(...copies(words));
+  told.querySelector("#reason").replaceChildren(...(why ? copies(why) : []));
+  told.querySelector("#because").hidden = !why;
+  warn(told, step);
+}
+
+/** Write the flattest crossing of a step. */
+function warn(told, step) {
+  const factor = line => Number(line.querySelector(".factor").textContent.replace(data.mark, "."));
+  const lines = places[step - 1].crossings;
+  const worst = lines.reduce((a, b) => (a && factor(a) >= factor(b) ? a : b), null);
+  told.querySelector("#crossing").replaceChildren(...(worst ? copies(worst) : []));
+}

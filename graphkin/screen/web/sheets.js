@@ -1,0 +1,44 @@
+// The sheets with their marks and fields, and how far marks reach.
+const SVG = "http://www.w3.org/2000/svg";
+const marksBut = gone => `.lettering:not(:has(${gone})),*:not(g,text,tspan,.centre-line,${gone})`; // a group holds its shift
+const SEEN = marksBut(".later,.void,[visibility]"), PLACED = marksBut(".void,[visibility]");
+const MOVED = marksBut(".void,[visibility],.halo *,[data-aside]");
+
+const sheets = [...document.querySelectorAll(".sheet")].map(element => {
+  const marks = [...element.querySelectorAll("svg [data-at]")];
+  const of = new Map();
+  for (const mark of marks) {
+    const step = mark.dataset.of;
+    if (step) of.set(step, [...(of.get(step) ?? []), mark]);
+  }
+  return { element, marks, of, fields: [...element.querySelectorAll(".view svg")].map(field) };
+});
+
+/** A field: its picture, the groups beneath and above what is marked, its box, and that of all that is drawn. */
+function field(svg) {
+  const halo = svg.insertBefore(document.createElementNS(SVG, "g"), svg.firstChild);
+  const front = svg.appendChild(document.createElementNS(SVG, "g"));
+  for (const group of [halo, front]) group.setAttribute("class", "halo");
+  const { x, y, width, height } = svg.viewBox.baseVal;
+  svg.style.aspectRatio = `${width} / ${height}`; // whatever part of it is shown
+  return { svg, halo, front, whole: [x, y, width, height], drawn: extent(svg, PLACED) };
+}
+
+/** The box of what is drawn in a picture or a part of it. */
+function extent(part, marks) {
+  const boxes = [...part.querySelectorAll(marks)].map(mark => mark.getBBox());
+  const [left, top] = ["x", "y"].map(axis => Math.min(...boxes.map(box => box[axis])));
+  const right = Math.max(...boxes.map(box => box.x + box.width));
+  const bottom = Math.max(...boxes.map(box => box.y + box.height));
+  return boxes.length ? [left, top, right - left, bottom - top] : null;
+}
+
+/** The number of the sheet in sight. */
+function here() {
+  return data.bounds.findIndex(([, end]) => state.step <= end);
+}
+
+/** The circle that a point is drawn as. */
+function pin(sheet, point) {
+  return (sheet.of.get(String(point)) ?? []).find(mark => mark.matches("circle:not(.void)"));
+}

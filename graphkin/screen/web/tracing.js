@@ -1,0 +1,47 @@
+// What a step hangs on: marked in the drawing, and named.
+
+/** Mark what the step in sight draws, or that which is pointed at, and what it is drawn from. */
+function trace() {
+  const sheet = sheets[here()], from = sources(looked_at());
+  const done = state.step === data.bounds[here()][1] && !state.over;
+  sheet.element.classList.toggle("growing", !done);
+  for (const mark of sheet.marks) {
+    mark.classList.toggle("rest", !mark.classList.contains("now") && !from.has(mark.dataset.of));
+  }
+  halos();
+  names(byId("from"), from);
+  byId("from-key").hidden = !from.size;
+  look();
+}
+
+/** The steps of the sentence in sight, or that which is pointed at. */
+function looked_at() {
+  return state.over ? [state.over] : own[state.step];
+}
+
+/** What some steps are drawn from. */
+function sources(steps) {
+  const from = new Set(steps.flatMap(step => data.from[step] ?? []).map(String));
+  steps.forEach(step => from.delete(step));
+  return from;
+}
+
+/** Name in a list what is drawn from, with the steps that drew it. */
+function names(list, from) {
+  const told = new Map();
+  for (const step of from) {
+    const name = data.letters[step];
+    if (name && !told.has(name)) told.set(name, data.at[step]);
+  }
+  list.replaceChildren();
+  for (const [name, at] of [...told].sort((a, b) => a[1] - b[1])) {
+    if (list.childNodes.length) list.append(", ");
+    const part = document.createElement(at ? "a" : "span");
+    part.innerHTML = name; // markup of a symbol, escaped where it was made
+    if (at) {
+      part.href = `#step=${at}`;
+      part.append(` (${at})`);
+    }
+    list.append(part);
+  }
+}

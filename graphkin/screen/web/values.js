@@ -1,0 +1,62 @@
+// Values and margins of a position: in the tables, in the sentences, and in the line of what is asked.
+
+/** How each kind of table tells a value. */
+const TOLD = {
+  vectors(row, [, length, size], value) {
+    const kind = row.closest("[data-kind]").dataset.kind;
+    length.textContent = written(Math.abs(value) / data.scales[kind], 2);
+    size.textContent = significant(Math.abs(value));
+  },
+  turns(row, [size, sense], value) {
+    size.textContent = significant(Math.abs(value));
+    sense.textContent = value ? data.sense[value > 0 ? 0 : 1] : "";
+  },
+  slides(row, [size, sense], value) {
+    size.textContent = significant(Math.abs(value));
+    sense.innerHTML = value ? data.slides[row.dataset.row][value > 0 ? 0 : 1] : "";
+  },
+};
+
+/** Write those of this position. */
+function read() {
+  const values = motion.values(state.x), margins = motion.margins(state.x);
+  for (const table of document.querySelectorAll("#results table")) {
+    const rows = [...table.querySelectorAll("[data-row]")].filter(row => row.dataset.row in values);
+    const sizes = rows.map(row => Math.abs(values[row.dataset.row]));
+    const noise = 1e-9 * Math.max(...sizes);
+    rows.forEach((row, i) => {
+      const value = sizes[i] > noise ? values[row.dataset.row] : 0;
+      TOLD[table.className](row, [...row.querySelectorAll("td")], value);
+    });
+  }
+  for (const line of document.querySelectorAll("#steps .crossing")) {
+    const sine = margins[line.dataset.of];
+    if (sine === undefined) continue;
+    const angle = Math.asin(Math.min(Math.max(sine, 0), 1));
+    line.querySelector(".angle").textContent = written(angle * 180 / Math.PI, 0);
+    line.querySelector(".factor").textContent = angle ? significant(1 / Math.sin(angle / 2), 2) : "∞";
+  }
+  read_out();
+}
+
+/** Tell in the line below the slider what the sheet in sight asks for. */
+function read_out() {
+  byId("values").replaceChildren(...all_asked(sheets[here()].element.dataset.kind));
+}
+
+/** All that is asked on a sheet, each in one line. */
+function all_asked(kind) {
+  const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
+  return [...rows].map(row => asked([...row.cells]));
+}
+
+/** A value that is asked, in one line: its name, its size and unit. */
+function asked(cells) {
+  const table = cells[0].closest("table");
+  const place = { vectors: 3, turns: 1, slides: 1 }[table.className];
+  const value = document.createElement("span");
+  value.append(...copies(cells[0]), " = ", ...copies(cells[place]), " ");
+  value.append(...copies(table.tHead.rows[0].cells[place]));
+  if (place === 1 && cells[2].textContent) value.append(", ", ...copies(cells[2]));
+  return value;
+}
