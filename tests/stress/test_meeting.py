@@ -200,8 +200,8 @@ def test_what_misses_by_a_hair_is_said_to_miss_by_just_that(case, power):
     hair = Fraction(-sense(case), 10**power)
     with pytest.raises(ClosureError, match="miss") as raised:
         nudged(case, hair).mechanism().solve()
-    told = float(str(raised.value).split(" by ")[1].split(" mm")[0])
-    assert told == pytest.approx(10.0 ** (3 - power), rel=1e-3)
+    told = float(str(raised.value).split(" by ")[1].split(" m;")[0])
+    assert told == pytest.approx(10.0**-power, rel=1e-3)
 
 
 @pytest.mark.parametrize("case", TOUCHING)
