@@ -107,9 +107,9 @@ class Graph:
 
     def simplest(self, op: str, args: tuple[int, ...]) -> int:
         """The node of an operation that was not met before."""
-        constants = [self.constants.get(arg) for arg in args]
-        if None not in constants and op in FOLD:
-            return self.number(float(FOLD[op](*constants)))
+        known = self.constants
+        if args[0] in known and op in FOLD and all(arg in known for arg in args):
+            return self.number(float(FOLD[op](*(known[arg] for arg in args))))
         simpler = SIMPLER.get(op)
         found = simpler(self, *args) if simpler else None
         if found is not None:
@@ -187,15 +187,14 @@ def simpler_difference(graph: Graph, a: int, b: int) -> int | None:
 def simpler_product(graph: Graph, a: int, b: int) -> int | None:
     """x·1 is x, x·0 is 0; a minus is taken out, so that equal products meet; no l·l of a root."""
     for one, other in ((a, b), (b, a)):
-        factor = graph.constant(one)
-        if factor in (0, 1):
-            return other if factor else graph.number(0.0)
-        if factor is not None and factor < 0:
-            return graph.do("neg", graph.do("mul", graph.number(-factor), other))
-        turned = graph.negated(one)
-        if turned is not None:
-            return graph.do("neg", graph.do("mul", turned, other))
-        inner = graph.nodes[other]
+        node, inner = graph.nodes[one], graph.nodes[other]
+        if node.op == "number":
+            if node.value in (0, 1):
+                return other if node.value else graph.number(0.0)
+            if node.value < 0:
+                return graph.do("neg", graph.do("mul", graph.number(-node.value), other))
+        if node.op == "neg":
+            return graph.do("neg", graph.do("mul", node.args[0], other))
         if inner.op == "mul":
             found = of_two_factors(graph, one, *inner.args)
             if found is not None:
