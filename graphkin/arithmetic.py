@@ -193,10 +193,10 @@ def least(a: Real, b: Real) -> Real:
 
 
 def smaller(a: Real, b: Real) -> Real:
-    """The smaller of two numbers."""
+    """The smaller of two numbers, neither of them NaN: in fewer steps than ``least``."""
     return pick(a <= b, a, b)
 
 
 def larger(a: Real, b: Real) -> Real:
-    """The larger of two numbers."""
+    """The larger of two numbers of which neither is NaN."""
     return pick(a <= b, b, a)

@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from html import escape
 from itertools import chain
-from math import degrees
 
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import Rect
@@ -19,29 +18,15 @@ from graphkin.paper.style import Ink
 from graphkin.paper.svg import number
 from graphkin.paper.tags import marked_up
 from graphkin.screen import facts
-from graphkin.screen.buttons import button
+from graphkin.screen.construction import construction
+from graphkin.screen.dock import dock
 from graphkin.screen.fields import bar_rules, field_picture, headline, ink_sheet, scale_bar
 from graphkin.screen.legend import legend
 from graphkin.screen.scripts import STEP_PAGE, together
 from graphkin.screen.sheets import ScreenSheet, screen_sheets
 from graphkin.screen.skeleton import data_block, offline_page, part
-from graphkin.screen.slider import Slider, slider
-from graphkin.screen.telling import Said, Telling, Timed, telling
-from graphkin.steps.crossings import Crossing
-from graphkin.steps.program import Part
-from graphkin.text import Words
-
-ANGLE, FACTOR = "\ue000", "\ue001"
-"""Where the angle and the factor of a crossing stand in its sentence until it is marked up."""
-STOP_NAMES = {
-    Part.POSITION: "screen.position",
-    Part.VELOCITY: "screen.velocity",
-    Part.CENTRE: "screen.centre",
-    Part.NORMAL: "screen.normal",
-    Part.ACCELERATION: "screen.acceleration",
-    Part.POLE: "screen.pole",
-}
-"""What the buttons say that go to the parts of the work."""
+from graphkin.screen.slider import slider
+from graphkin.screen.telling import Telling, Timed, telling
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,42 +188,6 @@ def figure_pair(
     return [*found, "</div>", "</section>"]
 
 
-def construction(sheets: Sequence[ScreenSheet], told: Telling) -> Iterator[str]:
-    """The numbered sentences, those of each sheet under its name, and the crossings of each."""
-    words = sheets[0].drawing.words
-    yield '<section id="steps" aria-labelledby="steps-name"><h2 id="steps-name">'
-    yield f"{escape(words('page.construction'))}</h2>"
-    for place, sheet in enumerate(sheets):
-        first, last = told.bounds(place)
-        yield f"<h3>{escape(words(f'sheet.{sheet.drawing.kind}'))}</h3>"
-        yield f'<ol start="{first}">'
-        for number_ in range(first, last + 1):
-            yield sentence(words, number_, told.said[number_ - 1])
-        yield "</ol>"
-    yield "</section>"
-
-
-def sentence(words: Words, place: int, said: Said) -> str:
-    """A sentence, below it why, and the crossings of its lines."""
-    named = zip(said.crossings, said.letters, strict=True)
-    lines = "".join(crossing(words, found, name) for found, name in named)
-    text = f'<span class="say">{marked_up(said.markup)}</span>'
-    pairs = zip(said.why, said.of, strict=True)
-    parts = [f'<span data-for="{step}">{marked_up(why)}</span>' for why, step in pairs]
-    why = f'<small class="why">{"; ".join(parts)}</small>' if parts else ""
-    return f'<li id="step-{place}" value="{place}">{text}{why}{lines}</li>'
-
-
-def crossing(words: Words, found: Crossing, name: str) -> str:
-    """How flat two lines cross, and what a millimetre of pencil becomes there."""
-    markup = words("page.crossing", name=name, angle=ANGLE, factor=FACTOR)
-    angle, factor = words.fixed(degrees(found.angle), 0), words.significant(found.factor, 2)
-    text = marked_up(markup)
-    text = text.replace(ANGLE, f'<span class="angle">{angle}</span>')
-    text = text.replace(FACTOR, f'<span class="factor">{factor}</span>')
-    return f'<small class="crossing" data-of="{found.number}">{text}</small>'
-
-
 def outcome(sheets: Sequence[ScreenSheet], datum: str) -> Iterator[str]:
     """The tables of results, and the data; ``datum`` is the symbol of the one that is moved."""
     words = sheets[0].drawing.words
@@ -271,57 +220,6 @@ def foot(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
 
 
 # --- what a script makes of it -------------------------------------------------------------------
-
-
-def dock(words: Words, told: Telling, moves: Slider) -> str:
-    """The controls, in a template: a page without a script does not show them."""
-    steps = len(told.said)
-    stops = [
-        f'<button type="button" data-stop="{first}" data-end="{last}"><kbd>{place}</kbd> '
-        f"{escape(words(STOP_NAMES[stop]))}</button>"
-        for place, (first, last, stop) in enumerate(told.stops(), 1)
-    ]
-    play = (
-        f'data-play="{escape(words("screen.play"))}" data-pause="{escape(words("screen.pause"))}"'
-    )
-    return "\n".join(
-        (
-            '<template id="controls">',
-            f'<div id="dock" role="group" aria-label="{escape(words("screen.controls"))}">',
-            '<div id="told">',
-            '<div id="say" aria-live="polite" aria-atomic="true"><p id="count"></p>'
-            '<p id="sentence"></p></div>',
-            f'<details id="because" open><summary>{escape(words("screen.because"))}</summary>'
-            '<p id="reason"></p></details>',
-            f'<p id="behind"><span id="new-key">{escape(words("screen.new"))}</span> '
-            f'<span id="from-key">{escape(words("screen.from"))}</span> ',
-            '<span id="from"></span></p>',
-            '<p id="crossing"></p>',
-            "</div>",
-            '<div id="keys">',
-            button("previous", words("screen.previous")),
-            button("play", words("screen.play"), play),
-            button("next", words("screen.next")),
-            f'<input type="range" id="step" min="1" max="{steps}" step="1" value="1"'
-            f' aria-label="{escape(words("screen.step"))}">',
-            button(
-                "follow",
-                words("screen.follow"),
-                'aria-pressed="false"',
-                words("screen.follow_short"),
-            ),
-            "</div>",
-            f'<div id="stops" role="group" aria-label="{escape(words("screen.stops"))}">',
-            *stops,
-            "</div>",
-            *moves.controls(words),
-            f'<p id="help"><span>{escape(words("screen.help"))}</span>',
-            *moves.help(words),
-            "</p>",
-            "</div>",
-            "</template>",
-        )
-    )
 
 
 def record(sheets: Sequence[ScreenSheet], told: Telling) -> dict[str, object]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 
+import openpyxl
 import pytest
 
 from graphkin.grading.answers import Unread, read_answers
@@ -211,7 +212,6 @@ def test_a_folder_without_tables_is_refused(tmp_path):
 
 
 def test_answers_in_a_spreadsheet(tmp_path):
-    openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
     for line in (("id", "v_D_mm", "omega_3_sense"), ("001", 19.75, "cw")):
         book.active.append(line)

@@ -7,12 +7,12 @@ import zipfile
 from fractions import Fraction
 from pathlib import Path
 
+import openpyxl
+import openpyxl.styles
 import pytest
 
 from graphkin.grading.gradebook import GradebookError
 from graphkin.grading.gradebook_xlsx import MODIFIED, filled_gradebook
-
-openpyxl = pytest.importorskip("openpyxl")
 
 MARKS = {"0001": Fraction(17, 2), "0002": Fraction(12), "X9": Fraction(1)}
 MOODLE = (

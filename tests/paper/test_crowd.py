@@ -80,7 +80,7 @@ def test_letters_of_points_come_before_names_of_vectors_and_these_before_helping
         board = Board((25 - width / 2, 4.0, 25 + width / 2, 16.0))
         board.labels = [HELPER, VECTOR, POINT]
         board.unnamed = "without:"
-        board.footed = lambda notes: []  # type: ignore[method-assign]
+        board.footed = lambda notes: []
         in_turn(board, [])
         kept = [label.name for label in board.labels]
         assert "A" in kept

@@ -123,7 +123,7 @@ def make(tmp_path: Path) -> Make:
     """Make a class folder: make("331", ["0001", "0002"])."""
 
     def made(name: str, ids: Sequence[str], **options: object) -> Path:
-        return write_class(tmp_path / name, ids, **options)  # type: ignore[arg-type]
+        return write_class(tmp_path / name, ids, **options)
 
     return made
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import pypdfium2 as pdfium
 import pytest
+import zxingcpp as reader
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -102,8 +104,6 @@ def test_svg_and_pdf_hold_the_same_black_rectangles():
 
 
 def test_the_square_on_a_printed_page_can_be_read():
-    reader = pytest.importorskip("zxingcpp", reason="needs a reader of QR codes (zxing-cpp)")
-    pdfium = pytest.importorskip("pypdfium2", reason="needs a renderer of PDF (pypdfium2)")
     data = write_pdf([stamped(A3, CODE)])
     document = pdfium.PdfDocument(data)
     picture = document[0].render(scale=150 / 72).to_numpy()

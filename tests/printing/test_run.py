@@ -341,8 +341,8 @@ def dies(_order, _wanted):
 
 
 def test_a_cluster_gives_the_same_bytes(whole, make):
-    reason = "needs dask.distributed (graphkin[cluster])"
-    distributed = pytest.importorskip("distributed", reason=reason)
+    import distributed
+
     folder = make("cluster", IDS)
     local = distributed.LocalCluster(
         n_workers=2, threads_per_worker=2, processes=False, protocol="tcp", dashboard_address=None

@@ -6,6 +6,7 @@ import csv
 import io
 import zipfile
 
+import openpyxl
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
@@ -253,8 +254,6 @@ def test_what_is_written_reads_back(rows):
 
 @pytest.fixture
 def book(tmp_path):
-    openpyxl = pytest.importorskip("openpyxl")
-
     def written(rows, formats=()):
         workbook = openpyxl.Workbook()
         for row in rows:
@@ -300,7 +299,6 @@ def test_problems_of_a_workbook_name_its_rows(book):
 
 
 def test_a_broken_workbook_and_a_bomb_are_told(saved):
-    pytest.importorskip("openpyxl")
     assert "cannot be read as XLSX" in problems(saved(b"PK\x03\x04" + bytes(100), "r.xlsx"))[0]
     room = io.BytesIO()
     with zipfile.ZipFile(room, "w", zipfile.ZIP_DEFLATED) as packed:

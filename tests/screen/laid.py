@@ -132,7 +132,7 @@ class Shapes:
         ends = self.point(tail), self.point(tip)
         if not hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) >= SHORT:
             return None
-        return [number for point in head(*ends, "x").points for number in point]  # type: ignore[union-attr]
+        return [number for point in head(*ends, "x").points for number in point]
 
     def kind_s(self, o: int, d: int, low: int, high: int, which: int, rect: int) -> Laid:
         """A part of a construction line: all, near its point, far from it, or its end."""

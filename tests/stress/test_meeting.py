@@ -172,7 +172,7 @@ TOUCHING: list[Case] = [
 
 def nudged(case: Case, by: Fraction) -> Case:
     """The same with a coupler or rod a little longer."""
-    crank, rod, *rest = case.bars  # type: ignore[attr-defined]
+    crank, rod, *rest = case.bars
     return replace(case, bars=(crank, str(Fraction(rod) + by), *rest))
 
 

@@ -19,7 +19,7 @@ from tests.stress.closed import EPS
 
 def test_lengths_of_a_ten_millionth_of_a_metre_give_what_lengths_of_a_metre_give():
     """A peer's absolute tolerance of 1e-6 takes all its points for one and gives nothing."""
-    small = FourBar(bars=tuple(f"{bar}/10000000" for bar in (1, 3, 2, 3)))  # type: ignore[arg-type]
+    small = FourBar(bars=tuple(f"{bar}/10000000" for bar in (1, 3, 2, 3)))
     one, other = held(FourBar()), held(small)
     for name in ("A", "B"):
         for what in ("position", "velocity", "acceleration"):

@@ -31,7 +31,7 @@ ANGLES = ["0", "60", "90", "180", "270", "-45.5"]
 
 def sized(case: Case, factor: Fraction, speed: Fraction) -> Case:
     """The same mechanism, so many times as large and driven so fast, exactly."""
-    bars = tuple(str(factor * Fraction(bar)) for bar in case.bars)  # type: ignore[attr-defined]
+    bars = tuple(str(factor * Fraction(bar)) for bar in case.bars)
     slides = isinstance(case, DrivenSlide)
     at = str(factor * Fraction(case.at)) if slides else case.at
     pace = str(factor * speed) if slides else str(speed)

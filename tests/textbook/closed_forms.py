@@ -57,7 +57,7 @@ def added(first: Moving, second: Moving) -> Moving:
 
 def less(first: Moving, second: Moving) -> Moving:
     """The first motion seen from the second."""
-    return added(first, tuple(-z for z in second))  # type: ignore[arg-type]
+    return added(first, tuple(-z for z in second))
 
 
 def degrees(angle: float, omega: float = 0.0, epsilon: float = 0.0) -> Turning:

@@ -1,0 +1,52 @@
+"""The construction of a step page in words: numbered sentences with their reasons and crossings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from html import escape
+from math import degrees
+
+from graphkin.paper.tags import marked_up
+from graphkin.screen.sheets import ScreenSheet
+from graphkin.screen.telling import Said, Telling
+from graphkin.steps.crossings import Crossing
+from graphkin.text import Words
+
+ANGLE, FACTOR = "\ue000", "\ue001"
+"""Where the angle and the factor of a crossing stand in its sentence until it is marked up."""
+
+
+def construction(sheets: Sequence[ScreenSheet], told: Telling) -> Iterator[str]:
+    """The numbered sentences, those of each sheet under its name, and the crossings of each."""
+    words = sheets[0].drawing.words
+    yield '<section id="steps" aria-labelledby="steps-name"><h2 id="steps-name">'
+    yield f"{escape(words('page.construction'))}</h2>"
+    for place, sheet in enumerate(sheets):
+        first, last = told.bounds(place)
+        yield f"<h3>{escape(words(f'sheet.{sheet.drawing.kind}'))}</h3>"
+        yield f'<ol start="{first}">'
+        for number_ in range(first, last + 1):
+            yield sentence(words, number_, told.said[number_ - 1])
+        yield "</ol>"
+    yield "</section>"
+
+
+def sentence(words: Words, place: int, said: Said) -> str:
+    """A sentence, below it why, and the crossings of its lines."""
+    named = zip(said.crossings, said.letters, strict=True)
+    lines = "".join(crossing(words, found, name) for found, name in named)
+    text = f'<span class="say">{marked_up(said.markup)}</span>'
+    pairs = zip(said.why, said.of, strict=True)
+    parts = [f'<span data-for="{step}">{marked_up(why)}</span>' for why, step in pairs]
+    why = f'<small class="why">{"; ".join(parts)}</small>' if parts else ""
+    return f'<li id="step-{place}" value="{place}">{text}{why}{lines}</li>'
+
+
+def crossing(words: Words, found: Crossing, name: str) -> str:
+    """How flat two lines cross, and what a millimetre of pencil becomes there."""
+    markup = words("page.crossing", name=name, angle=ANGLE, factor=FACTOR)
+    angle, factor = words.fixed(degrees(found.angle), 0), words.significant(found.factor, 2)
+    text = marked_up(markup)
+    text = text.replace(ANGLE, f'<span class="angle">{angle}</span>')
+    text = text.replace(FACTOR, f'<span class="factor">{factor}</span>')
+    return f'<small class="crossing" data-of="{found.number}">{text}</small>'
