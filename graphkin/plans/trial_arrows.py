@@ -1,11 +1,11 @@
-"""The arrows of the right plan that two trials give: components, and what slides."""
+"""The arrows of the right plans that two trials give: components, and relative velocities."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.plans.arrows import arrow_between
+from graphkin.plans.arrows import arrow_between, relative_arrow
 from graphkin.plans.pen import Pen, Says, about, letter
 from graphkin.steps.closing import (
     after_component,
@@ -37,7 +37,7 @@ def relative_arrows(pen: Pen, name: str) -> None:
 
 
 def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range) -> None:
-    """The arrows of the components in the right plan.
+    """The arrows of the components in the right plan, and of the velocities that they start from.
 
     What is laid off there is what the second trial has laid off, for it does not hang on what is
     tried: normal and Coriolis components. What closes the way to a point is its tangential
@@ -48,6 +48,7 @@ def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range)
         for number in tried:
             carried_legs(pen, right, number)
         for pivot, pin, vector in normals_of(pen, group):
+            relative_arrow(pen, pin, pivot)
             ends = pen.the("acceleration", pivot), pen.the("acceleration", pin)
             says: Says = {"i": about(pen, pin, pivot), "q": letter(pin), "p": letter(pivot)}
             legs(pen, "ντ", along_component, after_component, (*ends, vector), says)
