@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.paper.shapes import TINY, Array, Box, Index, Mask
+from graphkin.paper.shapes import TINY, Array, Box, Index, Mask, where
 
 CELL = 0.8  # mm, of the grid that rules places out at a glance
 OFF_MIDDLE = 4.0  # cost of a segment's label at the segment's end; all costs are in mm of distance
@@ -52,8 +52,8 @@ def tries(subjects: Subjects, near: Array, far: Array | None = None) -> Tries:
         return _by_segments(subjects, near, far)
     if not line.any():
         return _by_points(subjects, near, far)
-    points = _by_points(subjects.take(np.flatnonzero(~line)), near, far)
-    lines = _by_segments(subjects.take(np.flatnonzero(line)), near, far)
+    points = _by_points(subjects.take(where(~line)), near, far)
+    lines = _by_segments(subjects.take(where(line)), near, far)
     order = np.argsort(np.argsort(line, kind="stable"))
     both = zip(points, lines, strict=True)
     return Tries(*(np.concatenate(pair)[order] for pair in both))
@@ -81,7 +81,7 @@ def _by_segments(subjects: Subjects, near: Array, far: Array | None) -> Tries:
 def _directions(angles: int, roots: int) -> Array:
     """Return unit vectors as rows x and y: for each root its own share of the directions."""
     turn = (np.arange(angles) * roots + np.arange(roots)[:, None]) * (2 * np.pi / angles / roots)
-    return np.stack([np.cos(turn), np.sin(turn)]).reshape(2, -1)
+    return np.array([np.cos(turn), np.sin(turn)]).reshape(2, -1)
 
 
 def _rings(
@@ -94,12 +94,12 @@ def _rings(
     """
     u = _directions(angles, x.shape[1])[:, None, :]
     reach = subjects.half.T[:, :, None] + extent
-    slide = np.clip(u * np.sqrt(2), -1, 1) * reach
+    slide = np.minimum(np.maximum(u * np.sqrt(2), -1), 1) * reach
     gap = (subjects.gap + subjects.radius)[:, None, None] + steps[:, None]
     short, along = (np.abs(slide) - reach)[:, :, None], np.abs(u)[:, :, None]
     edge = np.maximum(short + gap * along, 0.0)
-    push = gap * gap / np.sqrt(edge[0] * edge[0] + edge[1] * edge[1]).clip(TINY)
-    roots = np.stack([x, y]).repeat(angles, axis=2)
+    push = gap * gap / np.maximum(np.sqrt(edge[0] * edge[0] + edge[1] * edge[1]), TINY)
+    roots = np.array([x, y]).repeat(angles, axis=2)
     centre = (roots + slide)[:, :, None] + push * u[:, :, None]
     return _flat(centre, u[:, :, None], roots[:, :, None])
 
@@ -107,22 +107,23 @@ def _rings(
 def _sides(subjects: Subjects, count: int, steps: Array) -> Tries:
     """Return places along both sides of the middle two thirds of segments; mm."""
     x0, y0, x1, y1 = subjects.ends.T
-    along = np.stack([x1 - x0, y1 - y0])
-    unit = along / np.sqrt((along * along).sum(axis=0)).clip(TINY)
-    normal = np.stack([-unit[1], unit[0]])[:, :, None] * np.repeat([1.0, -1.0], count)
+    along = np.array([x1 - x0, y1 - y0])
+    unit = along / np.maximum(np.sqrt((along * along).sum(axis=0)), TINY)
+    normal = np.array([-unit[1], unit[0]])[:, :, None] * np.repeat([1.0, -1.0], count)
     support = (np.abs(unit[::-1]) * subjects.half.T).sum(axis=0)
     off = (support + subjects.gap)[:, None, None] + steps[:, None]
     share = np.tile(np.linspace(1 / 6, 5 / 6, count), 2)
-    root = np.stack([x0, y0])[:, :, None] + along[:, :, None] * share
+    root = np.array([x0, y0])[:, :, None] + along[:, :, None] * share
     root, normal = root[:, :, None], normal[:, :, None]
     return _flat(root + normal * off, normal, root)
 
 
 def _flat(*fields: Array) -> Tries:
     """Return the candidates of grids (2, n, steps, roots)."""
-    shape = fields[0].shape
-    flat = (np.broadcast_to(f, shape).reshape(2, shape[1], -1) for f in fields)
-    return Tries(*(row for field in flat for row in field))
+    whole = np.empty((len(fields), *fields[0].shape))
+    for part, field in zip(whole, fields, strict=True):
+        part[:] = field
+    return Tries(*whole.reshape(2 * len(fields), whole.shape[2], -1))
 
 
 def distance_cost(some: Tries, own: Array, subjects: Subjects) -> Array:
@@ -162,7 +163,7 @@ class Blots:
         for above, row in pairwise(self.below):  # much faster than a sum along columns
             np.add(row, above, out=row)
 
-    def hit(self, x: Array, y: Array, hx: Array, hy: Array) -> Mask:
+    def hit(self, x: Array, y: Array, hx: Array | float, hy: Array | float) -> Mask:
         """Return which boxes are surely nearer to a line than they should be."""
         wide, high = hx + self.pad, hy + self.pad
         left, right = self._cells(x - wide - self.x, x + wide - self.x, self.across)

@@ -15,6 +15,7 @@ from graphkin.paper.shapes import (
     meeting,
     segments,
     separation,
+    where,
 )
 
 PAD = 0.6  # mm between a label and a taken box, a point, a leader or a label above or below it
@@ -36,7 +37,8 @@ class Places(NamedTuple):
 
     def take(self, which: Index) -> Places:
         """Return some of the places."""
-        return Places(self.label[which], *(column[which] for column in self[1:]))
+        x, y, hx, hy, cost = np.array(self[1:6]).take(which, axis=1)
+        return Places(self.label.take(which), x, y, hx, hy, cost, self.leader.take(which, axis=0))
 
     def joined(self, more: Places) -> Places:
         """Return these places and then more."""
@@ -81,9 +83,9 @@ class Clashes:
         label, x, y, hx, hy, _, leader = self.places
         if label.min() == label.max():
             return
-        box = np.stack([x - hx, y - hy, x + hx, y + hy])
+        box = np.array([x - hx, y - hy, x + hx, y + hy])
         self._compare_boxes(box, old)
-        led = np.flatnonzero(leader[:, 0] < NOWHERE)
+        led = where(leader[:, 0] < NOWHERE)
         if len(led):
             self._compare_leaders(box, led, old)
 
@@ -119,11 +121,11 @@ class Clashes:
     def _of_two(self, one: Index, other: Index, some: Mask | bool = True) -> tuple[Index, Index]:
         """Return the pairs, or some of them, that are places of two labels."""
         label = self.places.label
-        at = np.flatnonzero((label.take(one) != label.take(other)) & some)
+        at = where((label.take(one) != label.take(other)) & some)
         return one.take(at), other.take(at)
 
     def _note(self, one: Index, other: Index, clash: Mask) -> None:
         """Note that these pairs of places rule each other out."""
-        at = np.flatnonzero(clash)
+        at = where(clash)
         one, other = one.take(at), other.take(at)
         self.table[one, other] = self.table[other, one] = True

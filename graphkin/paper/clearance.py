@@ -23,6 +23,7 @@ from graphkin.paper.shapes import (
     rectangles,
     segments,
     separation,
+    where,
 )
 
 OWN = 0.4  # mm within which a drawn line is taken for the subject itself
@@ -62,12 +63,12 @@ class Open(NamedTuple):
 
     def take(self, which: Index) -> Open:
         """Return some of the candidates."""
-        return Open(self.label.take(which), *(column.take(which) for column in self[1:]))
+        return Open(self.label.take(which), *np.array(self[1:]).take(which, axis=1))
 
     def boxes(self, more: Array | float = 0.0) -> Array:
         """Return the labels' boxes as rows left, top, right, bottom, wider by a length in mm."""
         wide, high = self.hx + more, self.hy + more
-        return np.stack([self.x - wide, self.y - high, self.x + wide, self.y + high])
+        return np.array([self.x - wide, self.y - high, self.x + wide, self.y + high])
 
     def leaders(self, radius: Array) -> Array:
         """Return lines from 0.5 mm off the labels' boxes, aimed at their centres, to the subjects.
@@ -75,12 +76,12 @@ class Open(NamedTuple):
         They end at circles of a radius in mm; columns are x0, y0, x1, y1.
         """
         way_x, way_y = self.root_x - self.x, self.root_y - self.y
-        length = np.sqrt(way_x * way_x + way_y * way_y).clip(TINY)
-        share_x = (self.hx + 0.5) / np.abs(way_x).clip(TINY)
-        share = np.minimum(share_x, (self.hy + 0.5) / np.abs(way_y).clip(TINY))
+        length = np.maximum(np.sqrt(way_x * way_x + way_y * way_y), TINY)
+        share_x = (self.hx + 0.5) / np.maximum(np.abs(way_x), TINY)
+        share = np.minimum(share_x, (self.hy + 0.5) / np.maximum(np.abs(way_y), TINY))
         back = radius / length
         ends = self.root_x - way_x * back, self.root_y - way_y * back
-        return np.stack([self.x + way_x * share, self.y + way_y * share, *ends], axis=1)
+        return np.array([self.x + way_x * share, self.y + way_y * share, *ends]).T.copy()
 
 
 class Page:
@@ -130,12 +131,12 @@ class Page:
         leader = some.leaders(self.subjects.radius.take(some.label))
         toll = LEADER[self.subjects.line.take(some.label).astype(int)] + self._toll(some, leader)
         places = Places(*some[:5], some.cost + toll, leader)
-        return places.take(np.flatnonzero(np.isfinite(toll)))
+        return places.take(where(np.isfinite(toll)))
 
-    def open(self, which: Index, some: Tries, span: slice) -> Open:
+    def open(self, which: Index, some: Tries, first: Index, last: Index) -> Open:
         """Return the free ones among the candidates of labels.
 
-        Of each label those are looked at that the slice takes, counted from the nearest one.
+        Of each label those are looked at from a first to before a last, the nearest one being 0.
         """
         subjects = self.subjects.take(which)
         x, y, (hx, hy) = some.x, some.y, subjects.half.T[:, :, None]
@@ -147,22 +148,24 @@ class Page:
         free &= (y - hy >= top) & (y + hy <= bottom)
         free &= ~self.blots.hit(x, y, hx, hy)
         cost = np.where(free, distance_cost(some, own, subjects), np.inf)
-        order = np.argsort(cost, axis=1, kind="stable")[:, span]
-        at = (order + np.arange(len(which))[:, None] * cost.shape[1]).reshape(-1)
-        at = at.take(np.flatnonzero(np.isfinite(cost.take(at))))
+        order = np.argsort(cost, axis=1, kind="stable")
+        order += np.arange(len(which))[:, None] * cost.shape[1]
+        rank = np.arange(cost.shape[1])
+        at = order[(rank >= first[:, None]) & (rank < last[:, None])]
+        at = at.take(where(np.isfinite(cost.take(at))))
         row = at // cost.shape[1]
         columns = (column.take(at) for column in (cost, own, some.root_x, some.root_y))
         wide, high = subjects.half[row].T
         found = Open(which[row], x.take(at), y.take(at), wide, high, *columns)
-        return found.take(np.flatnonzero(self._clear_of_all(found)))
+        return found.take(where(self._clear_of_all(found)))
 
     def _clear_of_all(self, some: Open) -> Mask:
         """Return which candidates are as far from all shapes as they must be."""
         clear = self.clear
         place, shape = meeting(some.boxes(), self.shapes.boxes(clear))
-        other = np.flatnonzero(shape != some.label.take(place) + self.first)
+        other = where(shape != some.label.take(place) + self.first)
         place, shape = place.take(other), shape.take(other)
-        near = np.flatnonzero(self._apart(some, place, shape) < clear.take(shape))
+        near = where(self._apart(some, place, shape) < clear.take(shape))
         free = np.ones(len(some.label), dtype=np.bool_)
         free[place.take(near)] = False
         return free
@@ -197,16 +200,16 @@ class Page:
         far = np.maximum(ROOM, some.own + MARGIN.max())
         place, shape = meeting(some.boxes(far), self.shapes.boxes(0.0))
         apart, label = self._apart(some, place, shape), some.label.take(place)
-        other = np.flatnonzero((apart < far.take(place)) & ~self._is_own(label, shape))
+        other = where((apart < far.take(place)) & ~self._is_own(label, shape))
         place, shape, label = place.take(other), shape.take(other), label.take(other)
         apart = apart.take(other)
         own, line = some.own.take(place), self.subjects.line.take(label)
         kind = self.kind.take(shape) + len(MARGIN[0]) * line
         doubt, air = np.zeros(len(some.own)), np.full(len(some.own), ROOM)
         np.maximum.at(doubt, place, (own + MARGIN.take(kind) - apart) * WEIGHT.take(kind))
-        np.minimum.at(air, place, apart.clip(0.0))
+        np.minimum.at(air, place, np.maximum(apart, 0.0))
         astray = np.zeros(len(some.own), dtype=np.bool_)
-        astray[place.take(np.flatnonzero((apart < own) & line & self.long.take(shape)))] = True
+        astray[place.take(where((apart < own) & line & self.long.take(shape)))] = True
         astray &= some.own > self.subjects.gap.take(some.label) + FAR_OFF
         return np.asarray(doubt * (1.0 + doubt / 5.0) + AIR * (ROOM - air) + ASTRAY * astray)
 
@@ -215,17 +218,17 @@ class Page:
         x0, y0, x1, y1 = leader.T
         ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)
         wide = np.maximum(self.clear - PAD / 2, 2 * OWN)
-        place, shape = meeting(np.stack(ways), self.shapes.boxes(wide))
+        place, shape = meeting(np.array(ways), self.shapes.boxes(wide))
         off = self._off(leader.take(place, axis=0), shape)
         near = (off[0] * off[1] <= 0) | (np.abs(off).min(axis=0) <= wide.take(shape))
-        near = np.flatnonzero(near)
+        near = where(near)
         place, shape, off = place.take(near), shape.take(near), off.take(near, axis=1)
         own, kind = self._is_own(some.label.take(place), shape), self.kind.take(shape)
         path = leader.take(place, axis=0)
         line = (kind == LINE) | (kind == CORE)
         toll = np.where(line, self._brush(path, shape, off, own), 0.0)
         limit = self.clear[shape] - PAD / 2
-        which = np.flatnonzero((kind != LINE) & ~own & (limit > 0))
+        which = where((kind != LINE) & ~own & (limit > 0))
         path, zero, solid = path[which], np.zeros(1), self.shapes.take(shape[which])
         limit = limit[which]
         hit = separation(solid.x, solid.y, solid.ex, solid.ey, segments(path)) < limit
@@ -238,19 +241,19 @@ class Page:
         near = self.shapes
         x, y, nx, ny = (column.take(shape) for column in (near.x, near.y, near.nx, near.ny))
         x0, y0, x1, y1 = path.T
-        return np.stack([nx * (x0 - x) + ny * (y0 - y), nx * (x1 - x) + ny * (y1 - y)])
+        return np.array([nx * (x0 - x) + ny * (y0 - y), nx * (x1 - x) + ny * (y1 - y)])
 
     def _brush(self, path: Array, shape: Index, off: Array, own: Mask) -> Array:
         """Return what it costs that leaders cross or run along these lines, a line for each."""
         x0, y0, x1, y1 = path.T
-        length = np.sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2).clip(TINY)
+        length = np.maximum(np.sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2), TINY)
         sine = (off[1] - off[0]) / length
         toll = np.zeros(len(shape))
-        cross = np.flatnonzero((off[0] * off[1] <= 0) & ~own)
+        cross = where((off[0] * off[1] <= 0) & ~own)
         cross = cross[crossings(path[cross], self.ends[shape[cross]])]
         toll[cross] = CROSSING * (3.0 - 2.0 * sine[cross] * sine[cross])
         beside = (np.abs(sine) < SLANT) & (self.shapes.slack[shape] == 0)
-        along = np.flatnonzero(beside & (own | (np.abs(off[0] + off[1]) < 4 * OWN)))
+        along = where(beside & (own | (np.abs(off[0] + off[1]) < 4 * OWN)))
         near, zero = self.shapes.take(shape[along]), np.zeros(1)
         x, y = (x0[along] + x1[along]) / 2, (y0[along] + y1[along]) / 2
         along = along[own[along] | (separation(x, y, zero, zero, near) < 2 * OWN)]

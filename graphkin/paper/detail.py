@@ -6,11 +6,10 @@ from collections.abc import Iterator, Sequence
 from math import hypot, sqrt
 from typing import NamedTuple
 
-from graphkin.paper.areas import Rect
-from graphkin.paper.chords import pieces_of
 from graphkin.paper.field import XY
+from graphkin.paper.free import Disc, free_disc
 from graphkin.paper.labels import Board, Label, free_ones
-from graphkin.paper.marks import Circle, Line, Mark, Text, reach
+from graphkin.paper.marks import Circle, Line, Mark, Text
 from graphkin.paper.symbols import SHORT, VECTORS, head
 from graphkin.paper.together import finished, spots_on
 
@@ -22,18 +21,6 @@ RADIUS = 11.0
 """Radius of a detail circle in mm."""
 TOO_SHORT = 0.5
 """Vectors shorter than this, in mm, are not worth a detail."""
-GRID = 5.0
-"""Distance of the places tried for a detail, in mm."""
-TOGETHER = 16
-"""Places that are compared with all that is drawn at one go."""
-INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
-"""Half the sides of rectangles in a disc of radius 1."""
-BLOT = 2.0
-"""Size of the cells in which marks are counted to rule places out at a glance, in mm."""
-CLEAR = 0.5
-"""How far the line from a drawing to its detail stays from lettering, in mm."""
-MOST = 240
-"""Places, nearest first, among which one is sought whose line to the drawing crosses no text."""
 
 
 def length_of(line: Line) -> float:
@@ -80,73 +67,34 @@ def parted(*boards: Board) -> list[tuple[list[Mark], list[Mark]]]:
         found.append((marks, detail))
         if spot is None:
             continue
-        place = free_place(marks, board.rect, spot.at, RADIUS + 4)
-        if place is None:
+        disc = free_disc(marks, board.rect, spot.at, RADIUS + 4)
+        if disc is None:
             marks.remove(spot.circle())
             continue
-        detail += circled(marks, spot.at, place, spot.times)
-        part = enlarged_part(marks, spot.at, place, spot.times)
+        detail += circled(disc, spot.at, spot.times)
+        part = enlarged_part(marks, spot.at, disc.at, spot.times)
         detail += part.marks[:-1]
         enlarged.append((part, detail))
-    for (part, into), at in zip(enlarged, spots_on([b for b, _ in enlarged]), strict=True):
+    places = spots_on([part for part, _ in enlarged], thorough=False)
+    for (part, into), at in zip(enlarged, places, strict=True):
         into.extend(free_ones(part, at))
     return found
 
 
-def free_place(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> XY | None:
-    """The middle of a free disc as near as possible to a place; None when there is none.
-
-    One is preferred from which a line to the drawing crosses no text.
-    """
-    import numpy as np
-
-    from graphkin.paper.candidates import Blots
-    from graphkin.paper.shapes import distance, joined, rectangles, separation
-    from graphkin.paper.shapes import segments as shapes_of
-
-    xs = np.arange(rect[0] + room, rect[2] - room, GRID)
-    ys = np.arange(rect[1] + room, rect[3] - room, GRID)
-    x, y = (row.reshape(-1) for row in np.meshgrid(xs, ys))
-    order = np.argsort(np.hypot(x - near[0], y - near[1]), kind="stable")
-    x, y, zero = x[order], y[order], np.zeros(1)
-    lines = pieces_of(marks)
-    texts = rectangles([reach(mark) for mark in marks if isinstance(mark, Text)])
-    blots, boxes = Blots(lines, rect, 0.0, BLOT), texts.upright()
-    for wide, high in INNER:
-        half = np.full(len(x), wide * room), np.full(len(x), high * room)
-        likely = np.flatnonzero(~blots.hit(x, y, *half))
-        x, y = x[likely], y[likely]
-    drawn = joined(shapes_of(lines), texts).upright()
-    first: XY | None = None
-    for start in range(0, len(x), TOGETHER):
-        u, v = x[start : start + TOGETHER], y[start : start + TOGETHER]
-        free = (distance(u, v, zero, zero, drawn) > room).all(axis=0)
-        ways = shapes_of([(*near, *at) for at in zip(u.tolist(), v.tolist(), strict=True)])
-        clear = (separation(boxes.x, boxes.y, boxes.ex, boxes.ey, ways) >= CLEAR).all(axis=0)
-        for i in np.flatnonzero(free & clear)[:1]:
-            return float(u[i]), float(v[i])
-        for i in np.flatnonzero(free)[: 0 if first else 1]:
-            first = float(u[i]), float(v[i])
-        if first and start >= MOST:
-            break
-    return first
-
-
-def circled(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Iterator[Mark]:
+def circled(disc: Disc, source: XY, times: int) -> Iterator[Mark]:
     """A large circle, the line from the small one to it, and how many times it enlarges."""
-    small = RADIUS / times
+    small, place = RADIUS / times, disc.at
     yield Circle(*place, RADIUS, "detail")
     away = hypot(place[0] - source[0], place[1] - source[1])
     u, v = (place[0] - source[0]) / away, (place[1] - source[1]) / away
-    line = Line(
-        source[0] + small * u,
-        source[1] + small * v,
-        place[0] - RADIUS * u,
-        place[1] - RADIUS * v,
-        "detail",
-    )
-    if not crosses_text(line, marks):
-        yield line
+    if disc.in_sight:
+        yield Line(
+            source[0] + small * u,
+            source[1] + small * v,
+            place[0] - RADIUS * u,
+            place[1] - RADIUS * v,
+            "detail",
+        )
     beneath = place[1] + RADIUS + 3.6 if v > 0 else place[1] - RADIUS - 1.1
     yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")
 
@@ -162,16 +110,6 @@ def enlarged_part(marks: Sequence[Mark], source: XY, place: XY, times: int) -> B
     board.marks.append(Circle(*place, RADIUS, "detail"))
     board.labels = named(board, marks, source, place, times)
     return board
-
-
-def crosses_text(line: Line, marks: Sequence[Mark]) -> bool:
-    """True when a line would run through lettering."""
-    from graphkin.paper.shapes import met
-    from graphkin.paper.shapes import segments as shapes_of
-
-    boxes = [reach(mark) for mark in marks if isinstance(mark, Text)]
-    wider = [(b[0] - CLEAR, b[1] - CLEAR, b[2] + CLEAR, b[3] + CLEAR) for b in boxes]
-    return bool(met(wider, shapes_of([(line.x1, line.y1, line.x2, line.y2)])).any())
 
 
 def passes(line: Line, centre: XY, radius: float) -> bool:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Line, Mark, Polyline, reach
-from graphkin.paper.place import Spot
+from graphkin.paper.place import CLEAR, Spot
 from graphkin.paper.symbols import VECTORS
 
 if TYPE_CHECKING:
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 MARGIN = 0.3
 """How much nearer a neighbour may be, in mm, before a label gets a leader."""
+LEAST = MARGIN + CLEAR - 0.1
+"""A label no farther from its own segment, in mm, is nearest to it: none is so near to a line."""
 
 
 def with_leaders(
@@ -56,12 +58,13 @@ def doubtful_ones(
         ]
         if not which or len(shapes) < 2:
             continue
-        areas = np.array([reach(labels[i].text(spots[i])) for i in which])
-        apart = shapely.distance(shapely.box(*areas.T)[:, None], list(shapes.values()))
-        mine = np.arange(len(which)), [place[labels[i].name] for i in which]
-        own = apart[mine]
-        apart[mine] = np.inf
-        nearer = np.flatnonzero(apart.min(axis=1) < own - MARGIN)
+        areas = shapely.box(*np.array([reach(labels[i].text(spots[i])) for i in which]).T)
+        drawn, mine = np.array([*shapes.values()]), np.array([place[labels[i].name] for i in which])
+        own = shapely.distance(areas, drawn[mine])
+        far = (own > LEAST).nonzero()[0]
+        apart = shapely.distance(areas[far, None], drawn)
+        apart[np.arange(len(far)), mine[far]] = np.inf
+        nearer = far[apart.min(axis=1) < own[far] - MARGIN]
         found += [which[k] for k in nearer.tolist()]
     return sorted(found)
 

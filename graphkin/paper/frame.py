@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 from math import floor
 
@@ -98,6 +99,7 @@ def bounds(length: float, low: float, high: float) -> list[float]:
     return [low, *(at for at in inner if low + FIELD / 4 < at < high - FIELD / 4), high]
 
 
+@lru_cache(maxsize=8)
 def fields(width: float, height: float) -> tuple[Mark, ...]:
     """Draw the grid border with its numbered and lettered fields."""
     outer = (FILING - BAND, BAND, width - BAND, height - BAND)
@@ -189,6 +191,7 @@ def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]
     return tuple(marks)
 
 
+@lru_cache(maxsize=8)
 def check_bar(x: float, y: float, caption: str = "", length: int = 100) -> tuple[Mark, ...]:
     """Draw a ruler from (x, y) to the right to check the print: 1 mm ticks, numbers each 10 mm.
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from graphkin import plane
-from graphkin.paper.detail import free_place
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field
+from graphkin.paper.free import free_disc
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Circle, Line, Mark, Text, box
 from graphkin.paper.paths import ring
@@ -36,9 +36,9 @@ def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
         if abs(point - value.start) * field.mm > FARTHEST * (field.rect[2] - field.rect[0]):
             continue
         room = (WIDTH**2 + HEIGHT**2) ** 0.5 / 2 + 2
-        place = free_place([*marks, *found], field.rect, field.at, room)
-        if place is not None:
-            found += inset(drawing, step, point, place)
+        disc = free_disc([*marks, *found], field.rect, field.at, room)
+        if disc is not None:
+            found += inset(drawing, step, point, disc.at)
     return found
 
 

@@ -36,12 +36,12 @@ class Shapes(NamedTuple):
 
     def take(self, which: Index) -> Shapes:
         """Return some of the shapes."""
-        return Shapes(*(column.take(which) for column in self))
+        return Shapes(*np.array(self).take(which, axis=1))
 
     def boxes(self, more: Array | float = 0.0) -> Array:
         """Return boxes around the shapes as rows left, top, right, bottom, wider by some mm."""
         wide, high = self.ex + more, self.ey + more
-        return np.stack([self.x - wide, self.y - high, self.x + wide, self.y + high])
+        return np.array([self.x - wide, self.y - high, self.x + wide, self.y + high])
 
     def upright(self) -> Shapes:
         """Return the shapes as columns, for arrays with a row for each."""
@@ -80,12 +80,12 @@ def _joints(lines: Array, clear: Array, loose: Array) -> tuple[Index, Array]:
     linked = (lines[:-1, 2:] == lines[1:, :2]).all(axis=1) & (clear[:-1] == clear[1:])
     (cx, cy), (lx, ly) = (lines[1:, 2:] - lines[:-1, :2]).T, (lines[:-1, 2:] - lines[:-1, :2]).T
     size, along = np.sqrt(cx * cx + cy * cy), lx * cx + ly * cy
-    off = np.abs(lx * cy - ly * cx) / size.clip(TINY) + np.maximum(loose[:-1], loose[1:])
+    off = np.abs(lx * cy - ly * cx) / np.maximum(size, TINY) + np.maximum(loose[:-1], loose[1:])
     place = np.arange(len(linked))
     nth = place - np.maximum.accumulate(np.where(linked, 0, place + 1))
     linked &= (size > TINY) & (size < SHORT) & (off <= LOOSE)
     linked &= (along >= 0) & (along <= size * size)
-    return np.flatnonzero(linked & (nth % 2 == 0)), off
+    return where(linked & (nth % 2 == 0)), off
 
 
 def rectangles(boxes: ArrayLike) -> Shapes:
@@ -142,9 +142,14 @@ def crossings(one: Array, other: Array) -> Mask:
     )
 
 
+def where(mask: Mask) -> Index:
+    """Return the numbers of what is true: as flatnonzero() does, in a third of its time."""
+    return mask.reshape(-1).nonzero()[0]
+
+
 def pairs_of(mask: Mask) -> tuple[Index, Index]:
     """Return the rows and columns of what is true: as nonzero() does, but much faster."""
-    at, across = np.flatnonzero(mask), max(1, mask.shape[1])
+    at, across = where(mask), max(1, mask.shape[1])
     row = at // across
     return row, at - row * across
 
@@ -167,7 +172,7 @@ def meeting(one: Array, other: Array) -> tuple[Index, Index]:
     pair, nth = pairs_of(overlap(sides.take(some, axis=1), each))
     first, second = some.take(pair) * TOGETHER + nth, second.take(pair)
     if short:
-        real = np.flatnonzero(first < count)
+        real = where(first < count)
         first, second = first.take(real), second.take(real)
     return first, second
 

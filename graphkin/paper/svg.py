@@ -14,6 +14,7 @@ from graphkin.paper.richtext import Run, spaced_runs
 from graphkin.paper.style import Ink, Style, style_of
 
 FONTS = f'"{FAMILY}","DejaVu Sans",sans-serif'
+TAGS = {Line: "line", Circle: "circle", Arc: "path", Text: "text"}
 LETTERING = f"text{{font-family:{FONTS};font-kerning:none;white-space:pre}}"
 
 
@@ -82,8 +83,7 @@ def element(mark: Mark) -> str:
         centre = f'cx="{number(mark.cx)}" cy="{number(mark.cy)}"'
         return f'<circle {about(mark)} {centre} r="{number(mark.r)}"/>'
     if isinstance(mark, Polyline):
-        kind = "polygon" if mark.closed else "polyline"
-        return f'<{kind} {about(mark)} points="{pairs(mark.points)}"/>'
+        return f'<{tag(mark)} {about(mark)} points="{pairs(mark.points)}"/>'
     return f'<path {about(mark)} d="{arc_path(mark)}"/>'
 
 
@@ -106,24 +106,25 @@ def line_rule(style: Style, open_only: bool) -> str:
     )
 
 
-def filled(mark: Mark) -> bool:
-    """Tell whether a mark has an inside."""
-    return isinstance(mark, Circle) or (isinstance(mark, Polyline) and mark.closed)
+def tag(mark: Mark) -> str:
+    """Name the element that a mark is written as."""
+    if isinstance(mark, Polyline):
+        return "polygon" if mark.closed else "polyline"
+    return TAGS[type(mark)]
 
 
 def rules(marks: Iterable[Mark], ink: Ink) -> list[str]:
     """Write one rule for each kind and class used, in order of first use."""
-    found: dict[tuple[str, str], str] = {}
-    for mark in marks:
-        kind = "text" if isinstance(mark, Text) else type(mark).__name__
-        kind = "polygon" if kind == "Polyline" and filled(mark) else kind
-        if (kind, mark.cls) in found:
-            continue
-        style = style_of(mark.cls, ink)
-        name = {"Arc": "path"}.get(kind, kind.lower())
-        body = f"fill:{style.colour}" if kind == "text" else line_rule(style, not filled(mark))
-        found[kind, mark.cls] = f"{name}{selector(mark.cls)}{{{body}}}"
-    return list(found.values())
+    return [rule(*kind, ink) for kind in dict.fromkeys((tag(mark), mark.cls) for mark in marks)]
+
+
+@lru_cache(maxsize=1024)
+def rule(name: str, cls: str, ink: Ink) -> str:
+    """Write how elements of a name and class are drawn; circles and polygons have an inside."""
+    style = style_of(cls, ink)
+    open_only = name not in ("circle", "polygon")
+    body = f"fill:{style.colour}" if name == "text" else line_rule(style, open_only)
+    return f"{name}{selector(cls)}{{{body}}}"
 
 
 def style_sheet(pages: Iterable[Page], ink: Ink = "colour", embed_fonts: bool = True) -> str:
@@ -140,13 +141,20 @@ def style_sheet(pages: Iterable[Page], ink: Ink = "colour", embed_fonts: bool = 
 def write_svg(page: Page, ink: Ink = "colour", embed_fonts: bool = True) -> str:
     """Write a page as SVG, its width and height in mm, one user unit to the millimetre."""
     page.check()
-    width, height = number(page.width), number(page.height)
+    size, sheet = (number(page.width), number(page.height)), style_sheet([page], ink, embed_fonts)
+    marks = "\n".join(map(element, page.marks))  # written here: the library takes twice as long
+    return f"{head(size, page.title, page.lang, sheet)}\n{marks}\n</svg>\n"
+
+
+@lru_cache(maxsize=8)
+def head(size: tuple[str, str], title: str, lang: str, sheet: str) -> str:
+    """Write what stands before the marks, which is alike for the variants of a class."""
+    width, height = size
     drawing = Drawing(
         size=(f"{width}mm", f"{height}mm"), viewBox=f"0 0 {width} {height}", debug=False
     )
-    drawing.attribs |= {"lang": page.lang, "xml:lang": page.lang, "role": "img"}
-    drawing.set_desc(title=page.title)
-    drawing.embed_stylesheet(style_sheet([page], ink, embed_fonts))
-    head = drawing.tostring().removesuffix("</svg>")
-    marks = "\n".join(map(element, page.marks))  # written here: the library takes twice as long
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{head}\n{marks}\n</svg>\n'
+    drawing.attribs |= {"lang": lang, "xml:lang": lang, "role": "img"}
+    drawing.set_desc(title=title)
+    drawing.embed_stylesheet(sheet)
+    opening: str = drawing.tostring().removesuffix("</svg>")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{opening}'

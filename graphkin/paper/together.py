@@ -19,10 +19,13 @@ def finished(boards: Sequence[Board]) -> list[list[Mark]]:
     return [board.finish(each) for board, each in zip(boards, made, strict=True)]
 
 
-def spots_on(boards: Sequence[Board], more: Sequence[Sequence[Mark]] = ()) -> list[list[Spot]]:
+def spots_on(
+    boards: Sequence[Board], more: Sequence[Sequence[Mark]] = (), *, thorough: bool = True
+) -> list[list[Spot]]:
     """The places of all labels of boards that do not overlap, sought in one go.
 
-    ``more`` are marks for each board that its labels keep clear of, beside its own.
+    ``more`` are marks for each board that its labels keep clear of, beside its own. The search may
+    give labels up early where it need not be ``thorough``.
     """
     if not boards:
         return []
@@ -34,5 +37,5 @@ def spots_on(boards: Sequence[Board], more: Sequence[Sequence[Mark]] = ()) -> li
     boxes = [box for _, taken in obstacles for box in taken]
     wishes = [label.wish() for board in boards for label in board.labels]
     fields = [board.rect for board in boards for _ in board.labels]
-    found = iter(place(wishes, lines, boxes, fields))
+    found = iter(place(wishes, lines, boxes, fields, thorough=thorough))
     return [[next(found) for _ in board.labels] for board in boards]

@@ -1,0 +1,77 @@
+"""Where on a field there is room for a disc, as near as possible to what it belongs to (mm)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from graphkin.paper.areas import Rect
+from graphkin.paper.candidates import Blots
+from graphkin.paper.chords import pieces_of
+from graphkin.paper.field import XY
+from graphkin.paper.marks import Mark, Text, reach
+from graphkin.paper.shapes import distance, joined, rectangles, segments, separation, where
+
+GRID = 5.0
+"""Distance of the places tried, in mm."""
+TOGETHER = 16
+"""Places that are compared with all that is drawn at one go."""
+INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
+"""Half the sides of rectangles in a disc of radius 1."""
+BLOT = 2.0
+"""Size of the cells in which marks are counted to rule places out at a glance, in mm."""
+CLEAR = 0.5
+"""How far the line to a disc stays from lettering and from links' numbers, in mm."""
+MOST = 240
+"""Places, nearest first, among which one is sought to which a line crosses no text."""
+
+
+class Disc(NamedTuple):
+    """The middle of a free disc, and whether the line to it crosses no text."""
+
+    at: XY
+    in_sight: bool
+
+
+def free_disc(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> Disc | None:
+    """The free disc of radius ``room`` as near as possible to a place; None when there is none.
+
+    One in sight of the place goes before others.
+    """
+    xs = np.arange(rect[0] + room, rect[2] - room, GRID)
+    ys = np.arange(rect[1] + room, rect[3] - room, GRID)
+    x, y = (row.reshape(-1) for row in np.meshgrid(xs, ys))
+    order = np.argsort(np.hypot(x - near[0], y - near[1]), kind="stable")
+    x, y = x.take(order), y.take(order)
+    lines = pieces_of(marks)
+    texts = rectangles([reach(mark) for mark in marks if is_lettering(mark)])
+    blots = Blots(lines, rect, 0.0, BLOT)
+    for wide, high in INNER:
+        likely = where(~blots.hit(x, y, wide * room, high * room))
+        x, y = x.take(likely), y.take(likely)
+    drawn, boxes, zero = joined(segments(lines), texts).upright(), texts.upright(), np.zeros(1)
+    hidden: Disc | None = None
+    for start in range(0, len(x), TOGETHER):
+        u, v = x[start : start + TOGETHER], y[start : start + TOGETHER]
+        free = where(distance(u, v, zero, zero, drawn).min(axis=0, initial=inf) > room)
+        places = [*zip(u.take(free).tolist(), v.take(free).tolist(), strict=True)]
+        if places:
+            ways = segments([(*near, *at) for at in places])
+            apart = separation(boxes.x, boxes.y, boxes.ex, boxes.ey, ways).min(
+                axis=0, initial=CLEAR
+            )
+            for at, in_sight in zip(places, (apart >= CLEAR).tolist(), strict=True):
+                if in_sight:
+                    return Disc(at, True)
+            hidden = hidden or Disc(places[0], False)
+        if hidden and start >= MOST:
+            break
+    return hidden
+
+
+def is_lettering(mark: Mark) -> bool:
+    """True for a text, and for the circle or the frame around a link's number or name."""
+    return isinstance(mark, Text) or mark.cls.startswith("number")
