@@ -21,6 +21,10 @@ PIN = 4.2
 """Size of a pin in points."""
 SYMBOL = 0.017
 """Half the size of a block or pivot, in breadths of the picture."""
+PROFILE = 5.0
+"""How far a profile is drawn to each side of its contact, in such sizes."""
+WIDEST = np.pi / 3
+"""The same as an angle about its centre, at most."""
 FLAT = 1e-3
 """Height of a triangle, in its longest side, below which a plate is drawn as a bar."""
 
@@ -67,9 +71,11 @@ def draw(ax: Axes, stand: Stand, breadth: float) -> None:
     for link in stand.scene.links.values():
         body(ax, stand, link)
         wheels(ax, stand, link)
+        profiles(ax, stand, link, size)
         for slide in link.slides:
             block(ax, stand, link, slide, size)
     wheels(ax, stand, stand.scene.frame)
+    profiles(ax, stand, stand.scene.frame, size)
     pinned = {point for link in stand.scene.links.values() for point in link.points}
     for name, place in stand.places.items():
         fixed = name in stand.scene.frame.points
@@ -170,6 +176,17 @@ def wheels(ax: Axes, stand: Stand, link: Link) -> None:
         if place is not None and wheel.radius is not None:
             radius = float(wheel.radius.si(stand.scene.values)) * stand.factor
             circle(ax, place, radius, color=FAINT, linewidth=1.3, zorder=2.6)
+
+
+def profiles(ax: Axes, stand: Stand, link: Link, size: float) -> None:
+    """The arcs of a link's profiles about their contacts; none where a centre stands on its own."""
+    for about, through in link.profiles:
+        centre, contact = stand.places.get(about), stand.places.get(through)
+        if centre is None or contact is None or centre == contact:
+            continue
+        half = min(PROFILE * size / abs(contact - centre), WIDEST)
+        rim = centre + (contact - centre) * np.exp(1j * np.linspace(-half, half, 61))
+        ax.plot(rim.real, rim.imag, color=FAINT, linewidth=1.8, zorder=3)
 
 
 def circle(ax: Axes, centre: complex, radius: float, **style: object) -> None:

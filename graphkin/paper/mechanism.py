@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import hypot
 
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.edges import draw_edges
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Circle, Line, polygon
@@ -141,7 +142,7 @@ def draw_plates(board: Board, drawing: Drawing, field: Field) -> None:
 
 
 def draw_bars(board: Board, drawing: Drawing, field: Field) -> None:
-    """Guides and the bars that blocks slide on, then the blocks, then the other bars."""
+    """Guides and the bars that blocks slide on, then the blocks, the other bars, the profiles."""
     links = list(drawing.scene.links.values())
     carriers = {rail.owner for rail in rails_of(drawing)}
     bars = [link for link in links if corners_of(drawing, link) is None]
@@ -157,6 +158,7 @@ def draw_bars(board: Board, drawing: Drawing, field: Field) -> None:
     for link in bars:
         if link.name not in carriers:
             draw_body(board, drawing, field, link)
+    draw_edges(board, drawing, field)
     draw_contacts(board, drawing, field)
     for link in links:
         draw_number(board, drawing, field, link)

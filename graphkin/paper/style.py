@@ -86,6 +86,7 @@ STYLES: dict[str, Style] = {
     "gear-disc": Style(0.35, fill=PALE, round=True),
     "slot": Style(0.5, fill=WHITE, round=True),
     "weld": Style(0, fill="ink"),
+    "profile": Style(0.5, round=True),
     "hinge": Style(0.25),
     "wheel": Style(0.5),
     "disc": Style(0.5, fill=PALE),

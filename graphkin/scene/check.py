@@ -7,6 +7,7 @@ from collections import Counter
 from graphkin.scene.check_blocks import check_blocks
 from graphkin.scene.check_drivers import check_drivers
 from graphkin.scene.check_far import check_far
+from graphkin.scene.edges import check_profiles
 from graphkin.scene.findings import Findings, listed, nearest, numbered
 from graphkin.scene.known import all_points, known_link, known_point, named, place_of, quoted
 from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
@@ -61,7 +62,7 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
 
 
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
-    """Guides, tracks and wheels of a link name points and links that are there."""
+    """Guides, tracks, wheels and profiles of a link name points and links that are there."""
     place = place_of(link.name)
     for index, wheel in enumerate(link.wheels):
         where = numbered(f"{place}.wheel", index, len(link.wheels))
@@ -74,6 +75,7 @@ def check_link(scene: Scene, link: Link, findings: Findings) -> None:
         where = numbered(f"{place}.rolls", index, len(link.rolls))
         check_rolling(scene, link, rolling, where, findings)
     check_guides(scene, link, findings)
+    check_profiles(scene, link, findings)
 
 
 def check_guides(scene: Scene, link: Link, findings: Findings) -> None:

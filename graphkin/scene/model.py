@@ -158,6 +158,16 @@ class Rolling(NamedTuple):
     side: int = 1
 
 
+class Profile(NamedTuple):
+    """The edge by which a link touches another: an arc about a point of the link, only drawn.
+
+    It passes ``through`` the place where a point stands now, which another link may own.
+    """
+
+    about: str
+    through: str
+
+
 class Link(NamedTuple):
     """A rigid body: its points in the order written, how they are placed, what it slides on."""
 
@@ -167,6 +177,7 @@ class Link(NamedTuple):
     slides: tuple[Slide, ...] = ()
     wheels: tuple[Wheel, ...] = ()
     rolls: tuple[Rolling, ...] = ()
+    profiles: tuple[Profile, ...] = ()
 
 
 class Driver(NamedTuple):

@@ -10,6 +10,7 @@ from typing import Any
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.check import check_scene
 from graphkin.scene.drivers import read_drivers
+from graphkin.scene.edges import read_profiles
 from graphkin.scene.expression import TIME
 from graphkin.scene.findings import Findings, Table, listed, shown
 from graphkin.scene.joints import read_rolls, read_slides, read_wheels
@@ -185,13 +186,13 @@ def as_table(raw: object) -> dict[str, Any]:
 
 
 def read_link(name: str, table: Table, measures: Measures, module: Quantity | None) -> Link:
-    """One link: its points and their placings, its guides, wheels and tracks."""
+    """One link: its points and their placings, its guides, wheels, tracks and profiles."""
     points, placings = read_shape(table, measures)
-    wheels = read_wheels(table, measures, module)
+    wheels, profiles = read_wheels(table, measures, module), read_profiles(table)
     if name == FRAME:
         for key in ("slides", "rolls", "touches"):
             if table.take(key) is not None:
                 measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
-        return Link(FRAME, points, placings, (), wheels)
+        return Link(FRAME, points, placings, wheels=wheels, profiles=profiles)
     slides, rolls = read_slides(table, measures), read_rolls(table, measures)
-    return Link(name, points, placings, slides, wheels, rolls)
+    return Link(name, points, placings, slides, wheels, rolls, profiles)

@@ -28,6 +28,7 @@ from graphkin.paper.symbols import BLOCK, block, rails, slot
 from graphkin.plane import cross, dot
 from graphkin.scene.model import FRAME
 from graphkin.screen.binding import SPACING, Bench, Binding, Told, still
+from graphkin.screen.edges import of_edges
 from graphkin.screen.poses import Pose
 from graphkin.screen.rolling import of_touch, of_wheel
 
@@ -36,8 +37,8 @@ NEAR = 1e-9
 
 
 def told(bench: Bench) -> Told:
-    """The bindings of what stands for guides, blocks and wheels."""
-    found: Told = {}
+    """The bindings of what stands for guides, blocks, wheels and profiles."""
+    found = of_edges(bench)
     for disc in bench.places.drawing.standing.discs:
         found.update(of_wheel(bench, disc))
     for touch in bench.places.drawing.standing.touches:
