@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import islice
+from itertools import islice, takewhile
 
 from graphkin.errors import PageError, Problem, SceneError
 from graphkin.loci import curves_of
@@ -53,6 +53,8 @@ LITTLE = 45.0
 """Breadth of a mechanism in mm below which its crank does not say how its plans are drawn."""
 LARGER = (1.3, 5.0)
 """How many times larger it is then drawn: at least, at most."""
+TIMES = (4.0, 3.0, 2.5, 2.0, 1.5)
+"""How many times larger than the crank says where no round kv fits."""
 HEADROOM = 6.0
 """How far, in mm, arrows of such plans may reach into the margin above a mechanism."""
 
@@ -180,17 +182,18 @@ def shortest_plan(trials: list[Drawing], kL: float) -> float:
 def enlarged(
     mechanism: Mechanism, curves: tuple[Curve, ...], own: Scales, trials: list[Drawing]
 ) -> Scales | None:
-    """The least round kv at which plans fit beside a kL, larger than the crank draws them.
+    """The largest plans that fit beside a kL where the crank draws one too small; None if none do.
 
-    None where no larger ones fit, or where they are large enough.
+    kv is round, or as many times less than the crank says as plans are enlarged.
     """
     lengths = lengths_of_longest(trials, own.kL)
     if not any(0 < length < SMALL for length in lengths):
         return None
-    for kv in preferred(own.kv / min(LARGER[1], LONG / max(lengths)), FINE):
-        if kv > own.kv / LARGER[0]:
-            return None
-        larger = replace(own, seconds=own.kL / kv, from_driver=False)
+    most = min(LARGER[1], LONG / max(lengths))
+    steps = takewhile(lambda kv: kv <= own.kv / LARGER[0], preferred(own.kv / most, FINE))
+    rounded = (replace(own, seconds=own.kL / kv, from_driver=False) for kv in steps)
+    times = (replace(own, seconds=own.seconds * m, times=m) for m in TIMES if m <= most)
+    for larger in (*rounded, *times):
         needs = extents(trials_of(mechanism, curves, larger))
         needed = fitting_scale(needs, WIDTH, HEIGHT + HEADROOM)
         if needed <= own.kL * (1 + 1e-12):

@@ -54,7 +54,8 @@ def said(mechanism, kind, view="key"):
 def test_ka_is_kv_squared_over_kL_wherever_no_scene_says_otherwise(name):
     found = scales(mechanism_named(name))
     assert found.ka == pytest.approx(found.kv**2 / found.kL, rel=1e-12)
-    assert not found.apart and found.times == 1
+    assert not found.apart
+    assert found.times == 1 or found.as_crank("velocity") is False
 
 
 @pytest.mark.parametrize("size", [1e-6, 1e-3, 1.0, 1e3, 1e6])
@@ -85,6 +86,17 @@ def test_round_numbers_are_written_in_digits():
     ]
     assert Scales(1e6, 1.0).words == "1:1000000"
     assert Scales(2e-7, 1.0).words == "5000000:1"
+
+
+@pytest.mark.parametrize(("name", "m"), [("crank-rocker", 1.5), ("watt-2", 1.5), ("six-bar", 1)])
+def test_a_plan_that_its_crank_draws_small_is_enlarged_where_it_fits(name, m):
+    """The longest velocity of crank-rocker was 40 mm long, and its field is 160 mm high."""
+    mechanism = mechanism_named(name)
+    found = scales(mechanism)
+    assert found.from_driver
+    assert found.times == m
+    speed = abs(mechanism.scene.drivers[0].speed.si(mechanism.scene.values))
+    assert found.kv == pytest.approx(speed * found.kL / m, rel=1e-12)
 
 
 # --- enlarge -------------------------------------------------------------------------------------
