@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import hypot, sqrt
+from math import dist, hypot, sqrt
 from typing import NamedTuple
 
+from graphkin.paper.doubt import segment_of
 from graphkin.paper.field import XY
 from graphkin.paper.free import Disc, free_disc
 from graphkin.paper.labels import Board, Label, free_ones
@@ -19,6 +20,8 @@ ENLARGED = (5, 10)
 """How many times a detail is enlarged."""
 RADIUS = 11.0
 """Radius of a detail circle in mm."""
+SEEN = 5.0
+"""Length in mm that a part of a vector must have in a detail to be named there."""
 TOO_SHORT = 0.5
 """Vectors shorter than this, in mm, are not worth a detail."""
 
@@ -62,7 +65,8 @@ def parted(*boards: Board) -> list[tuple[list[Mark], list[Mark]]]:
         board.marks += [spot.circle()] if spot else []
     found: list[tuple[list[Mark], list[Mark]]] = []
     enlarged: list[tuple[Board, list[Mark]]] = []
-    for board, spot, marks in zip(boards, spots, finished(boards), strict=True):
+    wished = [list(board.labels) for board in boards]
+    for board, labels, spot, marks in zip(boards, wished, spots, finished(boards), strict=True):
         detail: list[Mark] = []
         found.append((marks, detail))
         if spot is None:
@@ -73,6 +77,7 @@ def parted(*boards: Board) -> list[tuple[list[Mark], list[Mark]]]:
             continue
         detail += circled(disc, spot.at, spot.times)
         part = enlarged_part(marks, spot.at, disc.at, spot.times)
+        part.labels = [*named(labels, spot.at, disc.at, spot.times)]
         detail += part.marks[:-1]
         enlarged.append((part, detail))
     places = spots_on([part for part, _ in enlarged], thorough=False)
@@ -108,7 +113,6 @@ def enlarged_part(marks: Sequence[Mark], source: XY, place: XY, times: int) -> B
         if isinstance(mark, Line) and shown and passes(mark, source, small):
             draw_part(board, mark, source, place, times)
     board.marks.append(Circle(*place, RADIUS, "detail"))
-    board.labels = named(board, marks, source, place, times)
     return board
 
 
@@ -156,17 +160,19 @@ def larger(point: XY, source: XY, place: XY, times: int) -> XY:
     )
 
 
-def named(board: Board, marks: Sequence[Mark], source: XY, place: XY, times: int) -> list[Label]:
-    """The names of the vectors that lie wholly in the small circle."""
+def named(labels: Sequence[Label], source: XY, place: XY, times: int) -> Iterator[Label]:
+    """The names of the vectors and points of a small circle, those that lie whole in it first."""
     small = RADIUS / times
-    texts = {mark.name: mark for mark in marks if isinstance(mark, Text) and mark.name}
-    found = []
-    for mark in marks:
-        if not isinstance(mark, Line) or mark.name not in texts:
-            continue
-        ends = ((mark.x1, mark.y1), (mark.x2, mark.y2))
-        if all(hypot(x - source[0], y - source[1]) <= small for x, y in ends):
-            first, last = (larger(end, source, place, times) for end in ends)
-            text = texts[mark.name]
-            found.append(Label(text.markup, text.cls.partition(" ")[2], (first, last), 2.5))
-    return found
+    for label in labels:
+        ends = segment_of(label)
+        if ends is None:
+            x, y = label.subject
+            assert isinstance(x, float) and isinstance(y, float)
+            if dist((x, y), source) <= small:
+                at = larger((x, y), source, place, times)
+                yield Label(label.markup, label.cls, at, 2.5, priority=1)
+        elif label.cls in VECTORS and (part := within(Line(*ends[0], *ends[1], ""), source, small)):
+            first, last = (larger(end, source, place, times) for end in part)
+            if part == ends or dist(first, last) >= SEEN:
+                whole = 2 if part == ends else 0
+                yield Label(label.markup, label.cls, (first, last), 2.5, priority=whole)
