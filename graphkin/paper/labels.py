@@ -175,12 +175,10 @@ class Board:
 
     def unled(self, spots: Sequence[Spot]) -> bool:
         """Bring labels nearer whose leaders would cross others; true when there were any."""
-        texts = [label.text(spot) for label, spot in zip(self.labels, spots, strict=True)]
-        blocked = [
-            i
-            for i, (label, spot) in enumerate(zip(self.labels, spots, strict=True))
-            if label.led and not spot.leader and not is_clear(label, spot, texts)
-        ]
+        both = [*zip(self.labels, spots, strict=True)]
+        led = [i for i, (label, spot) in enumerate(both) if label.led and not spot.leader]
+        texts = [label.text(spot) for label, spot in both] if led else []
+        blocked = [i for i in led if not is_clear(*both[i], texts)]
         for i in blocked:
             self.labels[i] = replace(self.labels[i], led=False)
         return bool(blocked)

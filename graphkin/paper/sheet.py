@@ -20,6 +20,7 @@ from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.members import members
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
+from graphkin.paper.relation import figure
 from graphkin.paper.richtext import escape, extent, flowed, words_of
 from graphkin.paper.ruled import plan_at
 from graphkin.paper.scale import digits
@@ -165,7 +166,7 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     words, scales = drawing.words, drawing.scales
     board = Board(field.rect, unnamed=words("page.unnamed"))
     factor = scales.kv if drawing.kind == "velocity" else scales.ka
-    k = words.significant(factor / 1000, 5)
+    k = figure(drawing, factor / 1000)
     if view == "task" and scales.from_driver:
         k = BLANK
     caption = words(f"page.{drawing.kind}_heading", k=k)
@@ -246,7 +247,7 @@ def asked(drawing: Drawing) -> list[str]:
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The numbered sentences of the construction, in lettering that fits."""
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
-    looks = ((2.5, 5.6), (2.5, LEADING), (2.5, 4.0), (1.8, 3.4))
+    looks = ((2.5, 5.6), (2.5, LEADING), (2.5, 4.0), (1.8, 4.0), (1.8, 3.4))
     spaces = ((width, MARKED[1]), (MARKED[0] - x, bottom))
     found: dict[tuple[float, float], list[tuple[int | str, str]]] = {}
     for (height, leading), (across, lowest) in product(looks, spaces):
