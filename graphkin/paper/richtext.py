@@ -16,6 +16,8 @@ from graphkin.errors import PageError, Problem
 from graphkin.paper.glyphs import advance, ink, known, size_for
 
 SUB, SUP, SMALL = 0.24, -0.48, 0.70  # em: shifts (y down) and size of scripts
+OVERHANG = {"f": 0.14}
+"""How far, in em, slanted letters reach over an upright sign or an exponent after them."""
 STACKED = 2
 """Signs of the longest index above which an exponent may stand."""
 SPECIAL = "\\*_^{}"
@@ -106,19 +108,21 @@ def laid(markup: str, height: float) -> tuple[tuple[Run, ...], float]:
     ends = {-1: 0.0, 1: 0.0}  # where each script ends
     start = 0.0  # where scripts start
     index = ""  # the subscript that they begin with
+    lean = 0.0  # how far a slanted letter hangs over what comes above or upright after it
     found: list[Run] = []
     for text, italic, level in pieces(markup):
         size = full * SMALL if level else full
         if level:
             index = text if level < 0 else index
             after = level > 0 and text.isdigit() and len(index) > STACKED
-            begin = max(start, ends[-1 if after else level])
+            begin = max(start + (lean if level > 0 else 0.0), ends[-1 if after else level])
             ends[level] = begin + advance(text, italic) * size
             x = max(x, ends[level])
         else:
-            begin = x
+            begin = x if italic else x + lean
             x = start = begin + advance(text, italic) * size
             ends, index = {-1: start, 1: start}, ""
+            lean = OVERHANG.get(text[-1], 0.0) * size if italic else 0.0
         found.append(Run(text, begin, shift[level], size, italic))
     return tuple(found), x
 

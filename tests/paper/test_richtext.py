@@ -140,3 +140,13 @@ def test_lines_are_filled_with_whole_pieces_as_far_as_they_go(pieces, mark, widt
             assert extent(f"{line} {left[count]}", 2.5)[0] > width - 1e-9
         left = left[count:]
     assert not left
+
+
+def test_a_slanted_letter_does_not_run_into_what_stands_above_or_after_it():
+    """The ink of a slanted f reaches beyond its width: a prime and an exponent keep clear of it."""
+    letter, prime = runs("*f*′", 3.5)
+    assert prime.x > letter.x + extent("*f*", 3.5)[0] + 0.1 * letter.size
+    above = runs("*f*^{IV}", 3.5)[1]
+    assert above.x == pytest.approx(prime.x)
+    assert runs("*f*_{A}", 3.5)[1].x == pytest.approx(extent("*f*", 3.5)[0])
+    assert runs("*a*′", 3.5)[1].x == pytest.approx(extent("*a*", 3.5)[0])
