@@ -2,7 +2,8 @@
 
 kL is the least preferred one at which mechanism and plan stand side by side. Where one crank
 drives, kv = omega·kL draws its bar and its velocity alike; where that leaves a plan small, or no
-crank says it, kv is the least round one that fits. ka = kv²/kL.
+crank says it, kv is the least round one that fits, or as many times less than the crank says as the
+plan is larger. ka = kv²/kL.
 """
 
 from __future__ import annotations
