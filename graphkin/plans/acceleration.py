@@ -34,7 +34,6 @@ from graphkin.steps.vocabulary import (
     meet,
     parallel_to,
     part_along,
-    set_on_twice,
     similar_point,
 )
 from graphkin.structure.graph import Contact, Pin, Sliding
@@ -251,12 +250,3 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
             slide_arrow(pen, start, end, pair.links[1], first)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))
-
-
-def set_on_mechanism(pen: Pen, point: str) -> None:
-    """The absolute acceleration of a point, set on the mechanism."""
-    o = pen.pole(Plane.ACCELERATIONS)
-    ends = pen.the("position", point), o, pen.the("acceleration", point)
-    with pen.on(Part.ACCELERATION, Plane.MECHANISM):
-        name = f"a_{point}"
-        pen.arrow(set_on_twice, *ends, pen.seconds(), name=name, symbol=name)

@@ -35,15 +35,10 @@ def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
 
 
 def acceleration_arrow(pen: Pen, pin: str) -> None:
-    """The arrow from the pole to a second image, and the same acceleration on the mechanism."""
+    """The arrow from the pole to a second image, the absolute acceleration; drawn once."""
     o, tip = pen.pole(Plane.ACCELERATIONS), pen.the("acceleration", pin)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        pen.arrow(
-            join,
-            o,
-            tip,
-            name=f"o{PRIME}{second_image(pin)}",
-            symbol=f"a_{letter(pin)}",
-            q=letter(pin),
-            p="",
-        )
+    name = f"o{PRIME}{second_image(pin)}"
+    if name not in pen.arrows:
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            symbol = f"a_{letter(pin)}"
+            pen.arrow(join, o, tip, name=name, symbol=symbol, q=letter(pin), p="")

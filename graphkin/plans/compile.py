@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphkin.errors import Problem, StructureError
 from graphkin.plans import (
     acceleration,
-    carried,
+    asked,
     centres,
     cylinder,
     higher,
@@ -126,10 +126,7 @@ def write_velocities(pen: Pen, shapes: Shapes, standing: Standing) -> None:
     for link in pen.scene.links.values():
         if link.slides:
             velocity.sliding(pen, shapes, link.name)
-    for name in pen.scene.ask.velocity:
-        ask_under(pen, name, "velocity")
-    for point in shown(pen, standing, pen.scene.ask.velocity):
-        velocity.set_on_mechanism(pen, point)
+    asked.show_velocities(pen, tips(pen, standing))
 
 
 def move(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> None:
@@ -165,10 +162,7 @@ def write_accelerations(pen: Pen, shapes: Shapes, standing: Standing) -> None:
     for link in pen.scene.links.values():
         if link.slides:
             acceleration.sliding(pen, shapes, link.name)
-    for name in pen.scene.ask.acceleration:
-        ask_under(pen, name, "acceleration")
-    for point in shown(pen, standing, pen.scene.ask.acceleration):
-        acceleration.set_on_mechanism(pen, point)
+    asked.show_accelerations(pen, tips(pen, standing))
 
 
 def accelerate(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> None:
@@ -196,17 +190,7 @@ def accelerate(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) 
         acceleration.turning(pen, base)
 
 
-def ask_under(pen: Pen, name: str, quantity: str) -> None:
-    """The motion of the point of a link under another's, where it is asked for: A@3."""
-    point, _, link = name.partition("@")
-    if link and not pen.has(quantity, name):
-        number = carried.carried(pen, link, point, quantity)
-        pen.want("position", name, pen.the("position", point))
-        pen.want(quantity, name, number)
-
-
-def shown(pen: Pen, standing: Standing, asked: tuple[str, ...]) -> list[str]:
-    """The points whose motion is set on the mechanism: driven tips, and what is asked."""
-    tips = [crank_tip(pen.scene, group) for group, _ in standing if isinstance(group, Crank)]
-    asked = tuple(name for name in asked if "@" not in name and pen.has("position", name))
-    return list(dict.fromkeys((*(tip for tip in tips if tip is not None), *asked)))
+def tips(pen: Pen, standing: Standing) -> list[str]:
+    """The points of cranks whose motion is given."""
+    found = (crank_tip(pen.scene, group) for group, _ in standing if isinstance(group, Crank))
+    return [tip for tip in found if tip is not None]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from graphkin.plans.carried import image_under, omega_of, second_image_under
 from graphkin.plans.links import under
 from graphkin.plans.pen import PRIME, Pen, Says, letter, named
-from graphkin.scene.model import FRAME
+from graphkin.scene.known import all_points
+from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.effect import Effect
 from graphkin.steps.guides import (
     coriolis,
@@ -23,6 +24,9 @@ from graphkin.steps.vocabulary import (
     square_at,
 )
 from graphkin.structure.joints import Joint, partner
+
+CORNERS = ("ef", "gh", "mn", "rs", "xy")
+"""Letters for the corners of the triangle that is like the lever's."""
 
 
 def coriolis_of(pen: Pen, link: str, tail: int, tip: int, point: str, block: str) -> int:
@@ -69,12 +73,19 @@ def coriolis_triangle(
             end = pen.draw(
                 set_velocity, pin, *images, seconds, name=f"{small}{PRIME}_c{index}", **says
             )
-            foot = pen.draw(coriolis_base, pivot, tail, tip, seconds, name=f"e_{index}", **says)
-            edge = pen.draw(square_at, foot, pivot, **says, tip=f"e_{index}")
+            first, second = (f"{corner}_{index}" for corner in corners(pen.scene))
+            foot = pen.draw(coriolis_base, pivot, tail, tip, seconds, name=first, **says)
+            edge = pen.draw(square_at, foot, pivot, **says, tip=first)
             lean = pen.draw(coriolis_ray, foot, pivot, pin, end, **says)
-            top = pen.draw(meet, edge, lean, name=f"f_{index}", **says)
+            top = pen.draw(meet, edge, lean, name=second, **says)
         with pen.on(Part.NORMAL, Plane.NUMBERS):
             return pen.draw(coriolis_by_hand, foot, top, seconds, **says)
+
+
+def corners(scene: Scene) -> str:
+    """The letters of a Coriolis triangle's corners: e and f, or others where points bear these."""
+    points = {name[0].lower() for name in all_points(scene)}
+    return next((pair for pair in CORNERS if not points & {*pair}), CORNERS[0])
 
 
 def slide_coriolis(pen: Pen, pair: Joint, link: str, name: str, point: str) -> int | None:

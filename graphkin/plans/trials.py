@@ -155,8 +155,7 @@ def missed(pen: Pen, shapes: Shapes, group: Higher, kind: Kind) -> int:
     last = group.last
     match last:
         case Tie(link, Pin(point=p), Pin(point=q)):
-            if (kind.quantity, q) not in (pen.layer or {}):
-                p, q = q, p  # about the end that is known, as the right plan is closed
+            p, q = in_order((p, q), [of for what, of in pen.layer or {} if what == kind.quantity])
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]
             wanted = pen.given("origin")
             if kind is ACCELERATION:
@@ -222,14 +221,22 @@ def settle(
                 )
             pen.want(quantity, of, found)
             settled.append(of)
+    closing: tuple[str, ...] = ()
+    match group.last:
+        case Tie(_, Pin(point=p), Pin(point=q)):
+            closing = in_order((p, q), settled)
     for point in settled:
         if "@" not in point:
-            finish(pen, kind, point)
+            finish(pen, kind, point, closing)
         elif kind is VELOCITY:
             relative_arrows(pen, point)
-    match group.last:
-        case Tie(_, Pin(point=p), Pin(point=q)) if kind is VELOCITY:
-            velocity_arrows(pen, *((q, p) if q in settled else (p, q)))
+    if closing and kind is VELOCITY:
+        velocity_arrows(pen, closing[1], closing[0])
+
+
+def in_order(ends: tuple[str, str], found: list[str]) -> tuple[str, ...]:
+    """The ends of the bar that closes a group, the one that is known or found first before."""
+    return tuple(sorted(ends, key=lambda end: found.index(end) if end in found else -1))
 
 
 def crossing(pen: Pen, group: Higher, kind: Kind, of: str, one: int, two: int) -> int | None:
@@ -256,13 +263,13 @@ def own_rate(pen: Pen, link: str) -> bool:
     return base is not None and base.end is None and link not in pen.leads and pen.turns(link)
 
 
-def finish(pen: Pen, kind: Kind, point: str) -> None:
-    """The arrows to a point of the right plan."""
+def finish(pen: Pen, kind: Kind, point: str, closing: tuple[str, ...]) -> None:
+    """The arrows to a point of the right plan; none against the end of a bar that is found last."""
     if kind is VELOCITY:
         starts = {b.start for b in pen.bases.values() if point == b.end}
         starts = starts or {b.start for b in pen.bases.values() if point in b.others}
         pivots: list[str | None] = [*sorted(starts)]
         for pivot in pivots or [None]:
-            velocity_arrows(pen, point, pivot)
+            velocity_arrows(pen, point, None if (point, pivot) == closing else pivot)
     else:
         acceleration_arrow(pen, point)

@@ -19,7 +19,6 @@ from graphkin.steps.vocabulary import (
     meet,
     parallel_to,
     part_along,
-    set_on,
     similar_point,
     square_to,
     sum_of,
@@ -231,18 +230,14 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
 
 
 def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
-    """The arrow of a relative velocity along a guide that moves."""
+    """The arrow of a relative velocity along a guide that moves.
+
+    Of one that only shifts, so that no Coriolis component comes of it, that of the guide along the
+    block suffices.
+    """
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
     start, tip = image_under(pen, known, point), pen.the("velocity", point)
-    if start not in (o, tip):
+    back = named(pen, tip) + named(pen, start)
+    told = back in pen.arrows and tip != o and not pen.turns(known)
+    if start not in (o, tip) and not told:
         arrow_between(pen, start, tip, point, letter(under(point, known)))
-
-
-def set_on_mechanism(pen: Pen, point: str) -> None:
-    """The absolute velocity of a point, set on the mechanism."""
-    o = pen.pole(Plane.VELOCITIES)
-    ends = pen.the("position", point), o, pen.the("velocity", point)
-    with pen.on(Part.VELOCITY, Plane.MECHANISM):
-        seconds = pen.seconds()
-        symbol = f"v_{letter(point)}"
-        pen.arrow(set_on, *ends, seconds, name=symbol, symbol=symbol)

@@ -57,3 +57,26 @@ def test_the_velocity_plan_shows_contacts_and_bars_within_trials(name, symbols):
     assert symbols <= {arrow.says["symbol"] for arrow in arrows}
     ends = [steps[number].name for arrow in arrows for number in arrow.args]
     assert not any(end.endswith(("¹", "²")) for end in ends)
+
+
+def both_ways(program):
+    """The relative velocities that stand in the plan in both senses."""
+    drawn = {step.args: step for step in keyed(program, "join") if step.plane is Plane.VELOCITIES}
+    poles = {number for number, step in enumerate(program.steps) if step.name == "o"}
+    return {
+        step.says["symbol"]
+        for (tail, tip), step in drawn.items()
+        if not {tail, tip} & poles and (tip, tail) in drawn
+    }
+
+
+@pytest.mark.parametrize("name", [*LABS, *SCENES])
+def test_no_segment_of_the_velocity_plan_is_drawn_in_both_senses(name):
+    assert not both_ways(mechanism_named(name, 7 if name in LABS else None).program)
+
+
+def test_nor_is_one_in_mechanisms_made_at_random_but_for_that_of_a_point_of_contact():
+    """Against the wheel's centre that is the centre's along the track, and each is told."""
+    made = {seed: found.mechanism.program for seed in SEEDS if (found := case(seed))}
+    found = {seed: symbols for seed, program in made.items() if (symbols := both_ways(program))}
+    assert found == {36: {"v_P5P5,2", "v_T3P5"}}
