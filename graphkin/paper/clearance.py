@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,7 @@ ASTRAY = 4.0  # a label further than FAR_OFF from its segment and nearer to anot
 FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
 SLANT = 0.34  # sine of the angle to a line below which a leader runs along it
 AIR = 0.7  # each mm of air that is missing
+FEW = 8  # labels, whose candidates are compared with all that is drawn at once
 
 # Kinds of shapes; how far (mm) each should be beyond a label's own subject, and the cost of each
 # mm that is missing, for the labels of points and of segments.
@@ -114,9 +116,14 @@ class Page:
         keep = np.where(subjects.line, -NOWHERE, subjects.radius + PAD)
         self.clear = np.concatenate([clear, np.full(len(taken), PAD), keep])
         self.own = self._owned()
+        self.drawn, self.pad = drawn, 0.7 * float(clear.min(initial=PAD))
+
+    @cached_property
+    def blots(self) -> Blots:
+        """Marks along what is drawn, which rule most candidates of many labels out at a glance."""
         low, high = self.field[:, :2].min(axis=0), self.field[:, 2:].max(axis=0)
         whole = float(low[0]), float(low[1]), float(high[0]), float(high[1])
-        self.blots = Blots(drawn, whole, 0.7 * float(clear.min(initial=PAD)))
+        return Blots(self.drawn, whole, self.pad)
 
     def near(self, some: Open) -> Places:
         """Return candidates as places without a leader."""
@@ -146,7 +153,8 @@ class Page:
         left, top, right, bottom = self.field[which].T[:, :, None]
         free &= (x - hx >= left) & (x + hx <= right)
         free &= (y - hy >= top) & (y + hy <= bottom)
-        free &= ~self.blots.hit(x, y, hx, hy)
+        if len(self.subjects.gap) > FEW:
+            free &= ~self.blots.hit(x, y, hx, hy)
         cost = np.where(free, distance_cost(some, own, subjects), np.inf)
         order = np.argsort(cost, axis=1, kind="stable")
         order += np.arange(len(which))[:, None] * cost.shape[1]

@@ -80,19 +80,8 @@ def place(
     seats.settle(seats.order())
     seats.chase(seats.sorry(BAD), SHORT)
     seats.shift(seats.homeless())
-    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR]
-    more = dict.fromkeys([*_crowds(seats), *dear], CLOSE)
-    if offers.widen(more):
-        seats.settle(i for i in seats.order() if i in more)
-        seats.chase(seats.sorry(BAD), SHORT)
-    seats.shift(seats.homeless())
-    seats.chase(seats.homeless(), LONG)
-    for crowded, homeless in LAST_RESORT if thorough else ():
-        levels = dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.homeless(), homeless)
-        if offers.widen(levels):
-            seats.shift(seats.homeless())
-            seats.chase(seats.homeless(), LONGEST)
-    seats.chase(seats.sorry(BAD), SHORT)
+    if thorough:
+        _widen(seats)
     seats.settle(seats.sorry(0.2))
     return [_spot(offers, i, place) for i, place in enumerate(seats.pick)]
 
@@ -108,6 +97,24 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
         for w, seg in zip(wishes, line, strict=True)
     ]
     return Subjects(ends, sizes[:, :2], sizes[:, 2], sizes[:, 3], np.array(lean), line)
+
+
+def _widen(seats: Seats) -> None:
+    """Let labels without a place, or with a dear one, look further, and those around them too."""
+    offers = seats.offers
+    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR]
+    more = dict.fromkeys([*_crowds(seats), *dear], CLOSE)
+    if offers.widen(more):
+        seats.settle(i for i in seats.order() if i in more)
+        seats.chase(seats.sorry(BAD), SHORT)
+    seats.shift(seats.homeless())
+    seats.chase(seats.homeless(), LONG)
+    for crowded, homeless in LAST_RESORT:
+        levels = dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.homeless(), homeless)
+        if offers.widen(levels):
+            seats.shift(seats.homeless())
+            seats.chase(seats.homeless(), LONGEST)
+    seats.chase(seats.sorry(BAD), SHORT)
 
 
 def _crowds(seats: Seats) -> list[int]:
