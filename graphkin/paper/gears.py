@@ -22,7 +22,7 @@ FINE = 0.5
 """Modules smaller than this, in mm of paper, are drawn without teeth."""
 ROOT = 1.25
 """Depth of a tooth below the pitch line, in modules; above it is one."""
-FOOT, TOP = 0.31, 0.14
+FOOT, TOP = 0.28, 0.10
 """Half the width of a tooth at its root and at its top, in parts of the pitch."""
 BASE = 3.2
 """Width of a rack below its teeth, in mm."""

@@ -21,7 +21,16 @@ from graphkin.paper.slides import (
     swivelling,
 )
 from graphkin.paper.symbolic import symbol
-from graphkin.paper.symbols import FIXED, FREE, HINGE, PIN, PIVOT, fixed_pivot, pin, pivot_ground
+from graphkin.paper.symbols import (
+    FIXED,
+    FREE,
+    HINGE,
+    PIN,
+    PIVOT,
+    legs,
+    pin,
+    pivot_ground,
+)
 from graphkin.paper.wheels import (
     draw_contacts,
     draw_fixed_wheels,
@@ -44,32 +53,32 @@ def draw_frame(board: Board, drawing: Drawing, field: Field) -> None:
         draw_guide_line(board, drawing, field, link)
         draw_track_line(board, drawing, field, link)
     draw_fixed_wheels(board, drawing, field)
+    draw_ground(board, drawing, field)
     pinned = moving_points(drawing)
     for name in drawing.scene.frame.points:
-        at = field(drawing.positions[name])
         if name in pinned:
-            board.marks += fixed_pivot(at, name)
-            board.taken.append((at[0] - 5.6, at[1], at[0] + 5.6, at[1] + 8.2))
-        else:
-            draw_mark(board, at, name)
+            board.marks.append(pin(field(drawing.positions[name]), name, FIXED))
         letter(board, drawing, field, name)
 
 
 def draw_ground(board: Board, drawing: Drawing, field: Field) -> None:
     """The ground under the fixed pivots, without their pins."""
     pinned = moving_points(drawing)
-    seats = swivelling(drawing)
     for name in drawing.scene.frame.points:
         at = field(drawing.positions[name])
         if name in pinned:
-            here = drawing.positions[name]
-            hidden = any(abs(place - here) * field.mm < PIN for place in seats)
-            height = TALL if hidden else PIVOT
+            height = TALL if is_covered(drawing, field, name) else PIVOT
             board.marks += pivot_ground(at, height)
             half = 5.2 * height / PIVOT + 0.4
             board.taken.append((at[0] - half, at[1], at[0] + half, at[1] + height + 2.6))
         else:
             draw_mark(board, at, name)
+
+
+def is_covered(drawing: Drawing, field: Field, name: str) -> bool:
+    """True for a point of the frame about which a block turns."""
+    here = drawing.positions[name]
+    return any(abs(place - here) * field.mm < PIN for place in swivelling(drawing))
 
 
 def draw_mark(board: Board, at: XY, name: str) -> None:
@@ -142,26 +151,40 @@ def draw_plates(board: Board, drawing: Drawing, field: Field) -> None:
 
 
 def draw_bars(board: Board, drawing: Drawing, field: Field) -> None:
-    """Guides and the bars that blocks slide on, then the blocks, the other bars, the profiles."""
-    links = list(drawing.scene.links.values())
-    carriers = {rail.owner for rail in rails_of(drawing)}
-    bars = [link for link in links if corners_of(drawing, link) is None]
-    for link in links:
+    """Guides with their blocks, and what lies above them."""
+    draw_guides(board, drawing, field)
+    draw_upper(board, drawing, field)
+
+
+def draw_guides(board: Board, drawing: Drawing, field: Field) -> None:
+    """Guides and the bars that blocks slide on, then the blocks, and the ground that bears some."""
+    for link in drawing.scene.links.values():
         draw_guide_line(board, drawing, field, link)
     draw_tracks(board, drawing, field)
     draw_frame_guides(board, drawing, field)
-    for link in bars:
-        if link.name in carriers:
-            draw_body(board, drawing, field, link)
+    draw_bodies(board, drawing, field, carriers=True)
     draw_guide_bars(board, drawing, field)
     draw_blocks(board, drawing, field)
-    for link in bars:
-        if link.name not in carriers:
-            draw_body(board, drawing, field, link)
+    for name in drawing.scene.frame.points:
+        if is_covered(drawing, field, name):
+            board.marks += legs(field(drawing.positions[name]), TALL)
+
+
+def draw_upper(board: Board, drawing: Drawing, field: Field) -> None:
+    """The other bars, the profiles, what shows how wheels roll, and the links' numbers."""
+    draw_bodies(board, drawing, field, carriers=False)
     draw_edges(board, drawing, field)
     draw_contacts(board, drawing, field)
-    for link in links:
+    for link in drawing.scene.links.values():
         draw_number(board, drawing, field, link)
+
+
+def draw_bodies(board: Board, drawing: Drawing, field: Field, *, carriers: bool) -> None:
+    """The bars on which blocks slide, or all others."""
+    owners = {rail.owner for rail in rails_of(drawing)}
+    for link in drawing.scene.links.values():
+        if corners_of(drawing, link) is None and (link.name in owners) is carriers:
+            draw_body(board, drawing, field, link)
 
 
 def draw_pins(board: Board, drawing: Drawing, field: Field) -> None:

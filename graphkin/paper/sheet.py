@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 
 from graphkin.errors import PageError, Problem
@@ -25,8 +26,10 @@ from graphkin.paper.richtext import escape, extent, flowed, words_of
 from graphkin.paper.ruled import plan_at
 from graphkin.paper.scale import digits
 from graphkin.paper.sentences import sentences
+from graphkin.paper.slides import covered
 from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import symbol
+from graphkin.paper.symbols import VECTORS
 from graphkin.paper.tables import tables
 
 BLANK = ". . . . . . . . ."
@@ -37,6 +40,8 @@ NARROW = 125.0
 """A plan's field narrower than this, in mm, has no room for captions in large lettering."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
+RAISED = (*VECTORS, "arrowhead")
+"""What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
 
 def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None) -> Page:
@@ -151,13 +156,28 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     mechanism.draw_plates(board, drawing, field)
     draw_curves(board, drawing, field, above_foot(field.rect))
     construct.draw_mechanism_steps(desk, found=True)
+    loci = list(board.marks)
     mechanism.draw_ground(board, drawing, field)
-    mechanism.draw_bars(board, drawing, field)
+    mechanism.draw_guides(board, drawing, field)
+    raise_marks(board, covered(loci, board.marks))
+    mechanism.draw_upper(board, drawing, field)
     construct.draw_mechanism_steps(desk, found=False)
     if drawing.kind == "velocity":
         inputs.draw_drivers(board, drawing, field)
     mechanism.draw_pins(board, drawing, field)
+    raise_marks(board, vectors(board.marks))
     return board
+
+
+def raise_marks(board: Board, some: Sequence[Mark]) -> None:
+    """Put some marks above all others that are drawn so far."""
+    board.marks = [*(mark for mark in board.marks if mark not in some), *some]
+
+
+def vectors(marks: Sequence[Mark]) -> list[Mark]:
+    """The vectors of steps with their heads."""
+    own = {(m.step, m.name) for m in marks if m.step is not None and m.cls.split()[0] in VECTORS}
+    return [m for m in marks if (m.step, m.name) in own and m.cls.split()[0] in RAISED]
 
 
 def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from graphkin.arithmetic import Real, larger, pick, smaller
@@ -11,7 +11,7 @@ from graphkin.paper.bodies import Guideway
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board
-from graphkin.paper.marks import Line, Mark
+from graphkin.paper.marks import Line, Mark, reach
 from graphkin.paper.symbols import (
     BLOCK,
     PIVOT,
@@ -232,6 +232,18 @@ def draw_blocks(board: Board, drawing: Drawing, field: Field) -> None:
         if abs(own - middle) * field.mm > BLOCK[1] / 2:
             board.marks.append(Line(*here, *point, "guide-bar", owner))
         board.marks.append(block(here, along, owner))
+
+
+def covered(loci: Sequence[Mark], marks: Sequence[Mark]) -> list[Mark]:
+    """The lines and arcs of steps that come near a block, which would hide the middle of them."""
+    blocks = [reach(mark) for mark in marks if mark.cls in ("block", "slider")]
+    return [m for m in loci if m.step is not None and any(overlap(reach(m), b) for b in blocks)]
+
+
+def overlap(one: Rect, other: Rect) -> bool:
+    """True for upright boxes that have something in common."""
+    across = one[0] <= other[2] and other[0] <= one[2]
+    return across and one[1] <= other[3] and other[1] <= one[3]
 
 
 def swivelling(drawing: Drawing) -> list[complex]:

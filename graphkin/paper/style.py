@@ -16,6 +16,7 @@ Ink = Literal["colour", "black"]
 
 BLACK = "#000000"
 GREY = "#6a6a6a"
+BODY = "#767676"
 BLUE = "#0b4f9e"
 TEAL = "#006d77"
 RED = "#b3260e"
@@ -27,6 +28,7 @@ TINTS = (LIGHT, PALE)
 INKS = {
     BLACK: "ink",
     GREY: "grey",
+    BODY: "grey",
     BLUE: "blue",
     TEAL: "teal",
     RED: "red",
@@ -43,6 +45,12 @@ BARE = "bare"
 """The class of a figure that is drawn without the light tint that fills it."""
 STRONGER = 0.2
 """How much wider its lines are, in mm."""
+BRIEF = "brief"
+"""The class of a vector that is short, and has a thinner shaft for its head to be seen."""
+SHAFT = 0.25
+"""The widest shaft of such a vector, in mm."""
+BODIES = ("link", "plate", "guide-bar", "weld", "spoke")
+"""What is grey among black lines, so that vectors along it are seen."""
 
 DASHED = (2.4, 0.8)
 CHAIN = (5.0, 0.8, 0.4, 0.8)
@@ -146,17 +154,20 @@ def style_of(cls: str, ink: Ink = "colour") -> Style:
     fill = colour if first.fill == "ink" else first.fill
     if BARE in names and fill in TINTS:
         fill = ""
+    if BRIEF in names:
+        first = replace(first, width=min(first.width, SHAFT))
     if NOW in names:
         colour = BLACK if colour == GREY else colour
         first = replace(first, width=first.width + STRONGER if first.width else 0)
     if ink == "black":
-        colour, fill = black(colour), black(fill) if fill == colour else fill
+        grey = BODY if names[0] in BODIES else BLACK
+        colour, fill = black(colour, grey), black(fill, grey) if fill == colour else fill
     return replace(first, colour=colour, fill=fill)
 
 
-def black(colour: str) -> str:
-    """Turn every ink black; white and the light fills stay."""
-    return colour if colour in ("", WHITE, LIGHT, PALE) else BLACK
+def black(colour: str, ink: str) -> str:
+    """Turn every colour into an ink; white and the light fills stay."""
+    return colour if colour in ("", WHITE, LIGHT, PALE) else ink
 
 
 def in_variables(rules: str) -> str:

@@ -7,6 +7,7 @@ from math import atan2, cos, degrees, hypot, radians, sin
 
 from graphkin.paper.field import XY
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, polygon
+from graphkin.paper.style import BRIEF
 
 VECTORS = (
     "velocity",
@@ -18,9 +19,12 @@ VECTORS = (
     "sliding",
 )
 """The classes of lines that are vectors."""
-HEAD = 3.2
-"""Length of an arrowhead in mm; short vectors get smaller ones, below SHORT none."""
-SHORT = 2.0
+HEAD, SHARE = 3.2, 0.4
+"""Length of an arrowhead in mm, and of that of a short vector in parts of it."""
+SHORT, SHAFTED = 2.0, 6.0
+"""Vectors shorter than this, in mm, have no head; a thin shaft."""
+HALF, BLUNT, LEAST = 0.25, 0.5, 0.6
+"""Half the width of a head in parts of its length, of a small one at most; and at least, in mm."""
 PIN = 1.1
 """Radius of a pin in mm."""
 FIXED = 1.3
@@ -31,6 +35,8 @@ HINGE = 0.9
 """How much wider each further circle of a multiple hinge is, in mm."""
 PIVOT = 5.6
 """Height of a fixed pivot's triangle in mm."""
+HIP = 4 / 7
+"""Half its width, in parts of its height."""
 BLOCK = (11.0, 6.4)
 """Length and width of a block in mm."""
 SLOT = 1.75
@@ -44,17 +50,18 @@ WELD = 2.4
 def arrow(tail: XY, tip: XY, cls: str, name: str, step: int | None = None) -> Iterator[Mark]:
     """A vector as one line from tail to tip, its head apart."""
     length = hypot(tip[0] - tail[0], tip[1] - tail[1])
-    yield Line(*tail, *tip, cls, name, step)
+    yield Line(*tail, *tip, cls if length >= SHAFTED else f"{cls} {BRIEF}", name, step)
     if length >= SHORT:
         yield head(tail, tip, cls, name, step)
 
 
 def head(tail: XY, tip: XY, cls: str, name: str = "", step: int | None = None) -> Mark:
-    """An arrowhead at the tip, at most 0.4 of the vector long."""
+    """An arrowhead at the tip, wider than any shaft."""
     length = hypot(tip[0] - tail[0], tip[1] - tail[1])
-    size = min(HEAD, 0.4 * length)
+    size = min(HEAD, SHARE * length)
     u, v = (tip[0] - tail[0]) / length, (tip[1] - tail[1]) / length
-    back, half = (tip[0] - size * u, tip[1] - size * v), 0.17 * size
+    back = tip[0] - size * u, tip[1] - size * v
+    half = max(HALF * size, min(BLUNT * size, LEAST))
     corners = (
         tip,
         (back[0] - half * v, back[1] + half * u),
@@ -78,18 +85,17 @@ def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = 2.0) -> 
         yield Line(x, y, x - depth * (u + v), y - depth * (v - u), "ground")
 
 
-def fixed_pivot(at: XY, name: str, height: float = PIVOT) -> Iterator[Mark]:
-    """A pin on the ground: a triangle on a hatched line, the pin's circle at its top."""
-    yield from pivot_ground(at, height)
-    yield pin(at, name, FIXED)
-
-
 def pivot_ground(at: XY, height: float = PIVOT) -> Iterator[Mark]:
     """The triangle on a hatched line that carries a pin of the frame."""
-    x, y = at
-    half = 3.2 * height / PIVOT
+    (x, y), half = at, HIP * height
     yield polygon((at, (x - half, y + height), (x + half, y + height)), "fixed-pivot")
     yield from hatched((x - half - 2, y + height), (x + half + 2, y + height))
+
+
+def legs(at: XY, height: float) -> Iterator[Mark]:
+    """Both sides of such a triangle once more, thin, where a block in front of it covers them."""
+    for half in (-HIP * height, HIP * height):
+        yield Line(*at, at[0] + half, at[1] + height, "ground")
 
 
 def across(at: XY, way: XY, along: float, aside: float) -> XY:

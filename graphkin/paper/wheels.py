@@ -114,17 +114,22 @@ def is_all_wheel(drawing: Drawing, link: str) -> bool:
 def track(drawing: Drawing, field: Field, touch: Touch) -> Iterator[Mark]:
     """A straight track: hatched if it is of the frame, a bar of its link if not; a rack's teeth."""
     low, high = track_ends(drawing, field, touch)
-    side = touch.rolling.side
+    on, side = touch.rolling.on, touch.rolling.side
     at, way = field(touch.at), field.way(touch.along)
-    start, end = across(at, way, low, 0), across(at, way, high, 0)
-    if touch.rolling.on != FRAME:
-        yield Line(*start, *end, "guide-bar", touch.rolling.on)
-    elif not touch.disc.module:
-        yield from hatched(*((start, end) if side > 0 else (end, start)))
+    bars = [(low, high)]
     if touch.disc.module:
-        low, high = rack_ends(drawing, field, touch, low, high)
+        ends = rack_ends(drawing, field, touch, low, high)
+        bars = [(low, ends[0]), (ends[1], high)]
+        low, high = ends
+    for start, end in bars if on != FRAME else ():
+        if start < end:
+            yield Line(*across(at, way, start, 0), *across(at, way, end, 0), "guide-bar", on)
+    if touch.disc.module:
         yield from rack(field, touch, low, high)
-    if touch.rolling.on != FRAME:
+    elif on == FRAME:
+        first, last = across(at, way, low, 0), across(at, way, high, 0)
+        yield from hatched(*((first, last) if side > 0 else (last, first)))
+    if on != FRAME:
         yield from arm_to_track(drawing, field, touch, low, high)
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from html import escape
 
 from graphkin.paper.areas import Rect
 from graphkin.paper.glyphs import font_face
 from graphkin.paper.marks import Mark, Text
-from graphkin.paper.style import Ink, in_variables
+from graphkin.paper.style import BRIEF, Ink, in_variables
 from graphkin.paper.svg import LETTERING, element, number, rules
 from graphkin.screen.telling import Timed
 from graphkin.text import Words
@@ -60,8 +61,8 @@ def placed(name: str, timed: Timed) -> str:
 
 
 def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
-    """The style sheet of some marks, with their faces."""
-    marks = tuple(marks)
+    """The style sheet of some marks, with their faces; no shaft changes while a vector moves."""
+    marks = [replace(mark, cls=mark.cls.removesuffix(f" {BRIEF}")) for mark in marks]
     return "\n".join((faces(), LETTERING, *map(themed, rules(marks, ink))))
 
 

@@ -65,7 +65,6 @@ def of_track(bench: Bench, touch: Touch, pose: Pose) -> Told:
     pitch = pi * touch.disc.module * mm if touch.disc.module else SPACING
     rest = since - (since * (1 / pitch)).do("round") * pitch
     teeth = Pose(page.origin - page.way * rest, page.way)
-    line = bench.joining(page.origin + page.way * low, page.origin + page.way * high, bench.room)
     body = rack_span(bench, touch, pose, low, high) if touch.disc.module else (low, high)
     for mark in marks:
         if isinstance(mark, Polyline):
@@ -85,10 +84,30 @@ def of_track(bench: Bench, touch: Touch, pose: Pose) -> Told:
             first, last = (page.origin + page.way * (end + 1j * back) for end in reach)
             found[mark] = bench.joining(first, last, bench.room)
         elif abs(float(cross(page_way(field, touch), direction(mark)))) < 1e-6:
-            found[mark] = line
+            found[mark] = bar_beside(bench, touch, page, mark, (low, high), body)
         else:
             found[mark] = bench.carried_by(places.pose(on))
     return found
+
+
+def bar_beside(
+    bench: Bench,
+    touch: Touch,
+    page: Pose,
+    mark: Mark,
+    whole: tuple[Any, Any],
+    body: tuple[Any, Any],
+) -> Binding:
+    """The bar of a straight track, or its part before or after the body of a rack."""
+    ends = whole
+    if touch.disc.module:
+        assert isinstance(mark, Line)
+        x, y = bench.field(touch.at)
+        u, v = bench.field.way(touch.along)
+        is_before = (mark.x1 - x) * u + (mark.y1 - y) * v < 0
+        ends = (whole[0], body[0]) if is_before else (body[1], whole[1])
+    first, last = (page.origin + page.way * end for end in ends)
+    return bench.joining(first, last, bench.room)
 
 
 def page_way(field: Field, touch: Touch) -> complex:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from math import hypot
+from math import dist, hypot
 
 import pytest
 import shapely
@@ -15,6 +15,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import TABLES
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text, reach
+from graphkin.paper.style import style_of
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import SHORT
 from graphkin.paper.tables import tables
@@ -49,8 +50,12 @@ from tests.paper.sheet_tools import (
 )
 
 FIELDS = ("mechanism", "plan")
-HEAD = 0.45
+HEAD = 0.41
 """Longest arrowhead, in parts of its vector."""
+WIDER = 2.2
+"""Least width of an arrowhead, in parts of its shaft's."""
+BENEATH = ("link", "plate", "guide-bar", "block", "slider", "spoke", "pin", "hinge", "fixed-pivot")
+"""The marks of the mechanism that hide no vector."""
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
 NEAR = 6.0
@@ -199,7 +204,7 @@ def test_every_vector_has_one_head_at_its_tip_and_a_short_one_has_none(page):
 
 
 def misfits(line: Line, head: Polyline) -> list[str]:
-    """Why a head does not belong to its line."""
+    """Why a head does not belong to its line, or cannot be told from it."""
     tip, *back = head.points
     found = []
     if hypot(tip[0] - line.x2, tip[1] - line.y2) > 1e-6:
@@ -210,7 +215,18 @@ def misfits(line: Line, head: Polyline) -> list[str]:
         found.append(f"head {size:.2f} mm long")
     if shapely.Point(middle).distance(outline(line)) > 1e-6:
         found.append("head askew")
+    wide, shaft = dist(*back), style_of(line.cls).width
+    if wide < WIDER * shaft:
+        found.append(f"head {wide:.2f} mm wide on a shaft of {shaft} mm")
     return found
+
+
+def test_vectors_stand_above_bars_and_pins(page):
+    """The head of a crank's acceleration ends on the fixed pivot and can be seen."""
+    marks = [m for m in page.marks["mechanism"] if not {"inset", "detail"} & {*m.cls.split()}]
+    first = min((marks.index(line) for line in page.vectors("mechanism")), default=len(marks))
+    above = [told(mark) for mark in marks[first:] if kind_of(mark) in BENEATH]
+    assert not above, above
 
 
 def test_every_enlarged_detail_names_a_vector_in_it(page):
@@ -362,7 +378,7 @@ def test_what_is_asked_of_a_block_stands_in_a_table(name, kind):
         )
         symbol, size, sense = key
         assert size == drawing.words.significant(abs(value))
-        assert sense.startswith("in the sense" if value > 0 else "against")
+        assert sense.startswith("positive" if value > 0 else "negative")
         assert task == [symbol]
 
 

@@ -10,7 +10,20 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from graphkin.paper.style import BLACK, BLUE, GREY, PURPLE, RED, STYLES, TEAL, WHITE, style_of
+from graphkin.paper.style import (
+    BLACK,
+    BLUE,
+    BODIES,
+    BODY,
+    BRIEF,
+    GREY,
+    PURPLE,
+    RED,
+    STYLES,
+    TEAL,
+    WHITE,
+    style_of,
+)
 
 SHEETS = {
     "velocity": ("velocity", "relative-velocity", "fixed-centrode", "moving-centrode"),
@@ -130,6 +143,21 @@ def test_red_and_green_are_told_apart_only_by_those_who_see_both():
     assert np.allclose(lab(linear(WHITE)), (100, 0, 0), atol=0.02)
 
 
-def test_black_ink_is_black():
+def test_black_ink_is_black_but_for_the_bars():
     for cls, style in STYLES.items():
-        assert not style.width or style_of(cls, "black").colour == BLACK, cls
+        ink = BODY if cls in BODIES else BLACK
+        assert not style.width or style_of(cls, "black").colour == ink, cls
+        assert style_of(cls, "colour").colour != BODY, cls
+
+
+def test_grey_bars_can_be_seen_on_paper_and_black_vectors_on_them():
+    assert contrast(BODY) >= LEGIBLE
+    assert contrast(BLACK) / contrast(BODY) >= LEGIBLE
+
+
+def test_the_shaft_of_a_short_vector_is_thin_but_no_construction_line():
+    for cls in {cls for names in SHEETS.values() for cls in names if "centrode" not in cls}:
+        thin = style_of(f"{cls} {BRIEF}")
+        assert thin.width < STYLES[cls].width, cls
+        assert thin.width / STYLES["construction"].width >= APART, cls
+        assert (thin.colour, thin.dash) == (style_of(cls).colour, style_of(cls).dash), cls

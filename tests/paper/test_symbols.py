@@ -11,11 +11,14 @@ from math import cos, degrees, hypot, pi, radians
 import pytest
 import shapely
 
-from graphkin.paper.marks import Circle, Line, Mark, Polyline
+from graphkin.paper.marks import Circle, Line, Mark, Polyline, polygon
+from graphkin.paper.slides import covered
 from graphkin.paper.symbols import BLOCK, HINGE, PIN, SLOT
 from tests.paper.made_up import board_of, made_up, of_kind
 
 NEAR = 1e-6
+GAP = 0.2
+"""Least gap between the teeth of two wheels, in modules: their lines do not run together."""
 
 LEVER = """
 [frame]
@@ -195,6 +198,41 @@ slides = { on = 2, along = "A-B" }
     assert line(bar).intersection(area(block)).length == pytest.approx(BLOCK[0], abs=1e-3)
 
 
+def test_the_ground_that_bears_a_block_is_seen_through_it_as_far_as_the_pin():
+    drawing = made_up(
+        """
+[frame]
+O = [0, 0]
+C = [90, -30]
+[links.1]
+O-A = 40
+[links.2]
+A-B = 150
+[links.3]
+C = [0, 0]
+slides = { on = 2, along = "A-B" }
+""",
+        {"O": 0j, "C": 90 - 30j, "A": 40j, "B": 40j + 150 * (90 - 70j) / abs(90 - 70j)},
+    )
+    board, field = board_of(drawing)
+    (block,) = of_kind(board, "block", "3")
+    at = field(0.09 - 0.03j)
+    above = board.marks[board.marks.index(block) :]
+    legs = [m for m in above if m.cls == "ground" and (m.x1, m.y1) == pytest.approx(at)]
+    assert len(legs) == 2
+    triangle = next(m for m in of_kind(board, "fixed-pivot") if m.points[0] == pytest.approx(at))
+    assert board.marks.index(triangle) < board.marks.index(block)
+    assert {(leg.x2, leg.y2) for leg in legs} == {*triangle.points[1:]}
+    assert all(line(leg).length > line(leg).intersection(area(block)).length > 3 for leg in legs)
+
+
+def test_loci_of_a_block_are_drawn_above_it_and_others_below_the_ground():
+    near, far = (Line(x, 0, x + 9, 0, "construction", "OA", 7) for x in (100, 130))
+    block = polygon(((104, -3), (115, -3), (115, 3), (104, 3)), "block", "2")
+    track = Line(100, 0, 109, 0, "guide", "2")
+    assert covered([near, far, track], [near, far, track, block]) == [near]
+
+
 def test_a_cylinder_holds_the_rod_that_slides_in_it():
     drawing = made_up(
         """
@@ -339,7 +377,8 @@ def test_gears_mesh_at_the_pitch_point_tooth_in_gap(place):
     board, field = board_of(drawing)
     one, other = gears(board, "1", "2")
     assert one.is_valid and other.is_valid
-    assert one.intersection(other).area < 0.02 * pi * 4**2
+    assert one.exterior.distance(other.exterior) > GAP * 4
+    assert one.intersection(other).area == 0
     (contact,) = of_kind(board, "contact")
     at = field(0.4 * place / 1000)
     assert (contact.cx, contact.cy) == pytest.approx(at, abs=NEAR)
@@ -371,7 +410,8 @@ rolls = {{ on = 0 }}
     board, field = board_of(drawing)
     (hole,) = (area(mark) for mark in of_kind(board, "gear") if isinstance(mark, Polyline))
     (planet,) = gears(board, "planet")
-    assert planet.difference(hole).area < 0.02 * pi * 4**2
+    assert planet.exterior.distance(hole.exterior) > GAP * 4
+    assert planet.difference(hole).area == 0
     (contact,) = of_kind(board, "contact")
     assert (contact.cx, contact.cy) == pytest.approx(field(rect(0.12, 1.0)), abs=NEAR)
     assert len(of_kind(board, "ground")) > 40
@@ -400,7 +440,9 @@ slides = { on = 0, through = [0, -40], angle = 0 }
     board, field = board_of(drawing)
     pinion, rack = gears(board, "1", "2")
     assert pinion.is_valid and rack.is_valid
-    assert pinion.intersection(rack).area < 0.03 * pi * 4**2
+    assert pinion.exterior.distance(rack.exterior) > GAP * 4
+    assert pinion.intersection(rack).area == 0
+    assert not any(line(bar).crosses(rack) for bar in of_kind(board, "guide-bar", "2"))
     below = field(-0.04j)[1]
     assert min(y for _, y in rack.exterior.coords) == pytest.approx(below - 4)
 

@@ -6,13 +6,15 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+import shapely
 
 from graphkin.handout import drawings_of, proved
 from graphkin.mechanism import load
 from graphkin.paper.layout import lay_out
+from graphkin.paper.marks import Text
 from graphkin.paper.sheet import sheet
 from graphkin.text import words
-from tests.paper.sheet_tools import KINDS, Drawn, fields_of, kind_of
+from tests.paper.sheet_tools import KINDS, Drawn, fields_of, kind_of, outline, told
 from tests.paper.test_sheets import (  # noqa: F401 - the same laws, for the sheets of this file
     test_no_label_touches_a_line_or_another_text,
     test_nothing_leaves_the_frame_or_its_field,
@@ -59,6 +61,15 @@ def page(request) -> Drawn:
 def test_the_symbols_of_every_pair_are_there(name):
     found = {kind_of(mark) for mark in drawn(name, "velocity").marks["mechanism"]}
     assert found >= set(SHOWN[name])
+
+
+def test_no_block_hides_a_part_of_a_line_or_an_arc_that_found_a_point(page):
+    marks = page.marks["mechanism"]
+    for k, mark in enumerate(marks):
+        if kind_of(mark) in ("block", "slider"):
+            block = shapely.Polygon(mark.points)
+            steps = [m for m in marks[:k] if m.step is not None and not isinstance(m, Text)]
+            assert not [told(m) for m in steps if outline(m).intersects(block)]
 
 
 @pytest.mark.parametrize("name", SHOWN)

@@ -20,6 +20,7 @@ from graphkin.paper.field import Field
 from graphkin.paper.layout import Layout, spans
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Text
 from graphkin.paper.sheet import left_board, right_board
+from graphkin.paper.style import BRIEF
 from graphkin.scene.model import Closure
 from graphkin.screen.driven import Driven
 from graphkin.screen.extents import room_of
@@ -114,8 +115,8 @@ def arc_numbers(arc: Arc) -> list[float]:
 
 
 def kind_of(mark: Mark) -> tuple[str, str, str, int | None]:
-    """What tells a mark from others of its sheet, where it may stand."""
-    return type(mark).__name__, mark.cls, mark.name, mark.step
+    """What tells a mark from others of its sheet, where it may stand, a vector long or short."""
+    return type(mark).__name__, mark.cls.removesuffix(f" {BRIEF}"), mark.name, mark.step
 
 
 def apart(one: Sequence[float], other: Sequence[float]) -> float:

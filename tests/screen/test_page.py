@@ -12,14 +12,16 @@ from html import unescape
 import pytest
 
 from graphkin.mechanism import Mechanism, load
-from graphkin.paper.marks import Circle, Text, reach
+from graphkin.paper.marks import Circle, Line, Text, reach
 from graphkin.paper.richtext import plain
 from graphkin.paper.sentences import sentences
 from graphkin.paper.stages import behind
+from graphkin.paper.style import BRIEF
 from graphkin.paper.svg import number
 from graphkin.paper.tables import turning_rows, vector_rows
 from graphkin.scene.read import read_text
 from graphkin.screen import page
+from graphkin.screen.fields import ink_sheet
 from graphkin.screen.page import step_page, task_page
 from graphkin.screen.sheets import ScreenSheet, screen_sheets
 from graphkin.screen.skeleton import data_block, offline_page
@@ -457,3 +459,9 @@ def test_a_page_leaves_the_search_for_garbage_as_it_was(monkeypatch):
         assert gc.isenabled() is was
     gc.enable()
     assert seen == [False, False]
+
+
+def test_a_vector_that_is_short_where_it_is_drawn_has_on_a_page_a_shaft_like_all_others():
+    """For it may be long elsewhere."""
+    vectors = [Line(0, 0, 9, 0, "velocity"), Line(0, 0, 3, 0, f"velocity {BRIEF}")]
+    assert ink_sheet(vectors, "colour") == ink_sheet(vectors[:1], "colour")

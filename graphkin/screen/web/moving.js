@@ -97,7 +97,8 @@ const shapes = {
   h: (tail, tip, times = 1) => {
     const p = point(tail), q = point(tip), long = Math.hypot(q[0] - p[0], q[1] - p[1]);
     if (!(long >= SHORT * times)) return null;
-    const size = Math.min(HEAD * times, 0.4 * long), half = 0.17 * size, u = (q[0] - p[0]) / long, v = (q[1] - p[1]) / long;
+    const size = Math.min(HEAD * times, 0.4 * long), u = (q[0] - p[0]) / long, v = (q[1] - p[1]) / long;
+    const half = Math.max(0.25 * size, Math.min(0.5 * size, 0.6 * times)); // as symbols.py has it
     const back = [q[0] - size * u, q[1] - size * v];
     return { points: listed([q, [back[0] - half * v, back[1] + half * u], [back[0] + half * v, back[1] - half * u]]) };
   },
