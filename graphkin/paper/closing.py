@@ -8,8 +8,12 @@ from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import way_of
 from graphkin.paper.richtext import escape
+from graphkin.paper.sentence import Sentence
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import Part, Plane, Step
+
+IDLE = "idle "
+"""What the name of a sentence that tells of an idle link begins with; the link's name follows."""
 
 
 def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
@@ -30,7 +34,7 @@ def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
     return drawing.words(key, bar=bar(says["p"], says["q"]), **fields)
 
 
-def idle_sentences(drawing: Drawing) -> Iterator[str]:
+def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     """Each bar that no step lays off, because its pins stand without it: an idle link."""
     told = [
         {str(step.says.get(key, "")) for key in "pqr"} | {step.name}
@@ -42,4 +46,4 @@ def idle_sentences(drawing: Drawing) -> Iterator[str]:
         laid = any(len(points & names) > 1 for names in told)
         if len(points) > 1 and not laid and not link.slides and not link.wheels:
             names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
-            yield drawing.words("step.idle", **names)
+            yield Sentence(-1, IDLE + link.name, drawing.words("step.idle", **names))

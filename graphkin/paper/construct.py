@@ -13,7 +13,6 @@ from graphkin.paper.centre import (
     put_ray,
 )
 from graphkin.paper.coriolis import (
-    is_coriolis,
     put_base,
     put_component,
     put_lean,
@@ -21,6 +20,7 @@ from graphkin.paper.coriolis import (
     put_square,
 )
 from graphkin.paper.desk import Desk
+from graphkin.paper.letters import is_coriolis
 from graphkin.paper.plan import put_arc, put_arrow, put_driver_ray, put_line, put_point, put_pole
 from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line
 from graphkin.paper.triangle import (

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphkin.paper.desk import TINY, Desk, line_ends
+from graphkin.paper.desk import Desk, line_ends
 from graphkin.paper.field import XY
 from graphkin.paper.labels import Label
+from graphkin.paper.letters import is_coriolis, letter_on, no_base
 from graphkin.paper.marks import Circle, Line
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import square_mark
@@ -16,11 +17,6 @@ from graphkin.steps.run import Trace
 
 SIDE = 6.0
 """Shortest side of a triangle, in mm, at whose corner a right angle is marked."""
-
-
-def is_coriolis(step: Step) -> bool:
-    """True for a step on the mechanism that belongs to a Coriolis component."""
-    return "k" in step.says and "i" in step.says
 
 
 def without_triangles(trace: Trace, *keys: str) -> Trace:
@@ -43,7 +39,7 @@ def without_triangles(trace: Trace, *keys: str) -> Trace:
 
 def put_lever_velocity(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The velocity of a lever's pin about its pivot, unless a right triangle shows it already."""
-    if shown_before(desk, number, step) is not None or no_base(desk, number):
+    if shown_before(desk, number, step) is not None or no_base(desk.drawing, number, desk.field.mm):
         return
     says, fixed = step.says, desk.drawing.scene.frame.points
     name = "v_" + says["q"] + ("" if says["p"] in fixed else says["p"])
@@ -58,25 +54,9 @@ def shown_before(desk: Desk, number: int, step: Step) -> int | None:
     return None
 
 
-def no_base(desk: Desk, number: int) -> bool:
-    """True when twice the relative velocity, or the component, is too short to be seen."""
-    drawing = desk.drawing
-    for user in sorted(drawing.trace.program.descendants(number)):
-        step = drawing.trace.program.steps[user]
-        if step.action is not None and step.action.key == "coriolis-by-hand":
-            if user not in drawing.trace.values:
-                return True
-            base, top = (drawing.trace.values[arg] for arg in step.args[:2])
-            lean = drawing.trace.program.steps[step.args[1]]
-            pivot = drawing.trace.values[drawing.trace.program.steps[lean.args[1]].args[1]]
-            shortest = min(abs(top - base), abs(base - pivot))
-            return bool(shortest * desk.field.mm < TINY)
-    return False
-
-
 def put_base(desk: Desk, number: int, step: Step, value: Any) -> None:
     """Twice the relative velocity, set at the pivot of the guide, and e at its tip."""
-    if no_base(desk, number):
+    if no_base(desk.drawing, number, desk.field.mm):
         return
     pivot = desk.drawing.trace.values[step.args[0]]
     set_vector(desk, number, "2v_" + step.says["i"], pivot, value)
@@ -86,7 +66,7 @@ def put_base(desk: Desk, number: int, step: Step, value: Any) -> None:
 def put_square(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The perpendicular at e, as far as f."""
     ends = line_ends(desk, number, value)
-    if no_base(desk, number) or ends is None:
+    if no_base(desk.drawing, number, desk.field.mm) or ends is None:
         return
     desk.board.marks.append(Line(*ends[0], *ends[1], "construction", step.name, number))
     corner = desk.field(value.point)
@@ -102,7 +82,7 @@ def put_square(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def put_lean(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The two lines through the pivot that lean alike: to the tip on the bar, and through f."""
-    if no_base(desk, number):
+    if no_base(desk.drawing, number, desk.field.mm):
         return
     ends = line_ends(desk, number, value)
     pivot, tip = (desk.field(desk.drawing.trace.values[step.args[i]]) for i in (1, 3))
@@ -113,7 +93,7 @@ def put_lean(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def put_component(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The Coriolis component, from e to f."""
-    if no_base(desk, number):
+    if no_base(desk.drawing, number, desk.field.mm):
         return
     edge = desk.drawing.trace.program.steps[step.args[0]]
     base = desk.drawing.trace.values[edge.args[0]]
@@ -123,14 +103,7 @@ def put_component(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def name_corner(desk: Desk, number: int, step: Step, at: XY) -> None:
     """The small letter of a corner: e or f, with its index where there are several triangles."""
-    drawing = desk.drawing
-    base = step.name.partition("_")[0]
-    alike = [
-        other
-        for other, s, _ in drawing.mechanism_steps()
-        if s.name.partition("_")[0] == base and is_coriolis(s) and not no_base(desk, other)
-    ]
-    name = base if len(alike) == 1 else step.name
+    name = letter_on(desk.drawing, step, desk.field.mm)
     desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
     desk.board.labels.append(
         Label(symbol(name), "construction", at, 2.5, step.name, number, radius=0.5)

@@ -7,6 +7,7 @@ from math import degrees
 
 from graphkin.paper.areas import BELOW, TABLES
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.letters import letter_on
 from graphkin.paper.marks import Mark, Text
 from graphkin.paper.richtext import extent
 from graphkin.paper.symbolic import symbol
@@ -35,7 +36,8 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
     worst = flattest(crossings_on(drawing))
     if worst is None:
         return
-    for name in (worst.name, worst.name.partition("_")[0]):
+    letter = letter_of_crossing(drawing, worst)
+    for name in (letter, letter.partition("_")[0]):
         text = drawing.words(
             "page.flattest",
             name=symbol(name),
@@ -55,3 +57,21 @@ def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
         for crossing in crossings(drawing.trace)
         if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
     )
+
+
+def locus_of(drawing: Drawing, crossing: Crossing) -> tuple[int, str] | None:
+    """Of a crossing that closes a group the step that does, and the letter of the locus."""
+    steps = drawing.trace.program.steps
+    for number in steps[crossing.number].args:
+        action, letter = steps[number].action, steps[number].says.get("q")
+        if action is not None and action.key == "close" and letter:
+            return number, letter
+    return None
+
+
+def letter_of_crossing(drawing: Drawing, crossing: Crossing) -> str:
+    """The letter of a crossing as it is drawn; of one that closes a group that of the locus."""
+    locus, step = locus_of(drawing, crossing), drawing.trace.program.steps[crossing.number]
+    if locus:
+        return locus[1]
+    return letter_on(drawing, step, 1000 / drawing.scales.kL) if step.name else crossing.name

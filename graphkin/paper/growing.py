@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import degrees
 
+from graphkin.paper.appear import appearing, grown, when_told
 from graphkin.paper.areas import A3_TITLE_BLOCK, BELOW, MARKED
 from graphkin.paper.detail import parted
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.flattest import crossings_on
+from graphkin.paper.flattest import crossings_on, letter_of_crossing, locus_of
 from graphkin.paper.frame import sheet_frame
 from graphkin.paper.inset import insets
 from graphkin.paper.layout import Layout, lay_out
@@ -18,8 +19,7 @@ from graphkin.paper.richtext import flowed
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import sentences
 from graphkin.paper.sheet import heading, left_board, panels, right_board, title_block, title_of
-from graphkin.paper.stages import stage_of, stages
-from graphkin.paper.style import NOW
+from graphkin.paper.stages import BEFORE, stages
 from graphkin.paper.symbolic import symbol
 from graphkin.steps.crossings import Crossing, flattest
 
@@ -38,10 +38,13 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     staged = stages(drawing, said)
     boards = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
     (left, detail), (right, other) = parted(*boards)
-    timed = [(stage_of(drawing, mark, staged, said), mark) for mark in (*left, *right)]
+    telling = when_told(drawing, staged)
+    given = 0 if drawing.again else BEFORE
+    timed = [(max(stage, given), mark) for stage, mark in appearing(drawing, left, staged, said)]
+    timed += appearing(drawing, right, staged, said)
     last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
     block, same = title_block(drawing, "steps", number), [*heading(drawing), *panels(layout)]
-    lines = crossings_on(drawing)
+    lines = [(stage_of_crossing(drawing, c, staged), c) for c in crossings_on(drawing)]
     title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
     return tuple(
         Page(
@@ -50,10 +53,10 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
             (
                 *sheet_frame(replace(block, sheet=numbered(drawing, number, stage, len(said)))),
                 *same,
-                *grown(timed, stage),
+                *grown(timed, stage, telling),
                 *(last if stage == len(said) - 1 else ()),
                 *told(drawing, said, stage),
-                *crossed(drawing, [c for c in lines if staged.get(c.number) == stage]),
+                *crossed(drawing, [line for at, line in lines if at == stage]),
             ),
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
@@ -67,13 +70,6 @@ def numbered(drawing: Drawing, number: str, stage: int, total: int) -> str:
     return drawing.words("page.sheet_step", sheet=number, number=stage + 1, all=total)
 
 
-def grown(timed: Sequence[tuple[int, Mark]], stage: int) -> Iterator[Mark]:
-    """The marks that stand at a sentence; those that it draws are marked as new."""
-    for appears, mark in timed:
-        if appears <= stage:
-            yield mark if appears < stage else replace(mark, cls=f"{mark.cls} {NOW}")
-
-
 def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
     """The flattest crossing of a sentence, and what a millimetre of pencil becomes there."""
     worst = flattest(tuple(found))
@@ -82,15 +78,21 @@ def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
     words = drawing.words
     text = words(
         "page.crossing",
-        name=symbol(worst.name),
+        name=symbol(letter_of_crossing(drawing, worst)),
         angle=words.fixed(degrees(worst.angle), 0),
         factor=words.significant(worst.factor, 2),
     )
     yield Text(BELOW[2] - 4, BELOW[1] + 4.5, text, "caption", 2.5, "end", name="crossing")
 
 
+def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int, int]) -> int:
+    """The sentence that draws a crossing."""
+    locus = locus_of(drawing, crossing)
+    return staged[locus[0] if locus else crossing.number]
+
+
 def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mark]:
-    """The sentence to do in large lettering, and below it those that are done."""
+    """The sentence to do in large lettering, and below it the last of those that are done."""
     words = drawing.words
     left, top, right = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
     caption = words("page.step_of", number=stage + 1, all=len(said))
@@ -107,7 +109,10 @@ def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mar
         for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width, 2.5))
     ]
     room = max(int((BELOW[3] - y - 3.5) / SMALL_LEADING) + 1, 0)
-    for i, (mark, line) in enumerate(done[-room:] if room else []):
+    shown = done[-room:] if room else []
+    while shown and not shown[0][0]:
+        shown = shown[1:]
+    for i, (mark, line) in enumerate(shown):
         base = y + 2.5 + i * SMALL_LEADING
         if mark:
             yield Text(left + 5, base, mark, "caption", 2.5, "end")

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from graphkin.paper.closing import IDLE
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Mark
+from graphkin.paper.resting import rests_on
 from graphkin.paper.sentence import Sentence
-from graphkin.steps.program import Part, Program
+from graphkin.steps.program import Part, Plane, Program
 
 READ_OFF = ("set-on", "set-on-twice")
 """Arrows on the mechanism, which the last sentence asks for."""
+AT_LAST = ("detail", "note")
+"""The names of marks that stand when all is drawn."""
+TOLD_BY = {"locus": "close", "fixed-centrode": "moving-centrode"}
+"""The names of sentences that tell of a curve of another kind than their name."""
 BEFORE = -1
 """The stage of what stands before the first sentence."""
 
@@ -19,7 +25,8 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
     """For each step that was run the number of the sentence, from 0, that draws it.
 
     A sentence draws what its own points hang on and no sentence before has drawn. An arrow or any
-    other step that no sentence finds appears as soon as all that it is drawn from is there.
+    other step that no sentence finds appears as soon as all that it is drawn from is there. What
+    is given, the points of the frame and the pole of the plan, stands before the first sentence.
     """
     program = drawing.trace.program
     found: dict[int, int] = {}
@@ -32,7 +39,9 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
             found.setdefault(number, stage)
     for number in drawing.trace.values:
         step = program.steps[number]
-        if step.action is not None and step.action.key in READ_OFF:
+        if not step.args:
+            found[number] = BEFORE
+        elif step.action is not None and step.action.key in READ_OFF:
             found[number] = len(said) - 1
         elif number not in found:
             found[number] = max((found.get(arg, BEFORE) for arg in step.args), default=BEFORE)
@@ -58,19 +67,36 @@ def behind(program: Program, numbers: Iterable[int]) -> set[int]:
 def stage_of(drawing: Drawing, mark: Mark, staged: dict[int, int], said: Sequence[Sentence]) -> int:
     """The sentence at which a mark of a field appears; BEFORE for what stands from the start.
 
-    A mark that belongs to no step is that of a point, or of a link, whose bars appear with the
-    last of its points.
+    A mark that belongs to no step appears with the last of what it rests on.
     """
     if mark.step is not None:
         return staged.get(mark.step, BEFORE)
-    if mark.name == "note":
+    if mark.name in AT_LAST:
         return len(said) - 1
-    classes = mark.cls.split()
-    for stage, sentence in enumerate(said):
-        if sentence.step < 0 and sentence.name and sentence.name in classes:
-            return stage
-    scene, targets = drawing.scene, drawing.trace.program.targets
-    name = mark.name.partition(" ")[2] if mark.name.startswith("omega ") else mark.name
-    points = scene.links[name].points if name in scene.links else (name,)
-    numbers = (targets.get(("position", point), -1) for point in points)
-    return max((staged.get(number, BEFORE) for number in numbers), default=BEFORE)
+    told = stage_of_curve(drawing, mark, said)
+    if told is not None:
+        return told
+    targets = drawing.trace.program.targets
+    numbers = (targets[target] for target in rests_on(drawing, mark) if target in targets)
+    idle = (stage for stage, one in enumerate(said) if one.name == IDLE + mark.name)
+    return max((*idle, *(settled(drawing, number, staged) for number in numbers)), default=BEFORE)
+
+
+def settled(drawing: Drawing, number: int, staged: dict[int, int]) -> int:
+    """The sentence by which a value stands; that of a number as soon as it can be reckoned."""
+    step = drawing.trace.program.steps[number]
+    closes = step.action is not None and step.action.key == "close"
+    if number in staged and (closes or step.plane is not Plane.NUMBERS):
+        return staged[number]
+    return max((settled(drawing, arg, staged) for arg in step.args), default=BEFORE)
+
+
+def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
+    """The sentence that tells of a curve, of several of its kind each its own; else None."""
+    for curve in drawing.curves:
+        if mark.name == f"{curve.kind} {curve.of}":
+            alike = [other.of for other in drawing.curves if other.kind == curve.kind]
+            name = TOLD_BY.get(curve.kind, curve.kind)
+            stages = [stage for stage, sentence in enumerate(said) if sentence.name == name]
+            return stages[min(alike.index(curve.of), len(stages) - 1)]
+    return None

@@ -8,10 +8,11 @@ from typing import Any
 from graphkin.paper.desk import TINY, Desk, line_ends, middle, note_tiny
 from graphkin.paper.labels import Label
 from graphkin.paper.layout import BEYOND, SWEEP
+from graphkin.paper.letters import letter_on
 from graphkin.paper.marks import Arc, Circle, Line
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import SHORT, arrow, bearing, square_mark
-from graphkin.steps.program import Part, Plane, Step
+from graphkin.steps.program import Part, Step
 
 
 def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> None:
@@ -106,19 +107,8 @@ def put_construction_point(desk: Desk, number: int, step: Step, value: Any) -> N
     at = desk.field(value)
     if abs(value - desk.drawing.standing.spot(step.says["q"])) * desk.field.mm < TINY:
         return
-    name = short_name(desk, step)
+    name = letter_on(desk.drawing, step, desk.field.mm)
     desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
     desk.board.labels.append(
         Label(symbol(name), "construction", at, 2.5, step.name, number, radius=0.5)
     )
-
-
-def short_name(desk: Desk, step: Step) -> str:
-    """The name of a triangle's point, its index left out where its pin has only one triangle."""
-    base = step.name.partition("_")[0]
-    same = [
-        other
-        for _, other, _ in desk.drawing.steps(Plane.MECHANISM)
-        if other.part is Part.NORMAL and other.name.partition("_")[0] == base
-    ]
-    return base if len(same) == 1 else step.name

@@ -9,9 +9,9 @@ from typing import Any
 
 from graphkin.arithmetic import larger, pick, smaller
 from graphkin.paper.centre import STRAIGHT
-from graphkin.paper.coriolis import is_coriolis
 from graphkin.paper.desk import TINY, above_foot
 from graphkin.paper.layout import BEYOND, SWEEP
+from graphkin.paper.letters import is_coriolis
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline
 from graphkin.paper.symbols import SHORT, VECTORS
 from graphkin.paper.trial_marks import NEAR as SHORTEST

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphkin.arithmetic import smaller
-from graphkin.paper.coriolis import is_coriolis
 from graphkin.paper.desk import TINY, Desk
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
+from graphkin.paper.letters import is_coriolis
 from graphkin.plane import Line as Carrier
 from graphkin.screen.binding import Bench
 from graphkin.steps.program import Part, Plane, Step

@@ -42,8 +42,7 @@ def test_each_key_tells_its_own_flattest_crossing():
 def test_it_speaks_the_language_of_the_sheet():
     _, acceleration = lines_of(shipped("pump", 7), "ro")
     assert (
-        plain(acceleration["flattest"].markup)
-        == "Unghi minim J3, 18°: 1 mm de creion devine 6,6 mm"
+        plain(acceleration["flattest"].markup) == "Unghi minim J3, 18°: o eroare de 1 mm dă 6,6 mm"
     )
 
 

@@ -1,0 +1,45 @@
+"""The small letters of triangles on the mechanism: with an index only where there are several."""
+
+from __future__ import annotations
+
+from graphkin.paper.desk import TINY
+from graphkin.paper.drawing import Drawing
+from graphkin.steps.program import Part, Plane, Step
+
+
+def is_coriolis(step: Step) -> bool:
+    """True for a step on the mechanism that belongs to a Coriolis component."""
+    return "k" in step.says and "i" in step.says
+
+
+def letter_on(drawing: Drawing, step: Step, mm: float) -> str:
+    """The name of a triangle's point as the drawing has it: b″, or b″_BA beside another b″.
+
+    ``mm`` are those of the drawing to a metre of the mechanism.
+    """
+    if step.part is not Part.NORMAL or step.plane is not Plane.MECHANISM:
+        return step.name
+    base = step.name.partition("_")[0]
+    same = [
+        number
+        for number, other, _ in drawing.steps(Plane.MECHANISM)
+        if other.part is Part.NORMAL and other.name.partition("_")[0] == base
+    ]
+    if is_coriolis(step):
+        same = [number for number in same if not no_base(drawing, number, mm)]
+    return base if len(same) == 1 else step.name
+
+
+def no_base(drawing: Drawing, number: int, mm: float) -> bool:
+    """True when twice the relative velocity, or the component, is too short to be seen."""
+    steps, values = drawing.trace.program.steps, drawing.trace.values
+    for user in sorted(drawing.trace.program.descendants(number)):
+        step = steps[user]
+        if step.action is not None and step.action.key == "coriolis-by-hand":
+            if user not in values:
+                return True
+            base, top = (values[arg] for arg in step.args[:2])
+            pivot = values[steps[steps[step.args[1]].args[1]].args[1]]
+            shortest = min(abs(top - base), abs(base - pivot))
+            return bool(shortest * mm < TINY)
+    return False
