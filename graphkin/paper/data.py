@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 from graphkin.paper.amounts import written
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.lines import axis_of
 from graphkin.paper.pairs import closures, of_guide, tracks, wheels
+from graphkin.paper.relation import figure
 from graphkin.paper.richtext import escape
-from graphkin.paper.settings import after_parameter, lone, other_parameters
+from graphkin.paper.settings import after_parameter, other_parameters
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.model import (
     FRAME,
@@ -33,12 +35,12 @@ def given(drawing: Drawing) -> list[str]:
         *(piece for driver in scene.drivers for piece in of_driver(scene, words, driver)),
         *lengths(scene, words),
         *fixed_points(scene, words),
-        *plates(scene, words),
+        *plates(drawing),
         *sides(scene, words),
         *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
         *wheels(scene, words),
-        *tracks(scene, words),
-        *closures(scene, words),
+        *tracks(drawing),
+        *closures(drawing),
         *of_scales(drawing),
         *(escape(note) for note in [scene.notes.get(words.language)] if note),
     ]
@@ -50,7 +52,7 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
     if scales.times != 1:
         yield words("page.enlarged", m=words.decimal(f"{scales.times:g}"))
     if scales.apart:
-        yield words("page.apart", ka=words.significant(scales.ka / 1000, 5))
+        yield words("page.apart", ka=figure(drawing, scales.ka / 1000))
 
 
 def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
@@ -84,9 +86,7 @@ def with_sense(
     if value > 0:
         size, key = after_parameter(scene, words, quantity), "page.turning_anticlockwise"
     else:
-        name, size = lone(scene, quantity), written(scene, words, quantity).removeprefix(MINUS)
-        size = f"{MINUS}*{escape(name)}* = {size}" if name else size
-        key = "page.turning_clockwise"
+        size, key = written(scene, words, quantity).removeprefix(MINUS), "page.turning_clockwise"
     return f"{size}{tail}, {words(key)}"
 
 
@@ -115,8 +115,9 @@ def fixed_points(scene: Scene, words: Words) -> Iterator[str]:
             yield f"{coordinates(scene, words, placing)} {placing.x.unit}"
 
 
-def plates(scene: Scene, words: Words) -> Iterator[str]:
+def plates(drawing: Drawing) -> Iterator[str]:
     """Points of links that are given by coordinates or by an angle."""
+    scene, words = drawing.scene, drawing.words
     for link in (scene.frame, *scene.links.values()):
         fixed = link is scene.frame
         places = [placing for placing in link.placings if isinstance(placing, At)]
@@ -127,8 +128,8 @@ def plates(scene: Scene, words: Words) -> Iterator[str]:
             point = symbol(placing.point)
             if isinstance(placing, Polar):
                 key = "page.polar_frame" if fixed else "page.polar"
-                turn = written(scene, words, placing.angle)
-                yield words(key, bar=bar(placing.start, placing.point), angle=turn)
+                fields = {"bar": bar(placing.start, placing.point), "axis": axis_of(drawing, link)}
+                yield words(key, angle=written(scene, words, placing.angle), **fields)
             elif isinstance(placing, Angled):
                 turn = written(scene, words, placing.angle)
                 yield f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point} = {turn}"

@@ -87,14 +87,19 @@ def turned(drawing: Drawing, step: Step, letter: str, rate: str) -> Relation:
     kind = {"v": "", "a": "^ν" if rate == "ω" else "^τ"}[letter]
     square = "^2" if kind == "^ν" else ""
     size = value * value * length if square else value * length
-    where = "towards" if square else "square_to"
+    remark = drawing.words("calculation.square_to", bar=bar(p, q))
+    if square:
+        fields = {"p": symbol(p), "q": symbol(q)}
+        mm = drawing.words.fixed(1000 * size / drawing.scales.ka, 2)
+        remark = drawing.words("calculation.laid_off", drawn=mm, **fields)
     return Relation(
         symbol(f"{letter}_{index}{kind}"),
         f"{rate_symbol(drawing, step.args[3], rate)}{square}·{bar(p, q)}",
         f"{figure(drawing, value, 6)}{square}·{figure(drawing, length)}",
         answer(drawing, size),
         "m/s" if letter == "v" else "m/s^2",
-        drawing.words(f"calculation.{where}", p=symbol(p), q=symbol(q), bar=bar(p, q)),
+        remark,
+        over=(p, q),
     )
 
 

@@ -19,6 +19,7 @@ from graphkin.paper.naming import (
     way_of,
 )
 from graphkin.paper.pairs import heading
+from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import Plane, Step
 
@@ -56,6 +57,8 @@ def on_mechanism(
         case "arc-cuts-line":
             sense = step.extra[0] if step.extra else values[step.args[2]]
             return {"side": words(f"page.{heading(values[step.args[0]].along * sense)}")}
+        case "contact-on-track":
+            return {"g": escape(says["g"])}
         case "guide-back":
             return {"q": symbol(drawing.scene.links[says["g"]].points[0])}
         case "set-at" | "set-back":
@@ -101,13 +104,14 @@ def on_plan(
         case "turned-velocity":
             default = symbol(f"v_{index_of(drawing, says)}")
             found["vector"] = vector_of(drawing, step.args[0], number, default)
-            found["omega"] = rate_symbol(drawing, step.args[3])
+            found["omega"] = rate_of(drawing, step, says, "ω")
         case "centripetal":
             kind = "" if step.name else "^ν"
             found["vector"] = symbol(f"a_{index_of(drawing, says)}{kind}")
+            found["omega"] = rate_symbol(drawing, step.args[3])
         case "driven-tangential":
             found["vector"] = symbol(f"a_{index_of(drawing, says)}^τ")
-            found["epsilon"] = rate_symbol(drawing, step.args[3], "ε")
+            found["epsilon"] = rate_of(drawing, step, says, "ε")
         case "lay-off":
             found["vector"] = symbol(f"a_{says['i']}^ν")
         case "lay-off-coriolis" | "lay-back-coriolis":
@@ -117,6 +121,17 @@ def on_plan(
         case "similar-point":
             found |= figures(drawing, step, fields)
     return found
+
+
+def rate_of(drawing: Drawing, step: Step, says: Mapping[str, str], letter: str) -> str:
+    """The rate by which a vector is laid off; one that a trial plan tries is its link's."""
+    tried = drawing.number_of(step) in drawing.tags and "k" in says
+    named = drawing.trace.program.steps[step.args[3]].name in drawing.scene.links
+    return (
+        symbol(f"{letter}_{says['k']}")
+        if tried and not named
+        else rate_symbol(drawing, step.args[3], letter)
+    )
 
 
 def figures(drawing: Drawing, step: Step, fields: Mapping[str, str]) -> dict[str, str]:

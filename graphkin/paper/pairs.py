@@ -8,12 +8,13 @@ from math import degrees
 
 from graphkin.paper.amounts import written
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.lines import axis_of, straight
 from graphkin.paper.richtext import escape
 from graphkin.paper.settings import after_parameter
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.contacts import contact_letters
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
-from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.quantity import shortest
 from graphkin.text import MINUS, Words
 
 WHEELS = {
@@ -23,6 +24,13 @@ WHEELS = {
     (True, True): "page.ring_teeth",
 }
 """The sentences of wheels and of rings, without teeth and with them."""
+GUIDES = {
+    (False, False): "page.guide",
+    (False, True): "page.guide_beside",
+    (True, False): "page.slot",
+    (True, True): "page.slot_beside",
+}
+"""The sentences of blocks on guides and of pins in slots, on the line and beside it."""
 ROLLS = {
     (False, False): "page.rolls_wheel",
     (False, True): "page.meshes",
@@ -33,15 +41,12 @@ ROLLS = {
 
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
-    """Words for a block's guide, and for which of the two crossings it stands at."""
-    scene, words = drawing.scene, drawing.words
+    """Words for a block's guide, for which of the two crossings it stands at, and what is plus."""
     fields = {"point": symbol(link.points[0]), "way": which_way(drawing, link, slide)}
-    fields["offset"] = aside(drawing, slide)
-    if slide.along:
-        fields["line"] = bar(*slide.along)
-    else:
-        fields["line"] = straight(scene, words, slide)
-    return words("page.slot" if slide.pin else "page.guide", **fields)
+    fields["line"] = bar(*slide.along) if slide.along else straight(drawing, slide)
+    fields["positive"] = positive(drawing, link, slide)
+    beside = not slide.offset.is_zero()
+    return drawing.words(GUIDES[slide.pin, beside], **fields, **aside(drawing, slide))
 
 
 def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
@@ -55,34 +60,34 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
     return words("page.forward" if branch.way > 0 else "page.backward")
 
 
-def aside(drawing: Drawing, slide: Slide) -> str:
-    """Words for the distance that a block's point keeps from the line it slides along."""
-    if slide.offset.is_zero():
+def positive(drawing: Drawing, link: Link, slide: Slide) -> str:
+    """Words for the positive sense of a guide that the data or the answers count along."""
+    scene, words = drawing.scene, drawing.words
+    driven = any(d.kind == "slide" and d.link == link.name for d in scene.drivers)
+    if slide is not link.slides[0] or not (driven or link.name in scene.ask.slides):
         return ""
+    if slide.along:
+        p, q = (symbol(point) for point in slide.along)
+        return words("page.positive_along", p=p, q=q)
+    ways = (way.along for way in drawing.standing.guideways if way.slide is slide)
+    return "".join(counted_from(words, slide, way) for way in ways)
+
+
+def counted_from(words: Words, path: Slide | Rolling, way: complex) -> str:
+    """Words for where a line is counted from, and in which direction, as it stands."""
+    start = path.through
+    where = symbol(start) if isinstance(start, str) else words("page.that_point")
+    return words("page.positive", through=where, way=words(f"page.to_{heading(way)}"))
+
+
+def aside(drawing: Drawing, slide: Slide) -> dict[str, str]:
+    """How far a block's point stays from the line it slides along, and on which side."""
     words, line = drawing.words, drawing.guide(slide)
     amount = written(drawing.scene, words, slide.offset).removeprefix(MINUS)
     sign = 1 if float(slide.offset.si(drawing.scene.values)) > 0 else -1
     if line:
-        side = words(f"page.{heading(1j * line[1] * sign)}")
-    else:
-        side = words("page.left" if sign > 0 else "page.right")
-    return words("page.offset", offset=amount, side=side)
-
-
-def straight(scene: Scene, words: Words, path: Slide | Rolling) -> str:
-    """Words for a line of a link through a point at an angle to its axis."""
-    assert path.angle is not None and path.through is not None
-    fields = {"through": place(scene, words, path.through), "k": escape(path.on)}
-    fields["angle"] = words.decimal(path.angle.written(scene.values))
-    return words("page.line" if path.on == FRAME else "page.line_of", **fields)
-
-
-def place(scene: Scene, words: Words, through: str | tuple[Quantity, Quantity]) -> str:
-    """The name of a point, or its coordinates with their unit."""
-    if isinstance(through, str):
-        return symbol(through)
-    x, y = (words.decimal(q.written(scene.values)) for q in through)
-    return f"({x}; {y}) {through[0].unit}"
+        return {"offset": amount, "side": words(f"page.{heading(1j * line[1] * sign)}")}
+    return {"offset": amount, "side": words("page.left" if sign > 0 else "page.right")}
 
 
 def wheels(scene: Scene, words: Words) -> Iterator[str]:
@@ -118,45 +123,77 @@ def link_name(words: Words, name: str) -> str:
     return words("page.fixed") if name == FRAME else escape(name)
 
 
-def tracks(scene: Scene, words: Words) -> Iterator[str]:
+def tracks(drawing: Drawing) -> Iterator[str]:
     """What rolls on what in which point, and the start it counts from; that there is no slip."""
+    scene, words = drawing.scene, drawing.words
     letters = contact_letters(scene)
     for link in scene.links.values():
         for rolling, letter in zip(link.rolls, letters.get(link.name, ()), strict=True):
-            fields = {"k": escape(link.name), "start": start_of(scene, words, link, rolling)}
-            fields["touch"] = symbol(letter)
+            fields = {"k": escape(link.name), "touch": symbol(letter)}
             if rolling.angle is None:
                 toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
+                start = start_on_wheel(drawing, link, rolling)
                 key = ROLLS[rolling.on == FRAME, toothed]
-                yield words(key, other=escape(rolling.on), **fields)
+                yield words(key, other=escape(rolling.on), start=start, **fields)
             else:
-                side = words("page.beneath") if rolling.side < 0 else ""
+                fields["side"] = words("page.beneath") if rolling.side < 0 else ""
+                fields["start"] = start_on_track(drawing, link, rolling)
+                fields["positive"] = positive_track(drawing, link, rolling)
                 key = "page.rack" if any(w.teeth for w in link.wheels) else "page.rolls"
-                yield words(key, line=straight(scene, words, rolling), side=side, **fields)
+                yield words(key, line=straight(drawing, rolling), **fields)
     if any(link.rolls for link in scene.links.values()):
         yield words("page.no_slip")
 
 
-def start_of(scene: Scene, words: Words, link: Link, rolling: Rolling) -> str:
-    """Words for the angles at which a wheel touches its track where the track begins."""
-    start = rolling.start
-    if rolling.angle is None:
-        angles = [(name, start[name]) for name in start if not start[name].is_zero()]
-    else:
-        angles = [(link.name, start[link.name])] if link.name in start else []
-    text = [f"*φ*_{{{escape(name)}}} = {written(scene, words, angle)}" for name, angle in angles]
-    if rolling.angle is None:
-        return words("page.counted", angles=", ".join(text)) if text else ""
-    assert rolling.through is not None
-    said = ", ".join(text) or f"*φ*_{{{escape(link.name)}}} = 0°"
-    return words("page.start", through=place(scene, words, rolling.through), angles=said)
+def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for where a wheel touches a straight track at the start, and how it then stands."""
+    named, words = rolling.through, drawing.words
+    through = symbol(named) if isinstance(named, str) else words("page.that_point")
+    angles = stands(drawing, link, rolling)
+    return words("page.start", through=through, angles=angles)
 
 
-def closures(scene: Scene, words: Words) -> Iterator[str]:
-    """The numbers of the closures of groups of higher class."""
+def start_on_wheel(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for the angles of a wheel, of the one it rolls on and of their arm at the start."""
+    scene, found = drawing.scene, []
+    on = scene.link(rolling.on)
+    centres = {wheel.centre for each in (link, on) for wheel in each.wheels}
+    for each in scene.links.values():
+        arm = len(centres & set(each.points)) > 1
+        if each.name in (link.name, on.name) or arm:
+            found.append(stands(drawing, each, rolling))
+    return drawing.words("page.counted", angles=drawing.words("list_mark").join(found))
+
+
+def stands(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for the angle of a link where a rolling starts; nought where none is written."""
+    angle = rolling.start.get(link.name)
+    turn = written(drawing.scene, drawing.words, angle) if angle else "0°"
+    return drawing.words("page.stands", axis=axis_of(drawing, link), angle=turn)
+
+
+def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for the positive sense of a track along which a driver rolls a wheel."""
+    if not any(d.kind == "roll" and d.link == link.name for d in drawing.scene.drivers):
+        return ""
+    touches = (touch for touch in drawing.standing.touches if touch.rolling is rolling)
+    return "".join(counted_from(drawing.words, rolling, touch.along) for touch in touches)
+
+
+def closures(drawing: Drawing) -> Iterator[str]:
+    """Which of the ways in which a group of higher class closes is meant."""
+    scene, steps = drawing.scene, drawing.trace.program.steps
+    groups = [step.says["list"] for step in steps if step.action and step.action.key == "close"]
     for name, branch in scene.branches.items():
         if isinstance(branch, Closure):
-            yield words("page.closure", k=escape(name), number=str(branch.number))
+            links = next(links for links in groups if name in links.split(", "))
+            first = next(link for link in scene.links.values() if link.name in links.split(", "))
+            yield drawing.words(
+                "page.closure",
+                list=escape(links),
+                number=str(branch.number),
+                axis=axis_of(drawing, first),
+            )
 
 
 def heading(way: complex) -> str:

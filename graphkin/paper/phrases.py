@@ -9,6 +9,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.gaps import LAID_OFF, fields_of
 from graphkin.paper.naming import NAUGHT, beyond, drawn_between, is_driven
 from graphkin.paper.symbolic import symbol
+from graphkin.scene.model import FRAME
 from graphkin.steps.program import Part, Plane, Step
 
 LINES = (
@@ -153,6 +154,8 @@ def mechanism_key(drawing: Drawing, step: Step, key: str) -> str:
         return "guide" if ways == 1 and scene.links[step.says["g"]].slides else "guide-named"
     if key == "beside" and not scene.links[step.says["g"]].slides:
         return "beside-turned"
+    if key == "contact-on-track" and step.says["g"] != FRAME:
+        return "contact-on-track-of"
     if key == "mark-off" and is_lever(drawing, step.args[0]):
         return "mark-off-lever"
     if key == "step-along" and beyond(drawing, step):
@@ -185,18 +188,27 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     if key == "similar-point" and in_line(drawing, step):
         return "similar-in-line"
     if key == "centripetal" and not step.name:
-        return "lay-off"
+        return "lay-off-none" if is_short(drawing, number) else "lay-off-computed"
     if key == "lay-off" and step.name:
         return "lay-off-named"
-    if key in LAID_OFF and drawn_between(drawing, step.args[0], number, step.plane) < NAUGHT:
-        at_end = not step.says["s"] or key == "driven-tangential"
+    alone = key == "driven-tangential" and is_short(drawing, step.args[0])
+    if key in LAID_OFF and is_short(drawing, number):
+        at_end = not step.says["s"] or (key == "driven-tangential" and not alone)
         return "falls-end" if at_end else "falls"
+    if alone:
+        return "driven-tangential-only"
     if key == "driven-slide" and not step.says["s"]:
         return "driven-slide-end"
     if key in ("turned-velocity", "centripetal"):
         as_long = drawing.scales.as_crank(drawing.kind) and is_driven(drawing, step.args[3])
         return key if as_long else f"{key}-scaled"
     return key
+
+
+def is_short(drawing: Drawing, number: int) -> bool:
+    """True for a vector that is laid off from a point of a plan and is nought."""
+    step = drawing.trace.program.steps[number]
+    return drawn_between(drawing, step.args[0], number, step.plane) < NAUGHT
 
 
 def in_line(drawing: Drawing, step: Step) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from graphkin.paper.bodies import Disc
 from graphkin.paper.data import driver_index
@@ -27,7 +28,7 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
     A link that turns as another does comes after that one.
     """
     found = list(of_links(drawing))
-    names = {relation.left for relation in found}
+    names = names_of(found)
     waiting: list[Relation] = []
     for relation in found:
         names.discard(relation.left)
@@ -36,7 +37,15 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
             continue
         yield relation
         yield from (other for other in waiting if other.symbols == relation.left)
-    yield from of_gears(drawing)
+    for relation in of_gears(drawing):
+        again = drawing.words("calculation.willis") if relation.left in names_of(found) else ""
+        remark = "; ".join(filter(None, (relation.remark, again)))
+        yield replace(relation, remark=remark)
+
+
+def names_of(found: Sequence[Relation]) -> set[str]:
+    """The symbols that some relations give."""
+    return {relation.left for relation in found}
 
 
 def of_links(drawing: Drawing) -> Iterator[Relation]:
@@ -78,7 +87,7 @@ def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) 
     size = abs(float(drawing.trace.values[drawing.number_of(step)])) * length
     size = 0.0 if drawing.turning(step.name) == 0 else size
     figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
-    return Relation(name, f"{relative}/{bar(p, q)}", figures, *tail)
+    return Relation(name, f"{relative}/{bar(p, q)}", figures, *tail, over=(p, q))
 
 
 def by_trials(

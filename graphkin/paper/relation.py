@@ -14,7 +14,8 @@ DIGITS = 5
 class Relation:
     """left = symbols = figures = result unit, remark; ``more`` are further words after ``left``.
 
-    ``equals``: what stands before a result, nothing where it is said in words.
+    ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
+    of the length that it takes.
     """
 
     left: str
@@ -25,6 +26,7 @@ class Relation:
     remark: str = ""
     more: tuple[str, ...] = ()
     equals: str = "="
+    over: tuple[str, str] | None = None
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""

@@ -10,14 +10,16 @@ from collections.abc import Iterator, Sequence
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.equations import is_laid_off, of_equations
+from graphkin.paper.misses import Miss, driver_of, misses
 from graphkin.paper.naming import segment_of
 from graphkin.paper.outset import of_driver, of_scales
-from graphkin.paper.rates import of_sum, of_turning, within
+from graphkin.paper.rates import FINE, of_sum, of_turning, within
 from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.scale import digits
 from graphkin.paper.sliding import of_coriolis, of_rolling, of_slides
-from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.symbolic import TAGS, bar, symbol
 from graphkin.plane import Ratio, Vector
-from graphkin.steps.program import Part, Plane
+from graphkin.steps.program import Part, Plane, Step
 
 Section = tuple[str, list[Relation]]
 
@@ -32,7 +34,27 @@ def relations(drawings: Sequence[Drawing]) -> list[Section]:
     ]
     for drawing in drawings:
         sections += sections_of(drawing)
+    used = dict.fromkeys(each.over for _, found in sections for each in found if each.over)
+    measured = [r for p, q in used if (r := of_length(first, p, q)) is not None]
+    sections.insert(3, ("lengths", measured))
     return sections
+
+
+def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
+    """A length that is measured on the mechanism; None for one that the data tell."""
+    links = (drawing.scene.frame, *drawing.scene.links.values())
+    lengths = (each for link in links for how in link.placings for each in how.lengths())
+    if {p, q} in ({start, end} for start, end, _ in lengths):
+        return None
+    mm = 1000 * length_of(drawing, p, q) / drawing.scales.kL
+    return Relation(
+        bar(p, q),
+        "",
+        f"{drawing.words.decimal(digits(drawing.scales.kL))}·{drawn(drawing, mm)}",
+        answer(drawing, mm * drawing.scales.kL),
+        "mm",
+        drawing.words("calculation.measured"),
+    )
 
 
 def sections_of(drawing: Drawing) -> list[Section]:
@@ -48,6 +70,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
         ]
     return [
         ("normals_apart" if drawing.scales.apart else "normals", list(of_normals(drawing))),
+        ("normals_turning", list(of_rollings(drawing))),
         ("coriolis_components", list(of_coriolis(drawing))),
         ("accelerations", plan),
         ("spinning", turning),
@@ -110,18 +133,42 @@ def of_trials(drawing: Drawing) -> Iterator[Relation]:
     for number, step, value in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "share" or step.part is not part:
             continue
-        misses = [float(drawing.trace.values[arg]) for arg in step.args]
-        first, second = figure(drawing, misses[0]), within(drawing, misses[1])
-        users = (drawing.trace.program.steps[user] for user in drawing.children.get(number, ()))
-        names = [symbol(user.name) for user in users if user.plane is drawing.plane]
+        gaps = misses(drawing, step)
+        yield from of_gaps(drawing, step, gaps)
+        first, second = figure(drawing, gaps[0].size), within(drawing, gaps[1].size)
+        users = [user for user in drawing.children.get(number, ()) if is_point(drawing, user)]
+        steps = drawing.trace.program.steps
+        names = drawing.words("list_mark").join(symbol(steps[user].name) for user in users)
+        one, two = (symbol(steps[arg].name) for arg in steps[users[0]].args[:2])
+        ratio = f"{one}{symbol(steps[users[0]].name)}/{one}{two}"
         yield Relation(
             "*λ*",
             "*m*^1/(*m*^1 − *m*^2)",
             f"{first}/({first} − {second})",
             answer(drawing, float(value)),
             "",
-            drawing.words("calculation.divided", list=", ".join(names)),
+            drawing.words("calculation.divided", ratio=ratio, list=names),
         )
+
+
+def is_point(drawing: Drawing, number: int) -> bool:
+    """True for a step that finds a point of this sheet's plan."""
+    return drawing.trace.program.steps[number].plane is drawing.plane
+
+
+def of_gaps(drawing: Drawing, step: Step, gaps: tuple[Miss, Miss]) -> Iterator[Relation]:
+    """The gaps of two trials, read off the plan; of a driver less than what it gives."""
+    turns = "d" in step.says and driver_of(drawing, step).kind == "turn"
+    velocity = drawing.kind == "velocity"
+    unit = ("rad/s" if turns else "m/s") + ("" if velocity else "^2")
+    scale = (drawing.scales.kv if velocity else drawing.scales.ka) / 1000
+    for tag, gap in zip(TAGS.values(), gaps, strict=True):
+        length = gap.found if "d" in step.says else gap.size
+        mm = within(drawing, length / scale)
+        figures = figure(drawing, length, FINE) if turns else f"{figure(drawing, scale)}·{mm}"
+        less = f" − {within(drawing, gap.found - gap.size)}" if "d" in step.says else ""
+        name, size = f"*m*{tag}", answer(drawing, gap.size)
+        yield Relation(name, "", f"{figures}{less}", size, unit, gap.remark(drawing))
 
 
 def drawn(drawing: Drawing, millimetres: float) -> str:
@@ -133,8 +180,6 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
     """Each normal component: square of the relative velocity over the bar, and its drawn length."""
     ka = drawing.scales.ka
     for _, step, value in drawing.steps(Plane.NUMBERS):
-        if step.action is not None and step.action.key == "rolling-normal":
-            yield of_rolling(drawing, step, drawing.settled(abs(value)))
         if step.action is None or step.action.key != "normal":
             continue
         p, q, i = step.says["p"], step.says["q"], step.says["i"]
@@ -152,7 +197,15 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
                 q=symbol(q),
                 drawn=drawing.words.fixed(1000 * size / ka, 2),
             ),
+            over=(p, q),
         )
+
+
+def of_rollings(drawing: Drawing) -> Iterator[Relation]:
+    """Each normal component of a rolling point of contact, whose wheel's turning is known."""
+    for _, step, value in drawing.steps(Plane.NUMBERS):
+        if step.action is not None and step.action.key == "rolling-normal":
+            yield of_rolling(drawing, step, drawing.settled(abs(value)))
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:

@@ -8,10 +8,20 @@ from typing import Any
 from graphkin.paper.centre_words import with_centres_together
 from graphkin.paper.closing import closing_sentence, idle_sentences
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import amount, height_above, plan_amount, rate_symbol, vector_of, way_of
+from graphkin.paper.letters import letter_on
+from graphkin.paper.naming import (
+    NAUGHT,
+    amount,
+    height_above,
+    plan_amount,
+    rate_symbol,
+    vector_of,
+    way_of,
+)
 from graphkin.paper.phrases import SWINGS, point_sentence
 from graphkin.paper.richtext import escape
 from graphkin.paper.sentence import Sentence, in_one, together
+from graphkin.paper.stages import READ_OFF
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.trials import share_sentence, trial_sentence, with_trials_together
 from graphkin.steps.program import Part, Plane, Step
@@ -29,7 +39,7 @@ def sentences(drawing: Drawing) -> list[Sentence]:
     if not drawing.again:
         steps = drawing.trace.program.steps
         place = sum(said.step >= 0 and steps[said.step].part is Part.POSITION for said in found)
-        found[place:place] = [Sentence(-1, "idle", said) for said in idle_sentences(drawing)]
+        found[place:place] = idle_sentences(drawing)
     found += [
         Sentence(-1, curve.kind, drawing.words(f"step.{curve.kind}", of=symbol(curve.of)))
         for curve in drawing.curves
@@ -42,11 +52,20 @@ def sentences(drawing: Drawing) -> list[Sentence]:
 
 def read_off(drawing: Drawing) -> str:
     """What is read off at the end; how a link turns only where the sheet says that one does."""
-    words = drawing.words
-    spin = "omega" if drawing.kind == "velocity" else "epsilon"
+    words, velocity = drawing.words, drawing.kind == "velocity"
     turns = any(drawing.turning(link) is not None for link in drawing.scene.links)
-    turning = words(f"step.read-{spin}") if turns else ""
-    return words(f"step.read-{drawing.kind}", turning=turning)
+    turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
+    part = Part.VELOCITY if velocity else Part.ACCELERATION
+    set_on = [
+        symbol(step.says["symbol"])
+        for _, step, arrow in drawing.steps(Plane.MECHANISM)
+        if step.action and step.action.key in READ_OFF and step.part is part
+        if abs(arrow.tip - arrow.tail) * 1000 > NAUGHT * drawing.scales.kL
+    ]
+    named = words("list_mark").join(dict.fromkeys(set_on))
+    if not named:
+        return words("step.read-none", turning=turning)
+    return words("step.read-off", list=named, turning=turning)
 
 
 def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
@@ -165,6 +184,9 @@ def component_sentence(drawing: Drawing, number: int, step: Step, *, first: bool
     if step.action.key == "normal":
         if drawing.scales.apart:
             return Sentence(number, "ν by number", computed_normal(drawing, number, step))
+        if drawing.settled(abs(drawing.trace.values[number])) == 0:
+            fields = {"a": symbol(f"a_{step.says['i']}^ν"), "v": symbol("v_" + step.says["i"])}
+            return Sentence(number, "ν none", drawing.words("step.normal-none", **fields))
         markup = normal_sentence(drawing, step, first=first)
         return Sentence(number, "ν1" if first else "ν", markup)
     return Sentence(number, "c", coriolis_sentence(drawing, number, step, first=first))
@@ -179,9 +201,22 @@ def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
         "bar": bar(says["p"], says["q"]),
         "v": symbol("v_" + says["i"]),
         "a": symbol(f"a_{says['i']}^ν"),
-        "letter": symbol(says["q"].lower()),
     }
-    return drawing.words("step.normal" if first else "step.normal-again", **fields)
+    if not first:
+        return drawing.words("step.normal-again", **fields)
+    steps = drawing.trace.program.steps
+    assert step.by_hand is not None
+    end = steps[steps[step.by_hand].args[1]]
+    cut = steps[end.args[0]]
+    tip = steps[steps[cut.args[0]].args[0]]
+    corners = {"tip": tip, "cut": cut, "end": end}
+    letters = {key: corner_letter(drawing, corner) for key, corner in corners.items()}
+    return drawing.words("step.normal", **fields, **letters)
+
+
+def corner_letter(drawing: Drawing, step: Step) -> str:
+    """The letter of a triangle's corner as the sheet has it."""
+    return symbol(letter_on(drawing, step, 1000 / drawing.scales.kL))
 
 
 def computed_normal(drawing: Drawing, number: int, step: Step) -> str:
@@ -214,13 +249,15 @@ def coriolis_sentence(drawing: Drawing, number: int, step: Step, *, first: bool)
         return drawing.words("step.coriolis-none", **fields)
     if step.by_hand is None or step.by_hand not in values:
         return drawing.words("step.coriolis-computed", **fields)
-    base = steps[steps[step.by_hand].args[0]]
+    base, top = (steps[arg] for arg in steps[step.by_hand].args[:2])
     pivot, pin = base.says["p"], base.says["q"]
     fields |= {
         "p": symbol(pivot),
         "q": symbol(pin),
         "bar": bar(pivot, pin),
         "w": vector_of(drawing, *images_of_bar(drawing, step), symbol(f"v_{pin}")),
+        "e": corner_letter(drawing, base),
+        "f": corner_letter(drawing, top),
     }
     return drawing.words("step.coriolis" if first else "step.coriolis-again", **fields)
 

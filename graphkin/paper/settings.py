@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
@@ -16,14 +17,21 @@ from graphkin.text import Words
 
 
 def parameters(scene: Scene, words: Words) -> list[str]:
-    """All parameters as set, to tell one variant from another."""
-    return [parameter(scene, words, name) for name in scene.values]
+    """The parameters that are put into an expression, as set; the data tell what others give."""
+    return [parameter(scene, words, name) for name in scene.values if name in put_in(scene)]
 
 
 def other_parameters(scene: Scene, words: Words) -> list[str]:
-    """The parameters that no driver or length of the data shows by itself."""
+    """The parameters put into an expression that no driver or length shows by itself."""
     shown = {name for quantity in shown_quantities(scene) if (name := lone(scene, quantity))}
-    return [parameter(scene, words, name) for name in scene.values if name not in shown]
+    put = put_in(scene)
+    return [parameter(scene, words, name) for name in scene.values if name in put - shown]
+
+
+def put_in(scene: Scene) -> set[str]:
+    """The parameters that are put into an expression: those by which the drivers are reckoned."""
+    rates = (q for d in scene.drivers for q in (d.position, d.speed, d.acceleration))
+    return {name for rate in rates if not lone(scene, rate) for name in rate.uses()}
 
 
 def parameter(scene: Scene, words: Words, name: str) -> str:
@@ -35,12 +43,13 @@ def parameter(scene: Scene, words: Words, name: str) -> str:
 
 
 def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str = "") -> str:
-    """A quantity as printed, after the parameter that it is: a = 80 mm.
+    """A quantity as printed, after the parameter that it is where others hang on that: a = 80 mm.
 
     ``letter`` is the symbol that stands before it already.
     """
     name, text = lone(scene, quantity), written(scene, words, quantity).rstrip()
-    return f"*{escape(name)}* = {text}" if name and name != letter else text
+    told = name in put_in(scene) and name != letter
+    return f"*{escape(name)}* = {text}" if told else text
 
 
 def lone(scene: Scene, quantity: Quantity) -> str:
@@ -66,8 +75,11 @@ def shown_quantities(scene: Scene) -> Iterator[Quantity]:
 def unit_of(scene: Scene, name: str) -> str:
     """The unit of a parameter, where what grows as it does has one; nothing for a mere number.
 
-    A fixed length of which others are multiples has the unit of these.
+    A fixed length of which others are multiples has the unit of these, what is put into sines
+    that of angles.
     """
+    if any(is_angle(quantity.text, name) for quantity in quantities(scene)):
+        return scene.units["angle"]
     fixed = name in scene.parameters and scene.parameters[name].minimum is None
     units = {
         quantity.unit
@@ -76,6 +88,11 @@ def unit_of(scene: Scene, name: str) -> str:
         and (grows_alike(scene, quantity, name) or (fixed and is_multiple(scene, quantity, name)))
     }
     return units.pop() if len(units) == 1 else ""
+
+
+def is_angle(text: str, name: str) -> bool:
+    """Whether an expression takes the sine, cosine or tangent of just a parameter."""
+    return re.search(rf"\b(?:sin|cos|tan)\(\s*{re.escape(name)}\s*\)", text) is not None
 
 
 def grows_alike(scene: Scene, quantity: Quantity, name: str) -> bool:

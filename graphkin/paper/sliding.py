@@ -57,6 +57,7 @@ def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
             q=symbol(p),
             drawn=drawing.words.fixed(1000 * size / drawing.scales.ka, 2),
         ),
+        over=(p, q),
     )
 
 

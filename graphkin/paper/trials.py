@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from graphkin.paper.data import driver_index
 from graphkin.paper.drawing import TAGS, Drawing
-from graphkin.paper.naming import plan_amount, way_of
+from graphkin.paper.misses import Miss, driver_of, misses, on_paper, ratio
+from graphkin.paper.naming import way_of
 from graphkin.paper.phrases import point_sentence
 from graphkin.paper.relation import figure
 from graphkin.paper.sentence import Sentence, in_one, together
-from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.symbolic import symbol
 from graphkin.paper.tables import sense
 from graphkin.steps.program import Step
 
@@ -61,31 +63,57 @@ def quantity(drawing: Drawing, size: float, unit: str) -> str:
 
 
 def share_sentence(drawing: Drawing, number: int, step: Step) -> str:
-    """What the trials miss, and the ratio in which the right plan divides every line of theirs."""
-    values, says = drawing.trace.values, step.says
-    share = figure(drawing, float(values[number]))
-    if "d" in says:
-        unit = rate_unit(drawing, says["d"])
-        sizes = [f"{figure(drawing, float(values[arg]))} {unit}" for arg in step.args]
-        return drawing.words("step.share-driver", first=sizes[0], second=sizes[1], share=share)
-    sizes = [plan_amount(drawing, float(values[arg]), drawing.plane) for arg in step.args]
-    fields = {"first": sizes[0], "second": sizes[1], "share": share}
-    if "g" in says:
-        return drawing.words("step.share-guide", guide=way_of(drawing, says["g"]), **fields)
-    return drawing.words("step.share-bar", bar=bar(says["p"], says["q"]), **fields)
+    """What the trials miss: between which points the gaps are measured, and how large they are."""
+    first, second = misses(drawing, step)
+    if "d" in step.says:
+        return driver_sentence(drawing, step, first, second)
+    mm = on_paper(drawing)
+    sizes = [drawing.words.fixed(abs(gap.size) * mm, 2) for gap in (first, second)]
+    fields = {
+        "one": first.point,
+        "two": second.point,
+        "first": sizes[0],
+        "second": sizes[1],
+        "side": drawing.words(
+            f"step.gap-{'alike' if first.size * second.size > 0 else 'opposite'}"
+        ),
+    }
+    line, other = first.line(drawing), second.line(drawing)
+    if line == other:
+        return drawing.words("step.share-line", locus=line, **fields)
+    return drawing.words("step.share-lines", locus=line, other=other, **fields)
 
 
-def rate_unit(drawing: Drawing, link: str) -> str:
-    """The unit of what a driver gives on this sheet."""
-    driver = next(driver for driver in drawing.scene.drivers if driver.link == link)
-    unit = "rad/s" if driver.kind == "turn" else "m/s"
-    return unit if drawing.kind == "velocity" else f"{unit}^2"
+def driver_sentence(drawing: Drawing, step: Step, first: Miss, second: Miss) -> str:
+    """What the trials miss of what a driver gives, in mm of the plan or in its rate."""
+    driver, given = driver_of(drawing, step), first.found - first.size
+    sizes = {
+        "a": first.found,
+        "b": second.found,
+        "given": given,
+        "first": first.size,
+        "second": second.size,
+    }
+    if driver.kind == "turn":
+        letter, unit = ("ω", "rad/s") if drawing.kind == "velocity" else ("ε", "rad/s^2")
+        fields = {key: figure(drawing, size) for key, size in sizes.items()}
+        what = f"*{letter}*_{{{driver_index(driver)}}}"
+        return drawing.words("step.share-turn", what=what, unit=unit, **fields)
+    mm = on_paper(drawing)
+    fields = {key: drawing.words.fixed(size * mm, 2) for key, size in sizes.items()}
+    return drawing.words(
+        "step.share-slide",
+        guide=way_of(drawing, driver.link),
+        one=first.point,
+        two=second.point,
+        **fields,
+    )
 
 
 def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
     """The points that divide the lines of two trials said in one sentence."""
-    steps = drawing.trace.program.steps
-    crossed = any(is_divided(drawing, said, hand=True) for said in found)
+    steps, values = drawing.trace.program.steps, drawing.trace.values
+    crossed = [said for said in found if is_divided(drawing, said, hand=True)]
     divided = [said for said in found if is_divided(drawing, said, hand=False)]
     if crossed:
         found = [said for said in found if said.name != "share"]
@@ -93,8 +121,16 @@ def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
         return found
     listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
     if not crossed:
-        return together(found, divided, drawing.words("step.divided", list=listed))
-    markup = drawing.words("step.divided-alike", list=listed)
+        number = divided[0].step
+        first, second = misses(drawing, steps[steps[number].args[2]])
+        mm = on_paper(drawing)
+        fields = ratio(drawing, number, first.size * mm, second.size * mm)
+        return together(found, divided, drawing.words("step.divided", list=listed, **fields))
+    number = crossed[-1].step
+    one, two = (values[arg] for arg in steps[number].args[:2])
+    part, mm = float(values[steps[number].args[2]]), abs(two - one) * on_paper(drawing)
+    fields = ratio(drawing, number, part * mm, (part - 1) * mm)
+    markup = drawing.words("step.divided-alike", list=listed, **fields)
     kept = [said for said in found if said not in divided]
     place = max(i for i, said in enumerate(kept) if is_divided(drawing, said, hand=True)) + 1
     return [*kept[:place], in_one(divided, "divided", markup), *kept[place:]]

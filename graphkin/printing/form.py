@@ -56,9 +56,12 @@ def form(
 def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
     """How numbers, senses and places are to be written, as far as the form has them, as markup."""
     kinds = {item.what for item in items}
+    slides = {item.quantity.startswith("slide") for item in items if item.what == "sense"}
     said = [words("form.numbers")]
-    if "sense" in kinds:
+    if False in slides:
         said.append(words("form.senses"))
+    if True in slides:
+        said.append(words("form.slides"))
     if "place" in kinds:
         said.append(words("form.places", pivot=symbol(pivot)))
     return tuple(said)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,6 +15,8 @@ HERE = Path(__file__).resolve().parent
 LANGUAGES = ("en", "it", "ro")
 MINUS = "\N{MINUS SIGN}"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+EUPHONIC = re.compile(r"(?<!\S)([ae]) (?=\*?(?i:\1))")
+"""The Italian words for "to" and "and" before a name or word that begins with their own vowel."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,8 @@ class Words:
 
     def __call__(self, key: str, **fields: object) -> str:
         """The sentence under a key, with its fields filled in. Raises KeyError when missing."""
-        return self.sentences[key].format_map(fields)
+        said = self.sentences[key].format_map(fields)
+        return EUPHONIC.sub(r"\1d ", said) if self.language == "it" else said
 
     def has(self, key: str) -> bool:
         """True when there is a sentence under a key."""

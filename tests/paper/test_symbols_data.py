@@ -11,7 +11,7 @@ from graphkin.paper.richtext import plain
 from graphkin.scaling import shown
 from graphkin.text import LANGUAGES, words
 from tests.paper.made_up import made_up
-from tests.paper.sheet_tools import mechanism_named
+from tests.paper.sheet_tools import drawings, mechanism_named
 
 SCENES = {
     "slides on moving links": (
@@ -29,15 +29,19 @@ Q-B = 200
 [links.4]
 C = [0, 0]
 slides = { on = 3, through = [20, 10], angle = 30, pin = true }
+[links.5]
+D = [0, 0]
+slides = { on = 3, along = "Q-B", offset = 8, pin = true }
 [[drivers]]
 turn = 1
 angle = 30
 speed = 2
 [branches]
 2 = "forward"
-3 = "closure 2"
+[ask]
+slides = [5]
 """,
-        {"O": 0j, "Q": -100j, "A": 40 + 0j, "B": 100j, "C": 30j},
+        {"O": 0j, "Q": -100j, "A": 40 + 0j, "B": 100j, "C": 30j, "D": 50j},
     ),
     "drivers of every kind": (
         """
@@ -124,17 +128,39 @@ def said(name: str, language: str = "en") -> list[str]:
     return [plain(piece) for piece in given(spoken)]
 
 
+def told(name: str) -> list[str]:
+    """The data of an example scene as plain text."""
+    return [plain(piece) for piece in given(drawings(name)[0])]
+
+
 def test_a_guide_on_a_moving_link_is_told_in_the_axes_of_that_link():
     found = said("slides on moving links")
-    assert (
-        "A slides along QB, 5 mm to the right of that line, the farther of the two places along it"
-        in found
+    beside = "A slides parallel to QB, 5 mm to the right of it"
+    assert f"{beside}, the farther of the two places along it" in found
+    slot = "pin C slides in a slot along the line of link 3 through (20; 10) mm at 30° to QB"
+    assert slot in found
+    beside = "pin D slides in a slot parallel to QB, 8 mm to the left of it (positive from Q to B)"
+    assert beside in found
+
+
+def test_a_guide_on_a_link_that_does_not_turn_is_told_in_the_axes_of_the_frame():
+    """The follower's axis points up, so its face lies at nought degrees, below its pin."""
+    found = told("mobility-cam")
+    face = "E slides along the line of link 3 through the point (0; −70) mm from F at 0°"
+    assert f"{face} to the x axis (positive from that point to the right)" in found
+    assert "B slides along the line of link 1 through A (positive from A to the right)" in told(
+        "rod-and-wheel"
     )
-    assert (
-        "pin C slides in a slot along a line of link 3 through (20; 10) mm, at 30° to its axis"
-        in (found)
-    )
-    assert "link 3 in closure 2 of its group" in found
+
+
+def test_a_guide_at_a_distance_says_parallel_to_what():
+    line = "the line through O at 0° to the x axis"
+    assert f"B slides parallel to {line}, 30 mm above it, to the right of A" in told("slider-crank")
+
+
+def test_a_closure_is_told_by_the_angle_that_it_is_counted_by():
+    closes = "of the ways in which links 2, 3, 4, 5 close take number 2"
+    assert f"{closes}, counted by the angle of PQ from 0° to 360°" in told("rapid-return")
 
 
 def test_every_driver_has_its_position_speed_and_acceleration_with_units():
@@ -157,8 +183,9 @@ def test_every_driver_has_its_position_speed_and_acceleration_with_units():
 def test_rolling_states_its_start_and_that_nothing_slips():
     found = said("drivers of every kind")
     assert "wheel 4: centre D, r = 20 mm" in found
-    rolls = "wheel 4 rolls in T on a line through O, at 10° to the x axis, on its right-hand side"
-    assert f"{rolls}, touching it at O when φ4 = 45°" in found
+    rolls = "wheel 4 rolls in T on the line through O at 10° to the x axis, on its right-hand side"
+    start = "touching it at O when the x axis of link 4 is at 45° (positive from O to the right)"
+    assert f"{rolls}, {start}" in found
     assert found.count("no slip is assumed: the position depends on the start") == 1
 
 
@@ -166,10 +193,10 @@ def test_gears_state_teeth_and_module_and_what_they_mesh_with():
     found = said("gears")
     assert "inner gear of the frame: centre O, z = 60, m = 4 mm" in found
     assert "gear planet: centre P, z = 20, m = 4 mm" in found
-    meshes = "gear planet meshes in T1 with the fixed gear, angles counted from φplanet = 90°"
-    assert meshes in found
-    assert "gear sun meshes in T2 with gear planet" in found
-    rack = "wheel pinion rolls in T3 on a line of link rack through B, at 0° to its axis"
+    meshes = "gear planet meshes in T1 with the fixed gear (starting position: OP is at 0°"
+    assert f"{meshes}, the x axis of link planet is at 90°)" in found
+    assert any(piece.startswith("gear sun meshes in T2 with gear planet") for piece in found)
+    rack = "wheel pinion rolls in T3 on the line of link rack through B at 0° to the x axis"
     assert any(piece.startswith(rack) for piece in found)
 
 
@@ -184,10 +211,9 @@ def test_the_data_can_be_said_in_every_language(name, language):
     assert len(found) == len(said(name)) and not [piece for piece in found if "{" in piece]
 
 
-def test_a_negative_speed_that_is_a_parameter_says_so():
+def test_a_negative_speed_is_told_by_its_magnitude_and_sense():
     mechanism = mechanism_named("gears-planet")
     verdict = proved(mechanism, shown(mechanism))
     (drawing, *_) = drawings_of(mechanism, verdict, language_of(mechanism, "en"))
     found = [plain(piece) for piece in given(drawing)]
-    assert "n = −50 rev/min" in found
-    assert "n1 = −n = 50 rev/min = constant, turning clockwise" in found
+    assert "n1 = 50 rev/min = constant, turning clockwise" in found

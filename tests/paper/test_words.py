@@ -312,6 +312,42 @@ acceleration = ["B"]
 omega = [2]
 slides = [3]
 """,
+    "rapid return whose upper guide turns": """
+[frame]
+O = [0, 0]
+G = [0, 160]
+[links.1]
+O-A = 48
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "P-Q" }
+[links.3]
+P-Q = 288
+[links.4]
+P = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[links.5]
+Q = [0, 0]
+slides = { on = 6, along = "G-H" }
+[links.6]
+G-H = 200
+[[drivers]]
+turn = 6
+angle = 10
+speed = 2
+acceleration = 3
+[[drivers]]
+turn = 1
+angle = 35
+speed = 6
+[branches]
+2 = "closure 2"
+[ask]
+velocity = ["P", "Q"]
+acceleration = ["P", "Q"]
+omega = [3]
+epsilon = [3]
+""",
     "crank with its own axes": """
 [frame]
 O = [0, 0]

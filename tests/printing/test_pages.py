@@ -18,13 +18,16 @@ from graphkin.paper.glyphs import measures
 from graphkin.paper.marks import Page, Text
 from graphkin.paper.richtext import plain
 from graphkin.printing.code import modules
-from graphkin.printing.form import form, quantity_of
+from graphkin.printing.form import advice, form, quantity_of
 from graphkin.printing.manifest import Variant, read_edition
 from graphkin.printing.personal import fits, lost, owner, shortened, writable
 from graphkin.printing.work import VIEWS, Order, Sheets, Wanted
 from graphkin.printing.work import make as made
 from graphkin.text import LANGUAGES, words
 from tests.printing.conftest import LAB, SCENE, write_class
+
+KINDS = {"senses", "slides"}
+"""What a form may tell of senses: of what turns, and of what slides."""
 
 
 @pytest.fixture(scope="module")
@@ -197,6 +200,15 @@ def test_a_place_that_cannot_be_drawn_says_so_and_not_that_it_is_small(edition):
     assert hints(page) == [words("en")("form.compute_place")]
     assert quantity_of(place) == "*J*_3"
     assert plain(words("en")("form.senses")) not in texts(page)
+
+
+def test_a_form_tells_the_senses_that_it_asks_for():
+    turns = Item("omega_3_sense", "sense", "*ω*_3", "", "omega", "3")
+    slides = Item("v_slide_2_sense", "sense", "*v*_{2/3}", "", "slide speed", "2")
+    spoken = words("en")
+    for asked, keys in (([turns], {"senses"}), ([slides], {"slides"}), ([turns, slides], KINDS)):
+        told = advice(asked, spoken, "")
+        assert {key for key in KINDS if spoken(f"form.{key}") in told} == keys
 
 
 def test_a_long_form_goes_on_on_further_pages(edition):

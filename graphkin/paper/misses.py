@@ -1,0 +1,109 @@
+"""What two trial plans miss: the gap of each, between which points, and how long on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.naming import scale_of, way_of
+from graphkin.paper.symbolic import bar, symbol
+from graphkin.scene.model import Driver
+from graphkin.steps.program import Step
+
+
+@dataclass(frozen=True, slots=True)
+class Miss:
+    """The gap of a trial: ``size`` from its ``point`` to the line ``locus``, on which it should be.
+
+    ``locus`` is the key of the words for that line, ``fields`` what fills their gaps. Where a
+    driver gives what is missed, ``found`` is what the trial has of it, in the plan as ``point``.
+    """
+
+    size: float
+    point: str = ""
+    locus: str = "given"
+    fields: Mapping[str, str] = field(default_factory=dict)
+    found: float = 0.0
+
+    def line(self, drawing: Drawing) -> str:
+        """The line on which the trial's point should be."""
+        return drawing.words(f"step.gap-{self.locus}", **self.fields)
+
+    def remark(self, drawing: Drawing) -> str:
+        """Between what the gap is measured, in few words; nothing where it is none of a plan."""
+        if not self.point:
+            return ""
+        return drawing.words(f"calculation.gap-{self.locus}", one=self.point, **self.fields)
+
+
+def misses(drawing: Drawing, share: Step) -> tuple[Miss, Miss]:
+    """The gaps of the two trials."""
+    first, second = (miss(drawing, number, share) for number in share.args)
+    return first, second
+
+
+def miss(drawing: Drawing, number: int, share: Step) -> Miss:
+    """The gap of one trial."""
+    steps, values = drawing.trace.program.steps, drawing.trace.values
+    step, size = steps[number], float(values[number])
+    if "d" in share.says:
+        found = float(values[step.args[0]])
+        if driver_of(drawing, share).kind == "turn":
+            return Miss(size, found=found)
+        _, start, image = (steps[arg] for arg in steps[step.args[0]].args)
+        along = symbol(start.name) + symbol(image.name)
+        if not start.name:
+            along = symbol(f"a_{start.says['i']}^r")
+        return Miss(size, along, found=found)
+    if "g" in share.says:
+        start, image = (steps[arg] for arg in step.args[1:])
+        return Miss(size, symbol(image.name), *along_guide(drawing, start, share))
+    return Miss(size, symbol(steps[step.args[3]].name), *across_bar(drawing, step))
+
+
+def driver_of(drawing: Drawing, share: Step) -> Driver:
+    """The driver that two trials do not meet."""
+    return next(d for d in drawing.scene.drivers if d.link == share.says["d"])
+
+
+def on_paper(drawing: Drawing) -> float:
+    """The millimetres of paper that a unit of the plan takes up."""
+    return 1000 / scale_of(drawing, drawing.plane)
+
+
+def along_guide(drawing: Drawing, start: Step, share: Step) -> tuple[str, dict[str, str]]:
+    """The line on which the point of a block should lie: parallel to its guide."""
+    fields = {"guide": way_of(drawing, share.says["g"])}
+    if start.name:
+        return "parallel", {**fields, "s": symbol(start.name)}
+    component = symbol(f"a_{start.says['i']}^c")
+    return "parallel-end", {**fields, "a": component, "s": symbol(start.says["s"])}
+
+
+def across_bar(drawing: Drawing, step: Step) -> tuple[str, dict[str, str]]:
+    """The line on which a pin should lie: square to its bar, at the end of a normal component."""
+    steps = drawing.trace.program.steps
+    p, q = (steps[arg].name for arg in step.args[:2])
+    fields = {"bar": bar(p, q), "s": symbol(steps[step.args[2]].name), "p": symbol(p)}
+    index = steps[step.args[4]].says.get("i")
+    if index is None:
+        return "square", fields
+    return "square-end", {**fields, "a": symbol(f"a_{index}^ν")}
+
+
+def ratio(drawing: Drawing, number: int, first: float, second: float) -> dict[str, str]:
+    """How a point divides the line of its two trials, and beyond which of them, if not between.
+
+    ``first`` and ``second`` are the gaps, or the parts of the line, of one sign on one side.
+    """
+    steps = drawing.trace.program.steps
+    one, two = (symbol(steps[arg].name) for arg in steps[number].args[:2])
+    point = symbol(steps[number].name)
+    parts = f"{one}{point} : {point}{two}"
+    sizes = " : ".join(drawing.words.fixed(abs(size), 2) for size in (first, second))
+    beyond = ""
+    if first * second > 0:
+        end = two if abs(first) > abs(second) else one
+        beyond = drawing.words("step.divided-beyond", end=end)
+    return {"ratio": f"{parts} = {sizes}", "beyond": beyond}
