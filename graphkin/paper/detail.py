@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import dist, hypot, sqrt
-from typing import NamedTuple
+from typing import NamedTuple, TypeGuard
 
+from graphkin.paper.crowd import HELPERS
 from graphkin.paper.doubt import segment_of
 from graphkin.paper.field import XY
 from graphkin.paper.free import Disc, free_disc
@@ -18,10 +19,12 @@ SHOWN = (*VECTORS, "construction", "link")
 """The classes of lines that a detail shows."""
 ENLARGED = (5, 10)
 """How many times a detail is enlarged."""
-RADIUS = 11.0
+RADIUS = 14.0
 """Radius of a detail circle in mm."""
 SEEN = 5.0
 """Length in mm that a part of a vector must have in a detail to be named there."""
+WHOLE = 6
+"""Priority of the name of a vector that lies whole in a detail."""
 TOO_SHORT = 0.5
 """Vectors shorter than this, in mm, are not worth a detail."""
 
@@ -45,9 +48,7 @@ class Source(NamedTuple):
 def source(marks: Sequence[Mark]) -> Source | None:
     """The place of a drawing's shortest vector worth a detail; None where there is none."""
     for mark in marks:
-        if not isinstance(mark, Line) or mark.cls.split()[0] not in VECTORS:
-            continue
-        if TOO_SHORT <= length_of(mark) < SHORT:
+        if is_vector(mark) and TOO_SHORT <= length_of(mark) < SHORT:
             times = ENLARGED[0] if length_of(mark) * ENLARGED[0] >= 4 else ENLARGED[1]
             return Source(((mark.x1 + mark.x2) / 2, (mark.y1 + mark.y2) / 2), times)
     return None
@@ -77,7 +78,7 @@ def parted(*boards: Board) -> list[tuple[list[Mark], list[Mark]]]:
             continue
         detail += circled(disc, spot.at, spot.times)
         part = enlarged_part(marks, spot.at, disc.at, spot.times)
-        part.labels = [*named(labels, spot.at, disc.at, spot.times)]
+        part.labels = [*named(labels, marks, spot.at, disc.at, spot.times)]
         detail += part.marks[:-1]
         enlarged.append((part, detail))
     places = spots_on([part for part, _ in enlarged], thorough=False)
@@ -160,19 +161,27 @@ def larger(point: XY, source: XY, place: XY, times: int) -> XY:
     )
 
 
-def named(labels: Sequence[Label], source: XY, place: XY, times: int) -> Iterator[Label]:
+def named(
+    labels: Sequence[Label], marks: Sequence[Mark], source: XY, place: XY, times: int
+) -> Iterator[Label]:
     """The names of the vectors and points of a small circle, those that lie whole in it first."""
     small = RADIUS / times
+    drawn = {m.name: ((m.x1, m.y1), (m.x2, m.y2)) for m in marks if is_vector(m)}
     for label in labels:
-        ends = segment_of(label)
+        ends = segment_of(label) or drawn.get(label.name)
         if ends is None:
             x, y = label.subject
             assert isinstance(x, float) and isinstance(y, float)
-            if dist((x, y), source) <= small:
+            if label.cls not in HELPERS and dist((x, y), source) <= small:
                 at = larger((x, y), source, place, times)
-                yield Label(label.markup, label.cls, at, 2.5, priority=1)
+                yield Label(label.markup, label.cls, at, 2.5, priority=label.priority)
         elif label.cls in VECTORS and (part := within(Line(*ends[0], *ends[1], ""), source, small)):
             first, last = (larger(end, source, place, times) for end in part)
             if part == ends or dist(first, last) >= SEEN:
-                whole = 2 if part == ends else 0
-                yield Label(label.markup, label.cls, (first, last), 2.5, priority=whole)
+                rank = WHOLE if part == ends else 0
+                yield Label(label.markup, label.cls, (first, last), 2.5, priority=rank)
+
+
+def is_vector(mark: Mark) -> TypeGuard[Line]:
+    """True for the line of a vector."""
+    return isinstance(mark, Line) and mark.cls.split()[0] in VECTORS

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from graphkin.paper.candidates import Subjects
 from graphkin.paper.clearance import Page
 from graphkin.paper.offers import CLOSE, Level, Offers
-from graphkin.paper.seats import Seats
+from graphkin.paper.seats import URGENT, Seats
 from graphkin.paper.shapes import NOWHERE, Box
 
 Point = tuple[float, float]
@@ -69,8 +69,8 @@ def place(
     ``lines`` are drawn segments x0, y0, x1, y1 and ``clearance`` is how far labels stay from
     them (one length or one for each line); ``boxes`` are taken rectangles xmin, ymin, xmax,
     ymax; no label leaves the rectangle ``field``, or its own one if there is one for each. A label
-    that is ``free`` touches nothing; one that is not is returned where it would like to be, which
-    comes sooner where the search need not be ``thorough``.
+    that is ``free`` touches nothing; one that is not is returned where it would like to be. Where
+    the search need not be ``thorough``, it ends as soon as all urgent labels have a place.
     """
     if not wishes:
         return []
@@ -80,7 +80,7 @@ def place(
     seats.settle(seats.order())
     seats.chase(seats.sorry(BAD), SHORT)
     seats.shift(seats.homeless())
-    if thorough:
+    if thorough or any(seats.fine[i] >= URGENT for i in seats.homeless()):
         _widen(seats)
     seats.settle(seats.sorry(0.2))
     return [_spot(offers, i, place) for i, place in enumerate(seats.pick)]

@@ -12,6 +12,8 @@ PUSH = 4.0  # what it is reckoned to cost, in mm, to push a label aside
 GAIN = 0.01  # mm that a chase must save in all to be kept
 WEAR = 4.0  # mm that a place costs more each time that it is taken in a chase
 
+URGENT = 2500.0  # the least fine, in mm, of labels that choose first
+
 Moves = tuple[tuple[int, int], ...]
 
 
@@ -26,9 +28,10 @@ class Seats:
         self.taken = 0
 
     def order(self) -> list[int]:
-        """Return the labels, those with few places first, then by priority."""
-        count = [len(menu) for menu in self.offers.menus]
-        return sorted(range(len(count)), key=lambda i: (count[i] > 7, -self.fine[i], count[i], i))
+        """Return the labels: the urgent ones, then those with few places, then by priority."""
+        count, fine = [len(menu) for menu in self.offers.menus], self.fine
+        first = [(fine[i] < URGENT, count[i] > 7, -fine[i], count[i], i) for i in range(len(fine))]
+        return [i for *_, i in sorted(first)]
 
     def sorry(self, limit: float) -> list[int]:
         """Return the labels that pay this much above their cheapest place, worst first."""

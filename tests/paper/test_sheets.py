@@ -229,13 +229,17 @@ def test_vectors_stand_above_bars_and_pins(page):
     assert not above, above
 
 
-def test_every_enlarged_detail_names_a_vector_in_it(page):
-    marks = page.marks["plan"]
-    large = [m for m in marks if isinstance(m, Circle) and m.cls == "detail" and m.r > 10]
-    names = [label.text for label in labels_of(marks) if not label.text.name]
-    for circle in large:
-        disc = shapely.Point(circle.cx, circle.cy).buffer(circle.r)
-        assert any(disc.contains(shapely.box(*reach(text))) for text in names)
+@pytest.mark.parametrize("field", ["mechanism", "plan"])
+def test_every_enlarged_detail_names_the_short_vector_that_it_is_for(page, field):
+    marks = page.marks[field]
+    named = {label.text.name: label.text.markup for label in labels_of(marks)}
+    free = [label.text for label in labels_of(marks) if not label.text.name]
+    circles = [m for m in marks if isinstance(m, Circle) and m.cls == "detail"]
+    for small, large in zip(circles[::2], circles[1::2], strict=True):
+        inside = [m for m in marks if is_vector(m) and within(m, reach(small))]
+        disc = shapely.Point(large.cx, large.cy).buffer(large.r)
+        told = {text.markup for text in free if disc.contains(shapely.box(*reach(text)))}
+        assert told & {named[m.name] for m in inside if m.name in named}
 
 
 def test_every_inset_names_both_ends_of_its_link_and_the_centre(page):
