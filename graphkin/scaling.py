@@ -190,16 +190,25 @@ def enlarged(
     lengths = lengths_of_longest(trials, own.kL)
     if not any(0 < length < SMALL for length in lengths):
         return None
-    most = min(LARGER[1], LONG / max(lengths))
-    steps = takewhile(lambda kv: kv <= own.kv / LARGER[0], preferred(own.kv / most, FINE))
-    rounded = (replace(own, seconds=own.kL / kv, from_driver=False) for kv in steps)
-    times = (replace(own, seconds=own.seconds * m, times=m) for m in TIMES if m <= most)
-    for larger in (*rounded, *times):
+    for seconds, times in larger_plans(own.kL, own.seconds, max(lengths)):
+        larger = replace(own, seconds=seconds, times=times, from_driver=times != 1)
         needs = extents(trials_of(mechanism, curves, larger))
         needed = fitting_scale(needs, WIDTH, HEIGHT + HEADROOM)
         if needed <= own.kL * (1 + 1e-12):
             return larger
     return None
+
+
+def larger_plans(kL: float, seconds: float, longest: float) -> Iterator[tuple[float, float]]:
+    """kL/kv of plans larger than a crank draws them, and how many times as large it says they are.
+
+    Those at a round kv come first, of which no crank says anything: once as large. ``longest`` is
+    the longest vector in mm.
+    """
+    own, most = kL / seconds, min(LARGER[1], LONG / longest)
+    for kv in takewhile(lambda kv: kv <= own / LARGER[0], preferred(own / most, FINE)):
+        yield kL / kv, 1.0
+    yield from ((seconds * times, times) for times in TIMES if times <= most)
 
 
 def pairs_of(

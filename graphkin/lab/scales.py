@@ -16,8 +16,8 @@ from graphkin.lab.extents import PLANES, Sketch, sketches
 from graphkin.loci import is_closer
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import HEIGHT, WIDTH
-from graphkin.paper.scale import FINE, preferred
-from graphkin.scaling import HEADROOM, LARGER, LITTLE, LONG, SMALL, scales
+from graphkin.paper.scale import preferred
+from graphkin.scaling import HEADROOM, LITTLE, SMALL, larger_plans, scales
 
 Array = Any
 Values = Mapping[str, Any]
@@ -166,24 +166,22 @@ def enlarged(
 ) -> Array:
     """kL/kv at which short plans are drawn larger where they fit, else as given.
 
-    As scaling.enlarged: the least round kv at which they do.
+    As scaling.enlarged: the largest plans that do.
     """
     import numpy as np
 
     found = seconds.copy()
     lengths = np.array([1000 * trial.largest / kL for trial in trials])
     short = ((lengths > 0) & (lengths < SMALL)).any(axis=0)
-    longest, own = lengths.max(axis=0), kL / seconds
-    waiting = np.flatnonzero(short)
-    times = np.minimum(LARGER[1], LONG / longest[waiting])
-    ladders = [preferred(float(kv), FINE) for kv in own[waiting] / times]
+    waiting, longest = np.flatnonzero(short), lengths.max(axis=0)
+    each = (map(float, column[waiting]) for column in (kL, seconds, longest))
+    ladders = [larger_plans(*one) for one in zip(*each, strict=True)]
     while len(waiting):
-        kv = np.array([next(ladder) for ladder in ladders])
-        on = kv <= own[waiting] / LARGER[0]
-        waiting, kv, ladders = waiting[on], kv[on], some(ladders, on)
+        larger = np.array([next(ladder, (np.nan, 1.0))[0] for ladder in ladders])
+        on = np.isfinite(larger)
+        waiting, larger, ladders = waiting[on], larger[on], some(ladders, on)
         if not len(waiting):
             break
-        larger = kL[waiting] / kv
         again = sketches(mechanism, taken(values, waiting), at(larger), triangles=triangles)
         fits = fitting(again, HEIGHT + HEADROOM) <= kL[waiting] * (1 + 1e-12)
         found[waiting[fits]] = larger[fits]
