@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -13,8 +14,8 @@ from graphkin.paper.stages import stage_of
 from graphkin.paper.style import NOW
 from graphkin.paper.symbolic import symbol
 
-TOGETHER = " ≡ "
-"""What stands between the letters of points that fall together."""
+TOGETHER = re.compile(" [≡≈] ")
+"""What stands between the letters of points that fall together, or as good as together."""
 AMONG = "; "
 """What stands between the notes at the foot of a field."""
 
@@ -58,7 +59,7 @@ def grown(
     subjects |= {m.step: m.x1 for _, m in timed if isinstance(m, Line) and is_leader(m)}
     keys = {m.markup: at for at, m in timed if isinstance(m, Text) and m.markup.endswith(")")}
     for appears, mark in timed:
-        if isinstance(mark, Text) and TOGETHER in mark.markup and mark.step is not None:
+        if isinstance(mark, Text) and TOGETHER.search(mark.markup) and mark.step is not None:
             stages = [telling[name] for name in mark.name.split()]
             yield from shared(mark, stage, stages, subjects[mark.step])
         elif isinstance(mark, Text) and mark.name == "note" and stage < appears:
@@ -78,8 +79,10 @@ def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Ite
     ``stages`` are those at which the letters appear, ``subject`` is where their leader or their
     point stands from left to right.
     """
-    parts = zip(mark.markup.split(TOGETHER), stages, strict=True)
-    markup = TOGETHER.join(part for part, appears in parts if appears <= stage)
+    letters, joints = TOGETHER.split(mark.markup), ["", *TOGETHER.findall(mark.markup)]
+    every = zip(joints, letters, stages, strict=True)
+    seen = [(joint, letter) for joint, letter, appears in every if appears <= stage]
+    markup = "".join(letter if i == 0 else joint + letter for i, (joint, letter) in enumerate(seen))
     if markup:
         whole, width = (extent(each, mark.height)[0] for each in (mark.markup, markup))
         aside = min(max(subject - mark.x - width / 2, 0.0), whole - width)

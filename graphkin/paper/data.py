@@ -50,7 +50,8 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
     """What the scene says of the scale factors of the plans, so that a student can follow it."""
     scales, words = drawing.scales, drawing.words
     if scales.times != 1:
-        yield words("page.enlarged", m=words.decimal(f"{scales.times:g}"))
+        m = scales.times ** (2 if drawing.kind == "acceleration" else 1)
+        yield words(f"page.enlarged_{drawing.kind}", m=words.decimal(f"{m:g}"))
     if scales.apart:
         yield words("page.apart", ka=figure(drawing, scales.ka / 1000))
 

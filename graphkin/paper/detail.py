@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import dist, hypot, sqrt
 from typing import NamedTuple, TypeGuard
 
@@ -12,6 +13,7 @@ from graphkin.paper.field import XY
 from graphkin.paper.free import Disc, free_disc
 from graphkin.paper.labels import Board, Label, free_ones
 from graphkin.paper.marks import Circle, Line, Mark, Text
+from graphkin.paper.plan import DOT
 from graphkin.paper.symbols import SHORT, VECTORS, head
 from graphkin.paper.together import finished, spots_on
 
@@ -79,6 +81,7 @@ def parted(*boards: Board) -> list[tuple[list[Mark], list[Mark]]]:
         detail += circled(disc, spot.at, spot.times)
         part = enlarged_part(marks, spot.at, disc.at, spot.times)
         part.labels = [*named(labels, marks, spot.at, disc.at, spot.times)]
+        part.marks[-1:-1] = dots(part.labels)
         detail += part.marks[:-1]
         enlarged.append((part, detail))
     places = spots_on([part for part, _ in enlarged], thorough=False)
@@ -133,7 +136,7 @@ def draw_part(board: Board, line: Line, source: XY, place: XY, times: int) -> No
     style = line.cls.split()[0]
     board.marks.append(Line(x0, y0, x1, y1, f"{style} detail"))
     whole = found[1] == (line.x2, line.y2)
-    if style != "construction" and whole and hypot(x1 - x0, y1 - y0) >= SHORT:
+    if style in VECTORS and whole and hypot(x1 - x0, y1 - y0) >= SHORT:
         board.marks.append(head((x0, y0), (x1, y1), style))
 
 
@@ -174,12 +177,21 @@ def named(
             assert isinstance(x, float) and isinstance(y, float)
             if label.cls not in HELPERS and dist((x, y), source) <= small:
                 at = larger((x, y), source, place, times)
-                yield Label(label.markup, label.cls, at, 2.5, priority=label.priority)
+                yield replace(label, subject=at, height=2.5, radius=DOT, name="", step=None)
         elif label.cls in VECTORS and (part := within(Line(*ends[0], *ends[1], ""), source, small)):
             first, last = (larger(end, source, place, times) for end in part)
             if part == ends or dist(first, last) >= SEEN:
                 rank = WHOLE if part == ends else 0
                 yield Label(label.markup, label.cls, (first, last), 2.5, priority=rank)
+
+
+def dots(labels: Sequence[Label]) -> Iterator[Mark]:
+    """The points of a detail whose letters are sought."""
+    for label in labels:
+        if segment_of(label) is None:
+            x, y = label.subject
+            assert isinstance(x, float) and isinstance(y, float)
+            yield Circle(x, y, DOT, f"point {label.cls} detail".replace("  ", " "))
 
 
 def is_vector(mark: Mark) -> TypeGuard[Line]:

@@ -18,6 +18,8 @@ from graphkin.steps.program import Plane, Step
 
 KINDS = {"ν": "normal", "τ": "tangential", "c": "coriolis", "r": "sliding"}
 """The looks of the components of an acceleration."""
+SAME = 0.01
+"""How near to each other, in mm, points of a plan stand that are told to be the same."""
 DOT = 0.7
 """Radius of a point of a plan in mm."""
 
@@ -105,12 +107,13 @@ def put_pole(desk: Desk, number: int, step: Step, value: Any) -> None:
 def name_point(
     desk: Desk, number: int, step: Step, at: XY, radius: float, look: str = "", height: float = 3.5
 ) -> None:
-    """The letter of a point; points that fall together share one label, o ≡ a."""
+    """The letter of a point; points that fall together share one label, o ≡ a or, nearly, o ≈ a."""
     board, look = desk.board, look or desk.colour
     for i, (x, y) in board.lettered.items():
-        if hypot(x - at[0], y - at[1]) < TINY:
-            label = board.labels[i]
-            together = f"{label.markup} ≡ {symbol(step.name)}"
+        apart = hypot(x - at[0], y - at[1])
+        if apart < TINY:
+            label, joint = board.labels[i], "≡" if apart < SAME else "≈"
+            together = f"{label.markup} {joint} {symbol(step.name)}"
             board.labels[i] = replace(label, markup=together, name=f"{label.name} {step.name}")
             return
     board.lettered[len(board.labels)] = at

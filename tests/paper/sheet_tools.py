@@ -279,7 +279,7 @@ class Labelled:
 
     def names(self) -> list[str]:
         """The names of what the label names: of several points where they fall together."""
-        shared = " ≡ " in self.text.markup
+        shared = " ≡ " in self.text.markup or " ≈ " in self.text.markup
         return self.text.name.split(" ") if shared else [self.text.name]
 
     def ink(self) -> BaseGeometry:

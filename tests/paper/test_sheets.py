@@ -109,7 +109,7 @@ def test_every_vector_point_and_pin_has_one_label_that_says_its_name(page):
         faults += [f"{field}: {name} is there {k} times" for name, k in counts.items() if k > 1]
         labels: dict[str, list[str]] = {}
         for label in page.labels(field):
-            said = page.meaning(field, label).split(" ≡ ")
+            said = re.split(" [≡≈] ", page.meaning(field, label))
             for name, word in zip(label.names(), said, strict=True):
                 labels.setdefault(name, []).append(word)
         for mark in subjects:
@@ -124,6 +124,11 @@ def test_every_vector_point_and_pin_has_one_label_that_says_its_name(page):
     assert len(left_out) <= 2, left_out
 
 
+def is_apart(mark):
+    """True for a mark of an inset or of an enlarged detail."""
+    return bool({"inset", "detail"} & {*mark.cls.split()})
+
+
 def named_marks(page: Drawn, field: str) -> list[Mark]:
     """The vectors, points, poles, pins and centres of a field."""
     circles = ("point", "pole", "pin", "centre")
@@ -131,7 +136,7 @@ def named_marks(page: Drawn, field: str) -> list[Mark]:
         mark
         for mark in page.marks[field]
         if is_vector(mark)
-        or (isinstance(mark, Circle) and kind_of(mark) in circles and "inset" not in mark.cls)
+        or (isinstance(mark, Circle) and kind_of(mark) in circles and not is_apart(mark))
     ]
 
 
@@ -240,6 +245,12 @@ def test_every_enlarged_detail_names_the_short_vector_that_it_is_for(page, field
         disc = shapely.Point(large.cx, large.cy).buffer(large.r)
         told = {text.markup for text in free if disc.contains(shapely.box(*reach(text)))}
         assert told & {named[m.name] for m in inside if m.name in named}
+
+
+def test_only_vectors_have_heads(page):
+    """The end of a bar in an enlarged detail is no tip."""
+    heads = [m for marks in page.marks.values() for m in marks if kind_of(m) == "arrowhead"]
+    assert not [m for m in heads if m.cls.split()[1] in ("link", "construction")]
 
 
 def test_every_inset_names_both_ends_of_its_link_and_the_centre(page):
