@@ -93,8 +93,14 @@ def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Ite
 def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
     """Of the notes in a line at the foot those of vectors and key numbers that stand already."""
     parts = mark.markup.removesuffix(";").split(AMONG)
+    stands = [telling.get(of_note(part), stage + 1) <= stage for part in parts]
     for i, part in enumerate(parts):
-        of = part.partition(" ")[0].removesuffix(":")
-        if telling.get(of, stage + 1) <= stage:
+        if stands[i]:
             before = extent(AMONG.join(parts[: i + 1]), mark.height)[0]
-            yield replace(mark, x=mark.x + before - extent(part, mark.height)[0], markup=part)
+            ended = part + AMONG.rstrip() if any(stands[i + 1 :]) else part
+            yield replace(mark, x=mark.x + before - extent(part, mark.height)[0], markup=ended)
+
+
+def of_note(part: str) -> str:
+    """The symbol of a vector, or the key number, that a note begins with."""
+    return part.partition(" ")[0].removesuffix(":")

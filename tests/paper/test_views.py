@@ -191,7 +191,7 @@ def test_the_notes_at_the_foot_come_with_the_key_numbers_and_vectors_that_they_t
     assert [[mark.markup for mark in marks] for marks in notes[:3]] == [
         [],
         [first],
-        [first, second],
+        [f"{first};", second],
     ]
     assert without_now(notes[3][0]) == note
     assert notes[2][0].x == 10
