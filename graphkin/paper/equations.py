@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.paper.drawing import TAGS, Drawing
-from graphkin.paper.naming import index_of, is_driven, rate_symbol, vector_of, way_of
+from graphkin.paper.naming import arrow_of, index_of, is_driven, rate_symbol, vector_of, way_of
 from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import bar, symbol
-from graphkin.steps.program import Step
+from graphkin.steps.program import CONTACT, Plane, Step
 
 
 def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
@@ -165,6 +166,47 @@ def touching(drawing: Drawing, step: Step) -> Relation:
     """Where wheels touch their accelerations differ along the common normal only."""
     normal = bar(step.says["p"], step.says["q"])
     return Relation(drawing.words("calculation.touching", bar=normal, s=symbol(step.says["s"])))
+
+
+def of_contacts(drawing: Drawing) -> Iterator[Relation]:
+    """The velocities at contacts that the plan holds by another name, for nothing slips there."""
+    if drawing.kind != "velocity":
+        return
+    for contact, index, (tail, tip), key in at_contacts(drawing):
+        arrow = arrow_of(drawing, tail, tip)
+        if arrow is None or arrow.says["symbol"] == f"v_{index}":
+            continue
+        name = symbol(arrow.says["symbol"])
+        size = drawing.settled(abs(drawing.trace.values[tip] - drawing.trace.values[tail]))
+        fields = {"contact": symbol(f"v_{contact}"), "v": name}
+        remark = drawing.words(f"calculation.{key}", **fields)
+        yield Relation(symbol(f"v_{index}"), name, "", answer(drawing, size), "m/s", remark)
+
+
+def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], str]]:
+    """The velocities at contacts that are used: contact, index, ends in the plan, what to say."""
+    targets, pole = drawing.trace.program.targets, -1
+    contacts = {found for (_, name), found in targets.items() if name.startswith(CONTACT)}
+    images = {
+        lettered(name): found for (what, name), found in targets.items() if what == "velocity"
+    }
+    for number, step, _ in drawing.steps(drawing.plane, Plane.NUMBERS):
+        p, q = step.says.get("p", ""), step.says.get("q", "")
+        match step.action.key if step.action else "":
+            case "pole":
+                pole = number
+            case "square-to" if "c" in step.says:
+                start = step.args[0]
+                yield p, p, (pole, start), "no_slip"
+                yield p, q + p, (start, images[q]), at_rest("contact_rests", start, pole)
+            case "omega" if step.args[1] in contacts:
+                key = at_rest("contact_rests_opposite", step.args[3], pole)
+                yield q, index_of(drawing, step.says), (step.args[2], step.args[3]), key
+
+
+def at_rest(key: str, image: int, pole: int) -> str:
+    """What to say of a contact that rests, or else that nothing slips."""
+    return key if image == pole else "no_slip"
 
 
 def is_laid_off(drawing: Drawing, step: Step) -> bool:

@@ -15,6 +15,7 @@ from graphkin.paper.scale import digits
 from graphkin.paper.settings import lone
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import sense
+from graphkin.scene.expression import CONSTANT
 from graphkin.scene.model import FRAME, Driver
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.steps.program import Plane
@@ -36,10 +37,11 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
         (f"{speed}{index}", driver.speed),
         (f"{rate}{index}", driver.acceleration),
     ):
-        if quantity.uses() and not lone(scene, quantity):
+        derived = "/dt" in quantity.text  # figures are put in only after it is derived
+        reckoned = quantity.uses() and not lone(scene, quantity)
+        if reckoned or (derived and not quantity.is_zero()):
             value = written(scene, words, quantity)
             amount, _, unit = value.partition(" ")
-            derived = "/dt" in quantity.text  # figures are put in only after it is derived
             figures = "" if derived else expression(drawing, quantity, values=True)
             yield Relation(
                 letter,
@@ -140,7 +142,7 @@ def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
     def replaced(match: re.Match[str]) -> str:
         name = match[0]
         if name not in known:
-            return name
+            return "π" if name == CONSTANT else name
         return drawing.words.decimal(shortest(known[name])) if values else f"*{escape(name)}*"
 
     parts = re.split(r"([A-Za-z_]\w*)", text)

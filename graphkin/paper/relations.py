@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.equations import is_laid_off, of_equations
+from graphkin.paper.equations import is_laid_off, of_contacts, of_equations
 from graphkin.paper.misses import Miss, driver_of, misses
 from graphkin.paper.naming import segment_of
 from graphkin.paper.outset import of_driver, of_scales
@@ -88,7 +88,7 @@ def of_plan(drawing: Drawing) -> list[Relation]:
     for rate, relation in of_equations(drawing):
         found += before_use(drawing, rate)
         found.append(relation)
-    found += [*of_trials(drawing), *read_off(drawing)]
+    found += [*of_trials(drawing), *read_off(drawing), *of_contacts(drawing)]
     return list(dict.fromkeys(found))
 
 

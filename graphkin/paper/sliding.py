@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import rate_symbol
+from graphkin.paper.naming import rate_symbol, vector_of
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import slid, slide_sense
@@ -62,9 +62,21 @@ def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
 
 
 def of_slides(drawing: Drawing) -> Iterator[Relation]:
-    """The motion of each block that is asked, along its guide: in its sense or against it."""
-    unit = "m/s" if drawing.kind == "velocity" else "m/s^2"
+    """The motion of each block that is asked: the vector of the plan along its guide, its sense."""
+    velocity = drawing.kind == "velocity"
+    what, unit = ("slide speed", "m/s") if velocity else ("slide acceleration", "m/s^2")
     for block, name, value in slid(drawing):
         size = drawing.settled(abs(value))
         remark = slide_sense(drawing, block, value) if size else ""
-        yield Relation(name, "", "", answer(drawing, size), unit, remark)
+        vector = along_guide(drawing, drawing.trace.program.targets[what, block])
+        yield Relation(name, vector, "", answer(drawing, size), unit, remark)
+
+
+def along_guide(drawing: Drawing, number: int) -> str:
+    """Markup of the vector of the plan that is the motion of a block along its guide."""
+    steps = drawing.trace.program.steps
+    _, tail, tip = steps[number].args
+    start = steps[tail]
+    if start.action is not None and start.action.key == "lay-off-coriolis":
+        return symbol(f"a_{start.says['i']}^r")  # it may be drawn from the other end
+    return vector_of(drawing, tail, tip)

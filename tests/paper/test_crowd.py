@@ -54,10 +54,10 @@ def notes(page: Page) -> str:
     ],
 )
 def test_a_crowded_position_is_drawn_with_every_point_named(name, setting):
-    for drawing, sheet in zip(
+    for drawing, handed in zip(
         drawings(name, **setting), hand_out(mechanism(name, **setting), language="en"), strict=False
     ):
-        labels = {mark.name for mark in sheet.pages[0].marks if isinstance(mark, Text)}
+        labels = {mark.name for mark in handed.pages[0].marks if isinstance(mark, Text)}
         letters = {part for label in labels for part in label.split()}
         assert set(drawing.scene.links) <= labels
         assert set(drawing.standing.positions) <= letters

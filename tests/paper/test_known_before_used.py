@@ -10,14 +10,19 @@ import pytest
 
 import graphkin
 from graphkin.handout import drawings_of
+from graphkin.paper.data import driver_index
 from graphkin.paper.relation import Relation
 from graphkin.paper.relations import relations
 from graphkin.steps.solution import Verdict
 from graphkin.text import words
 
 SCENES = sorted((Path(__file__).parents[2] / "examples" / "scenes").glob("*.toml"))
-PINNED = [path for path in SCENES if "rolls" not in path.read_text(encoding="utf-8")]
-"""Those without wheels."""
+DRAWN = [path for path in SCENES if path.stem != "roller-plates"]
+"""Those that draw every vector of a rate, not only between two images of points of contact."""
+SLIDING = [path for path in SCENES if re.search(r"^slides = \[\d", path.read_text("utf-8"), re.M)]
+"""Those that ask what blocks do on their guides."""
+LAWS = [path for path in SCENES if path.stem in ("jumper", "excavator-absolute")]
+"""Those whose cranks turn by laws of time."""
 SYMBOL = re.compile(r"\*[vaωελ]\*(?:_(?:\{[^}]*\}|\w))?(?:\^\{?[νταcr]\}?)?")
 """A velocity, an acceleration, a rate, or the ratio of two trial plans."""
 
@@ -54,15 +59,69 @@ def test_what_a_relation_uses_is_found_before_it(path):
     assert not late
 
 
-@pytest.mark.parametrize("path", PINNED, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", DRAWN, ids=lambda p: p.stem)
 def test_the_vector_that_gives_a_rate_is_found_before_it(path):
-    """Where wheels roll it may be measured between two images of the point of contact."""
     whole = found_in(path)
     for place, relation in enumerate(whole):
         vector, over, _ = relation.symbols.partition("/")
         if relation.unit in ("rad/s", "rad/s^2") and over and re.match(r"\*[va]\*_", vector):
             known = {r.left for r in whole[:place]}
             assert vector in known, relation
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda p: p.stem)
+def test_the_vector_of_a_normal_component_is_found_before_it(path):
+    whole = found_in(path)
+    for place, relation in enumerate(whole):
+        vector, square, _ = relation.symbols.partition("^2/")
+        if relation.left.endswith("^{ν}") and square:
+            assert vector in {r.left for r in whole[:place]}, relation
+
+
+@pytest.mark.parametrize("path", SLIDING, ids=lambda p: p.stem)
+def test_what_a_block_does_on_its_guide_is_a_vector_found_before_it(path):
+    whole = found_in(path)
+    slides = [r for name, section in calculation(path) if name == "slides" for r in section]
+    assert len(slides) >= 2
+    for relation in slides:
+        before = whole[: whole.index(relation)]
+        assert relation.result in [r.result for r in before if r.left == relation.symbols]
+
+
+@pytest.mark.parametrize(
+    ("scene", "left", "symbols"),
+    [
+        ("rapid-return", "*v*_{2/3}", "*v*_{AA3}"),
+        ("rapid-return", "*a*_{2/3}", "*a*_{AA3}^{r}"),
+        ("oscillating-slide", "*a*_{2/3}", "*a*_{AA3}^{r}"),
+        ("crank-fixed-slot", "*v*_{3/0}", "*v*_{E}"),
+        ("gears-ring", "*v*_{T1,2P}", "*v*_{P}"),
+        ("gears-ring", "*v*_{QT1,2}", "*v*_{Q}"),
+        ("gears-ring", "*v*_{T2,3}", "*v*_{T2,2}"),
+    ],
+)
+def test_a_vector_by_another_name_is_said_to_be_so(scene, left, symbols):
+    whole = found_in(next(path for path in SCENES if path.stem == scene))
+    assert [r.symbols for r in whole if r.left == left] == [symbols]
+
+
+def test_a_contact_that_rests_is_why_the_centre_moves_against_it():
+    whole = found_in(next(path for path in SCENES if path.stem == "gears-ring"))
+    remarks = {r.left: r.remark for r in whole}
+    assert remarks["*v*_{QT1,2}"] == "*v*_{T1,2} = 0: no slip"
+    assert remarks["*v*_{T1,2P}"] == "opposite to *v*_{P}, for *v*_{T1,2} = 0: no slip"
+    assert remarks["*v*_{T2,3}"] == "no slip"
+
+
+@pytest.mark.parametrize("path", LAWS, ids=lambda p: p.stem)
+def test_every_rate_of_a_law_of_time_is_derived(path):
+    """With its whole law, in which pi is π, even where the rate is a mere number."""
+    derived = {r.left for r in found_in(path) if r.symbols.startswith("d")}
+    for driver in graphkin.load(path).scene.drivers:
+        index = f"_{{{driver_index(driver)}}}"
+        rates = {f"*ω*{index}": driver.speed, f"*ε*{index}": driver.acceleration}
+        assert {rate for rate, quantity in rates.items() if not quantity.is_zero()} <= derived
+    assert not any("pi" in r.symbols + r.figures for r in found_in(path))
 
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda p: p.stem)
