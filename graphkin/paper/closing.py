@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
@@ -24,6 +24,9 @@ def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
         driver = next(d for d in drawing.scene.drivers if d.link == says["d"])
         fields["what"] = angle_symbol(drawing.scene, driver)
         return drawing.words("step.close-driver", **fields)
+    drawn = links_drawn(drawing, says)
+    key = "step.close-links" if len(drawn) > 1 else "step.close-link"
+    fields["draw"] = drawing.words(key, list=escape(", ".join(drawn)))
     fields["q"] = symbol(says["q"])
     if "g" in says:
         return drawing.words("step.close-guide", guide=way_of(drawing, says["g"]), **fields)
@@ -32,6 +35,15 @@ def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
     fields |= {"p": symbol(says[fixed]), "q": symbol(says[moving])}
     key = "step.close-bar" if any(known) else "step.close-gap"
     return drawing.words(key, bar=bar(says["p"], says["q"]), **fields)
+
+
+def links_drawn(drawing: Drawing, says: Mapping[str, str]) -> list[str]:
+    """The links of a group that give the locus: all but the one that a pin or guide is cut off."""
+    links, names = drawing.scene.links, says["list"].split(", ")
+    ends = {says[end] for end in "pq" if end in says}
+    near = [says["g"], *(slide.on for slide in links[says["g"]].slides)] if "g" in says else names
+    cut = next(name for name in near if name in names and ends <= {*links[name].points})
+    return [name for name in names if name != cut]
 
 
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:

@@ -60,7 +60,8 @@ def on_mechanism(
         case "contact-on-track":
             return {"g": escape(says["g"])}
         case "guide-back":
-            return {"q": symbol(drawing.scene.links[says["g"]].points[0])}
+            angle = words.fixed(degrees(phase(values[drawing.number_of(step)].along)), 1)
+            return {"q": symbol(drawing.scene.links[says["g"]].points[0]), "angle": angle}
         case "set-at" | "set-back":
             return {"what": coordinate(drawing, step)}
         case "step-along":

@@ -152,6 +152,8 @@ def mechanism_key(drawing: Drawing, step: Step, key: str) -> str:
     if key in ("ray", "along-bar") and "g" in step.says:
         ways = sum(len(link.slides) + len(link.rolls) for link in scene.links.values())
         return "guide" if ways == 1 and scene.links[step.says["g"]].slides else "guide-named"
+    if key == "guide-back" and is_tried(steps[step.args[1]]):
+        return "guide-back-found"
     if key == "beside" and not scene.links[step.says["g"]].slides:
         return "beside-turned"
     if key == "contact-on-track" and step.says["g"] != FRAME:

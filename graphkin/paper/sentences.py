@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from graphkin.paper.centre_words import with_centres_together
 from graphkin.paper.closing import closing_sentence, idle_sentences
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.letters import letter_on
+from graphkin.paper.letters import is_coriolis, letter_on
 from graphkin.paper.naming import (
     NAUGHT,
     amount,
@@ -24,6 +24,7 @@ from graphkin.paper.sentence import Sentence, in_one, together
 from graphkin.paper.stages import READ_OFF
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.trials import share_sentence, trial_sentence, with_trials_together
+from graphkin.plane import cross
 from graphkin.steps.program import Part, Plane, Step
 
 COMPONENTS = ("normal", "coriolis")
@@ -242,34 +243,46 @@ def coriolis_sentence(drawing: Drawing, number: int, step: Step, *, first: bool)
         "v": symbol("v_" + step.says["i"]),
         "segment": "".join(symbol(steps[arg].name) for arg in step.args[1:]),
         "omega": rate_symbol(drawing, step.args[0]),
-        "k": escape(step.says["k"]),
         "drawn": plan_amount(drawing, size, Plane.ACCELERATIONS),
     }
     if drawing.settled(size) == 0:
         return drawing.words("step.coriolis-none", **fields)
     if step.by_hand is None or step.by_hand not in values:
         return drawing.words("step.coriolis-computed", **fields)
+    if not first:
+        return drawing.words("step.coriolis-again", **fields)
     base, top = (steps[arg] for arg in steps[step.by_hand].args[:2])
     pivot, pin = base.says["p"], base.says["q"]
     fields |= {
         "p": symbol(pivot),
         "q": symbol(pin),
         "bar": bar(pivot, pin),
-        "w": vector_of(drawing, *images_of_bar(drawing, step), symbol(f"v_{pin}")),
         "e": corner_letter(drawing, base),
         "f": corner_letter(drawing, top),
     }
-    return drawing.words("step.coriolis" if first else "step.coriolis-again", **fields)
+    line = leaning_line(drawing, steps[top.args[1]], fields)
+    return drawing.words("step.coriolis", line=line, **fields)
 
 
-def images_of_bar(drawing: Drawing, step: Step) -> tuple[int, int]:
-    """The images of the two points of a lever whose turning a Coriolis triangle shows."""
-    steps = drawing.trace.program.steps
-    assert step.by_hand is not None
-    top = steps[steps[step.by_hand].args[1]]
-    lean = steps[top.args[1]]
-    tip = steps[lean.args[3]]
-    return tip.args[1], tip.args[2]
+def leaning_line(drawing: Drawing, lean: Step, fields: Mapping[str, str]) -> str:
+    """The line that cuts f off: to the tip on the lever itself where every base lies on its own."""
+    end = drawing.trace.program.steps[lean.args[3]]
+    w = vector_of(drawing, end.args[1], end.args[2], symbol(f"v_{lean.says['q']}"))
+    drawn = [step for _, step, _ in drawing.mechanism_steps()]
+    if not all(is_along(drawing, step) for step in drawn if step.action is lean.action):
+        return drawing.words("step.coriolis-line", w=w, **fields)
+    alike = [step for step in drawn if step.action is end.action and step.args == end.args]
+    tips = [corner_letter(drawing, step) for step in alike if not is_coriolis(step)]
+    if not tips:
+        return drawing.words("step.coriolis-line-tip", w=w, **fields)
+    return drawing.words("step.coriolis-line-letter", tip=tips[0], **fields)
+
+
+def is_along(drawing: Drawing, lean: Step) -> bool:
+    """True where twice a relative velocity, set at the pivot, lies on the line of the lever."""
+    base, pivot, pin = (drawing.trace.values[arg] for arg in lean.args[:3])
+    beside = abs(cross(pin - pivot, base - pivot)) / abs(pin - pivot)
+    return bool(1000 * beside < NAUGHT * drawing.scales.kL)
 
 
 def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:

@@ -8,15 +8,21 @@ from math import degrees
 
 import pytest
 
+from graphkin.handout import drawings_of
+from graphkin.mechanism import Mechanism
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Text
 from graphkin.paper.relations import relations
 from graphkin.paper.richtext import plain
+from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import sentences
 from graphkin.paper.symbolic import symbol
+from graphkin.scene.read import read_text
 from graphkin.steps.program import Part, Plane
+from graphkin.steps.solution import Verdict
 from graphkin.text import words
+from tests.paper.made_up import HEAD
 from tests.paper.sheet_tools import SCENES, drawings, drawn, kinds_of, named
 
 LABS = [(lab, n) for lab in ("pump", "pump-collinear", "slotted-lever") for n in (1, 7, 20)]
@@ -33,11 +39,55 @@ NORMAL = re.compile(r"lay off [^;:]*?(\*a\*_\{[^}]*\}\^\{ν\})")
 BAR = re.compile(r"[/·]((?:\*[A-Z]\*(?:_\{[^}]*\})?){2})$")
 ARTICLES = re.compile(r"\b(?:a|da|di|su|in) (?:la|il|lo|le|gli|i) |\b(?:a|da|di|su) l['’]")
 CLASHING = re.compile(r"(?<!\S)(?:a A|a a|e E|e e)")
+WHEEL_AND_BAR = """
+[frame]
+A = [-250, 40]
+R = [0, 0]
+[links.1]
+A-D = 30
+[links.2]
+D-B = 210
+[links.3]
+C-B = 40
+wheel = { centre = "C", radius = 60 }
+rolls = { on = 0, through = "R", angle = 0, start = { 3 = 90 } }
+[[drivers]]
+turn = 1
+angle = 50
+speed = 5
+[branches]
+3 = "closure 1"
+"""
+DRIVEN_LEVER = """
+[frame]
+O = [0, 0]
+C = [120, 0]
+[links.1]
+O-A = 200
+[links.2]
+B = [0, 0]
+slides = { on = 1, along = "O-A" }
+[links.3]
+C-B = 90
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[branches]
+2 = "forward"
+"""
 
 
 @pytest.fixture(params=ALL, ids=named)
 def both(request) -> tuple[Drawing, ...]:
     return drawings(*request.param)
+
+
+def written(text: str, kind: int) -> list[Sentence]:
+    """The sentences of one sheet of a scene given as text."""
+    mechanism = Mechanism(read_text(HEAD + text, "written", None, {}))
+    verdict = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    return sentences(drawings_of(mechanism, verdict, words("en"))[kind])
 
 
 def all_said(found: tuple[Drawing, ...]) -> list[str]:
@@ -137,6 +187,69 @@ def test_the_gaps_of_the_trials_divide_the_line_as_the_sentence_says(name):
 def test_the_gap_of_a_trial_is_told_by_its_line_and_points(name, kind, gap):
     told = [plain(said.markup) for said in sentences(drawings(name)[kind])]
     assert any(said.startswith(gap) for said in told), told
+
+
+# --- closing and Coriolis ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "listed"),
+    [
+        ("stephenson-3-crank", "draw links 1, 3, 2 each time"),
+        ("stephenson-2-ternary", "draw links 2, 3, 4 each time"),
+        ("stephenson-2-binary", "draw links 1, 2, 4 each time"),
+        ("rapid-return", "draw links 2, 3, 4 each time"),
+        ("rod-and-wheel", "draw links 3, 2, 1 each time"),
+    ],
+)
+def test_the_link_that_is_cut_off_is_not_drawn_for_the_locus(name, listed):
+    (said,) = [one.markup for one in sentences(drawings(name)[0]) if one.name == "close"]
+    assert listed in said
+
+
+def test_a_link_that_gives_the_locus_alone_is_drawn_each_time():
+    (said,) = [one.markup for one in written(WHEEL_AND_BAR, 0) if one.name == "close"]
+    assert "move link 3 in steps, draw it each time and mark the locus of *B*" in said
+
+
+def test_a_guide_whose_direction_the_closing_gives_is_drawn_at_its_angle():
+    (drawing, _) = drawings("rapid-return")
+    told = [plain(said.markup) for said in sentences(drawing)]
+    way = degrees(phase(drawing.standing.spot("Q") - drawing.standing.spot("P")))
+    assert any(f"draw guide 2 at {way:.1f}° to the x axis" in said for said in told)
+
+
+@pytest.mark.parametrize(
+    ("name", "n", "line"),
+    [
+        ("slotted-lever", 7, "it is cut in f by the line O2a″3;"),
+        ("rod-and-wheel", None, "it is cut in f by the line Ab″1;"),
+        ("rapid-return-slider", None, "it is cut in f by the line Pq″;"),
+        ("oldham", None, "by the line from O1 that makes with O1eMM3 the angle which O1A makes"),
+    ],
+)
+def test_a_coriolis_triangle_whose_base_lies_on_the_lever_is_cut_by_the_tips_line(name, n, line):
+    drawing = drawings(name, n)[1]
+    told = [plain(said.markup) for said in sentences(drawing) if said.name == "c"]
+    assert line in told[0]
+
+
+@pytest.mark.parametrize("name", ["slotted-lever", "rod-and-wheel", "rapid-return-slider"])
+def test_the_corner_f_lies_on_the_line_to_the_tip(name):
+    drawing = drawings(name, None if name in SCENES else 7)[1]
+    values = drawing.trace.values
+    drawn = [step for _, step, _ in drawing.mechanism_steps() if step.action]
+    leans = [step for step in drawn if step.action.key == "coriolis-ray"]
+    assert leans
+    for lean in leans:
+        pivot, tip = values[lean.args[1]], values[lean.args[3]]
+        along = values[drawing.number_of(lean)].along
+        assert abs(((tip - pivot) / along).imag) < 1e-9 * abs((tip - pivot) / along)
+
+
+def test_a_driven_lever_whose_velocity_no_right_triangle_shows_has_no_letter_at_its_tip():
+    (said,) = [plain(one.markup) for one in written(DRIVEN_LEVER, 1) if one.name == "c"]
+    assert "it is cut in f by the line from O to the tip of vA, set at A;" in said
 
 
 # --- guides --------------------------------------------------------------------------------------
