@@ -412,7 +412,8 @@ LETTERS = """() => {
     const point = svg.querySelector(`circle[data-of="${text.dataset.of}"]:not([visibility])`);
     if (!point) continue;
     const [[x, y], [u, v]] = [text, point].map(middle);
-    const size = text.querySelector('tspan').getBoundingClientRect().height;
+    const letter = text.querySelector('tspan');  // its box is as high as whole pixels
+    const size = parseFloat(getComputedStyle(letter).fontSize) * letter.getScreenCTM().a;
     found[text.dataset.name] = [size, Math.hypot(x - u, y - v)];
   }
   return [svg.getScreenCTM().a, found];
