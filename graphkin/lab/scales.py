@@ -94,7 +94,6 @@ def by_arrays(mechanism: Mechanism) -> bool:
         and scene.sheet.ka is None
         and scene.sheet.enlarge is None
         and not (ask.curves or ask.centrodes)
-        and scene.sheet.enlarge is scene.sheet.ka is None
         and not any(link.wheels or link.rolls for link in links)
         and not any(step.action and is_closer(step.action.value) for step in steps)
         and not mechanism.trial_rates

@@ -117,11 +117,6 @@ def block(at: XY, way: XY, name: str, cls: str = "block") -> Mark:
     return polygon(tuple(across(at, way, *corner) for corner in corners), cls, name)
 
 
-def block_side(at: XY, way: XY) -> tuple[XY, XY]:
-    """The side of a block that its number stands at."""
-    return across(at, way, -3, -BLOCK[1] / 2), across(at, way, 3, -BLOCK[1] / 2)
-
-
 def slot(at: XY, way: XY, low: float, high: float, name: str) -> Mark:
     """A straight slot: two parallel lines with round ends, from ``low`` to ``high`` along it."""
     corners = []

@@ -2,34 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
 
 from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.carried import carried
 from graphkin.plans.pen import Pen, image, letter, second_image
 from graphkin.scene.model import FRAME
 from graphkin.steps.program import Part, Plane
-from graphkin.steps.vocabulary import alike, set_on, set_on_twice
+from graphkin.steps.vocabulary import Action, alike, set_on, set_on_twice
 
 
-def show_velocities(pen: Pen, tips: Iterable[str]) -> None:
-    """The velocities of driven tips and of what is asked, on the mechanism, and their arrows."""
-    asked = [constructed(pen, name, "velocity") for name in pen.scene.ask.velocity]
+class Kind(NamedTuple):
+    """What differs between velocities and accelerations."""
+
+    quantity: str
+    sign: str
+    plane: Plane
+    part: Part
+    action: Action  # that sets a vector on the mechanism
+    arrow: Callable[[Pen, str], None]  # from the pole of the plan
+
+
+VELOCITY = Kind(
+    "velocity",
+    "v",
+    Plane.VELOCITIES,
+    Part.VELOCITY,
+    set_on,
+    lambda pen, point: velocity_arrows(pen, point, None),
+)
+ACCELERATION = Kind(
+    "acceleration", "a", Plane.ACCELERATIONS, Part.ACCELERATION, set_on_twice, acceleration_arrow
+)
+
+
+def show(pen: Pen, kind: Kind, tips: Iterable[str]) -> None:
+    """The vectors of driven tips and of what is asked, on the mechanism, and their arrows."""
+    names: tuple[str, ...] = getattr(pen.scene.ask, kind.quantity)
+    asked = [constructed(pen, name, kind.quantity) for name in names]
     for point in asked:
-        if not stands_still(pen, point, "velocity", Plane.VELOCITIES):
-            velocity_arrows(pen, point, None)
+        if pen.the(kind.quantity, point) != pen.pole(kind.plane):  # as that of a fixed point is
+            kind.arrow(pen, point)
     for point in dict.fromkeys((*tips, *asked)):
-        set_velocity_on(pen, point)
-
-
-def show_accelerations(pen: Pen, tips: Iterable[str]) -> None:
-    """The accelerations of driven tips and of what is asked, in the same way."""
-    asked = [constructed(pen, name, "acceleration") for name in pen.scene.ask.acceleration]
-    for point in asked:
-        if not stands_still(pen, point, "acceleration", Plane.ACCELERATIONS):
-            acceleration_arrow(pen, point)
-    for point in dict.fromkeys((*tips, *asked)):
-        set_acceleration_on(pen, point)
+        set_on_mechanism(pen, kind, point)
 
 
 def constructed(pen: Pen, name: str, quantity: str) -> str:
@@ -57,24 +73,9 @@ def alike_image(pen: Pen, name: str, number: int) -> int:
         return pen.draw(alike, number, name=called, p=start, q=letter(name))
 
 
-def stands_still(pen: Pen, point: str, quantity: str, plane: Plane) -> bool:
-    """True for a point of the frame, whose image is the pole."""
-    return pen.the(quantity, point) == pen.pole(plane)
-
-
-def set_velocity_on(pen: Pen, point: str) -> None:
-    """The absolute velocity of a point, set on the mechanism."""
-    o = pen.pole(Plane.VELOCITIES)
-    ends = pen.the("position", point), o, pen.the("velocity", point)
-    with pen.on(Part.VELOCITY, Plane.MECHANISM):
-        symbol = f"v_{letter(point)}"
-        pen.arrow(set_on, *ends, pen.seconds(), name=symbol, symbol=symbol)
-
-
-def set_acceleration_on(pen: Pen, point: str) -> None:
-    """The absolute acceleration of a point, set on the mechanism."""
-    o = pen.pole(Plane.ACCELERATIONS)
-    ends = pen.the("position", point), o, pen.the("acceleration", point)
-    with pen.on(Part.ACCELERATION, Plane.MECHANISM):
-        symbol = f"a_{letter(point)}"
-        pen.arrow(set_on_twice, *ends, pen.seconds(), name=symbol, symbol=symbol)
+def set_on_mechanism(pen: Pen, kind: Kind, point: str) -> None:
+    """The absolute velocity or acceleration of a point, set on the mechanism."""
+    ends = pen.the("position", point), pen.pole(kind.plane), pen.the(kind.quantity, point)
+    with pen.on(kind.part, Plane.MECHANISM):
+        symbol = f"{kind.sign}_{letter(point)}"
+        pen.arrow(kind.action, *ends, pen.seconds(), name=symbol, symbol=symbol)

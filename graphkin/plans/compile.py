@@ -126,7 +126,7 @@ def write_velocities(pen: Pen, shapes: Shapes, standing: Standing) -> None:
     for link in pen.scene.links.values():
         if link.slides:
             velocity.sliding(pen, shapes, link.name)
-    asked.show_velocities(pen, tips(pen, standing))
+    asked.show(pen, asked.VELOCITY, tips(pen, standing))
 
 
 def move(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> None:
@@ -162,7 +162,7 @@ def write_accelerations(pen: Pen, shapes: Shapes, standing: Standing) -> None:
     for link in pen.scene.links.values():
         if link.slides:
             acceleration.sliding(pen, shapes, link.name)
-    asked.show_accelerations(pen, tips(pen, standing))
+    asked.show(pen, asked.ACCELERATION, tips(pen, standing))
 
 
 def accelerate(pen: Pen, shapes: Shapes, group: Group, found: tuple[Base, ...]) -> None:

@@ -239,7 +239,6 @@ def timed_marks(
             step, stage = step_of(sheet.drawing, mark), stage_of(sheet.drawing, mark, staged, own)
         else:
             stage = staged[step]
-        stage = len(own) - 1 if mark.name == DETAIL else stage
         found.append(Timed(mark, before + stage + 1 if stage >= 0 else 0, step))
     return tuple(found)
 

@@ -175,8 +175,9 @@ slides = { on = 0, through = "O", angle = 0 }
     assert [mark.x2 - mark.x1 for mark in rails] == pytest.approx([48, -48])
 
 
-def test_a_bar_slides_through_the_block_that_swivels_on_the_frame():
-    drawing = made_up(
+def swivelling_block():
+    """A crank whose bar slides through a block that turns about the frame's point C."""
+    return made_up(
         """
 [frame]
 O = [0, 0]
@@ -191,7 +192,10 @@ slides = { on = 2, along = "A-B" }
 """,
         {"O": 0j, "C": 90 - 30j, "A": 40j, "B": 40j + 150 * (90 - 70j) / abs(90 - 70j)},
     )
-    board, field = board_of(drawing)
+
+
+def test_a_bar_slides_through_the_block_that_swivels_on_the_frame():
+    board, field = board_of(swivelling_block())
     (block,) = of_kind(board, "block", "3")
     (bar,) = [mark for mark in of_kind(board, "link", "2") if line(mark).length > 10]
     assert middle(block) == pytest.approx(field(0.09 - 0.03j), abs=NEAR)
@@ -199,22 +203,7 @@ slides = { on = 2, along = "A-B" }
 
 
 def test_the_ground_that_bears_a_block_is_seen_through_it_as_far_as_the_pin():
-    drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-C = [90, -30]
-[links.1]
-O-A = 40
-[links.2]
-A-B = 150
-[links.3]
-C = [0, 0]
-slides = { on = 2, along = "A-B" }
-""",
-        {"O": 0j, "C": 90 - 30j, "A": 40j, "B": 40j + 150 * (90 - 70j) / abs(90 - 70j)},
-    )
-    board, field = board_of(drawing)
+    board, field = board_of(swivelling_block())
     (block,) = of_kind(board, "block", "3")
     at = field(0.09 - 0.03j)
     above = board.marks[board.marks.index(block) :]
