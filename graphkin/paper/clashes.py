@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.paper.shapes import (
+    HAIR,
     NOWHERE,
     Array,
     Index,
-    Mask,
     crossings,
-    meeting,
+    overlap,
+    pairs_of,
     segments,
     separation,
     where,
@@ -20,8 +22,8 @@ from graphkin.paper.shapes import (
 
 PAD = 0.6  # mm between a label and a taken box, a point, a leader or a label above or below it
 BESIDE = 1.2  # mm between labels side by side, so that they do not read as one
-APART = np.array([-BESIDE, -PAD, BESIDE, PAD])[:, None]
-WIDER = np.array([-PAD, -PAD, PAD, PAD])[:, None]
+APART = HAIR[:, :, 0] + np.array([-BESIDE, -PAD, BESIDE, PAD], dtype=np.float32)[:, None]
+WIDER = HAIR[:, :, 0] + np.array([-PAD, -PAD, PAD, PAD], dtype=np.float32)[:, None]
 
 
 class Places(NamedTuple):
@@ -65,7 +67,8 @@ class Clashes:
     def rows(self) -> list[int]:
         """Return for each place which others it rules out if a label sits there: bits of a number.
 
-        Places that were added since this was done last are now compared with all others.
+        Places that were added since this was done last are now compared with all others. What is
+        noted between places of the same label means nothing.
         """
         count, old = len(self.places.label), len(self.kept)
         if old < count:
@@ -80,52 +83,33 @@ class Clashes:
 
     def _compare(self, old: int) -> None:
         """Compare the places from a number on with all."""
-        label, x, y, hx, hy, _, leader = self.places
-        if label.min() == label.max():
-            return
-        box = np.array([x - hx, y - hy, x + hx, y + hy])
-        self._compare_boxes(box, old)
+        _, x, y, hx, hy, _, leader = self.places
+        box = np.array([x - hx, y - hy, x + hx, y + hy]).astype(np.float32)
+        self.table[old:] = overlap((box[:, old:] + APART)[:, :, None], box)
         led = where(leader[:, 0] < NOWHERE)
         if len(led):
             self._compare_leaders(box, led, old)
+        fresh = self.table[old:, old:]
+        fresh |= fresh.T
+        self.table[:old, old:] = self.table[old:, :old].T
 
-    def _compare_boxes(self, box: Array, old: int) -> None:
-        """Find the labels that come too near to each other: those from a number on to all."""
-        one, other = meeting(box[:, old:] + APART, box)
-        one, other = self._of_two(one + old, other, other < one + old)
-        _, x, y, hx, hy, *_ = self.places
-        near = np.abs(x.take(one) - x.take(other)) < hx.take(one) + hx.take(other) + BESIDE
-        near &= np.abs(y.take(one) - y.take(other)) < hy.take(one) + hy.take(other) + PAD
-        self._note(one, other, near)
-
-    def _compare_leaders(self, box: Array, led: Index, old: int) -> None:
+    def _compare_leaders(self, box: NDArray[np.float32], led: Index, old: int) -> None:
         """Find the leaders that run into labels or cross: those of places from a number on to all.
 
         ``led`` are the places with a leader.
         """
-        leader = self.places.leader
-        path = segments(leader)
-        way, new = path.take(led).boxes(), int(np.searchsorted(led, old))
-        fresh = meeting(box[:, old:] + WIDER, way)
-        late = meeting(box[:, :old] + WIDER, way[:, new:])
+        path, leader = segments(self.places.leader.take(led, axis=0)), self.places.leader
+        way, new = path.boxes().astype(np.float32), int(np.searchsorted(led, old))
+        wide = (box + WIDER)[:, :, None]
+        fresh = pairs_of(overlap(wide[:, old:], way))
+        late = pairs_of(overlap(wide[:, :old], way[:, new:]))
         one = np.concatenate([fresh[0] + old, late[0]])
-        other = led.take(np.concatenate([fresh[1], late[1] + new]))
-        one, other = self._of_two(one, other)
+        other = np.concatenate([fresh[1], late[1] + new])
         x, y, hx, hy = (column.take(one) for column in self.places[1:5])
-        self._note(one, other, separation(x, y, hx, hy, path.take(other)) < PAD)
-        one, other = meeting(way[:, new:], way)
-        one, other = self._of_two(led.take(one + new), led.take(other), other < one + new)
+        near = where(separation(x, y, hx, hy, path.take(other)) < PAD)
+        one, other = one.take(near), led.take(other.take(near))
+        self.table[np.maximum(one, other), np.minimum(one, other)] = True
+        one, other = pairs_of(overlap(way[:, new:, None] + HAIR, way))
+        one, other = led.take(one + new), led.take(other)
         crossed = crossings(leader.take(one, axis=0), leader.take(other, axis=0))
-        self._note(one, other, crossed)
-
-    def _of_two(self, one: Index, other: Index, some: Mask | bool = True) -> tuple[Index, Index]:
-        """Return the pairs, or some of them, that are places of two labels."""
-        label = self.places.label
-        at = where((label.take(one) != label.take(other)) & some)
-        return one.take(at), other.take(at)
-
-    def _note(self, one: Index, other: Index, clash: Mask) -> None:
-        """Note that these pairs of places rule each other out."""
-        at = where(clash)
-        one, other = one.take(at), other.take(at)
-        self.table[one, other] = self.table[other, one] = True
+        self.table[one, other] |= crossed

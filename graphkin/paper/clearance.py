@@ -205,10 +205,12 @@ class Page:
 
     def _doubt(self, some: Open) -> Array:
         """Return what places cost where a label may seem to name something else, or is cramped."""
-        far = np.maximum(ROOM, some.own + MARGIN.max())
-        place, shape = meeting(some.boxes(far), self.shapes.boxes(0.0))
+        far = np.maximum(ROOM, some.own)
+        more = np.maximum(MARGIN.max(axis=0), 0.0).take(self.kind)
+        place, shape = meeting(some.boxes(far), self.shapes.boxes(more))
         apart, label = self._apart(some, place, shape), some.label.take(place)
-        other = where((apart < far.take(place)) & ~self._is_own(label, shape))
+        near = apart < far.take(place) + more.take(shape)
+        other = where(near & ~self._is_own(label, shape))
         place, shape, label = place.take(other), shape.take(other), label.take(other)
         apart = apart.take(other)
         own, line = some.own.take(place), self.subjects.line.take(label)

@@ -63,6 +63,12 @@ class Drawing:
             if step.plane in planes:
                 yield number, step, value
 
+    @cached_property
+    def normals(self) -> tuple[tuple[int, Step], ...]:
+        """The steps of the triangles on the mechanism that were run."""
+        on_it = self.steps(Plane.MECHANISM)
+        return tuple((number, step) for number, step, _ in on_it if step.part is Part.NORMAL)
+
     def mechanism_steps(self) -> Iterator[tuple[int, Step, Any]]:
         """The steps that this sheet draws on the mechanism."""
         return iter(self.on_mechanism)

@@ -20,11 +20,7 @@ def letter_on(drawing: Drawing, step: Step, mm: float) -> str:
     if step.part is not Part.NORMAL or step.plane is not Plane.MECHANISM:
         return step.name
     base = step.name.partition("_")[0]
-    same = [
-        number
-        for number, other, _ in drawing.steps(Plane.MECHANISM)
-        if other.part is Part.NORMAL and other.name.partition("_")[0] == base
-    ]
+    same = [number for number, other in drawing.normals if other.name.partition("_")[0] == base]
     if is_coriolis(step):
         same = [number for number in same if not no_base(drawing, number, mm)]
     return base if len(same) == 1 else step.name

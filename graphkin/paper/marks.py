@@ -166,10 +166,16 @@ def numbers(mark: Mark) -> Iterator[float]:
 
 
 def fits(mark: Mark, width: float, height: float) -> bool:
-    """Tell at a glance that a line lies on a page, as most marks are lines; of others nothing."""
+    """Tell at a glance that a mark lies on a page; of those near its edge and of texts nothing."""
     if isinstance(mark, Line):
         across = 0 <= mark.x1 <= width and 0 <= mark.x2 <= width
         return across and 0 <= mark.y1 <= height and 0 <= mark.y2 <= height
+    if isinstance(mark, Circle):
+        across = 0 < mark.r <= mark.cx <= width - mark.r
+        return across and mark.r <= mark.cy <= height - mark.r
+    if isinstance(mark, Polyline):
+        inside = all(0 <= x <= width and 0 <= y <= height for x, y in mark.points)
+        return inside and len(mark.points) >= 2
     return False
 
 

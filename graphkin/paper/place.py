@@ -25,7 +25,6 @@ BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
 SHORT, LONG, LONGEST = 8, 40, 150  # how many labels are pushed about in a chase
 LAST_RESORT = (
-    (Level(32, 10), Level(64, 20)),
     (Level(128, 32), Level(999, 64)),
     (Level(999, 999), Level(999, 999)),
 )
@@ -103,24 +102,29 @@ def _widen(seats: Seats) -> None:
     """Let labels without a place, or with a dear one, look further, and those around them too."""
     offers = seats.offers
     dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR]
-    more = dict.fromkeys([*_crowds(seats), *dear], CLOSE)
+    more = dict.fromkeys(dear, CLOSE) | _round_about(seats, Level(32, 12), Level(48, 16))
     if offers.widen(more):
         seats.settle(i for i in seats.order() if i in more)
         seats.chase(seats.sorry(BAD), SHORT)
     seats.shift(seats.homeless())
     seats.chase(seats.homeless(), LONG)
-    for crowded, homeless in LAST_RESORT:
-        levels = dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.homeless(), homeless)
-        if offers.widen(levels):
+    for levels in LAST_RESORT:
+        if offers.widen(_round_about(seats, *levels)):
             seats.shift(seats.homeless())
             seats.chase(seats.homeless(), LONGEST)
     seats.chase(seats.sorry(BAD), SHORT)
 
 
+def _round_about(seats: Seats, crowded: Level, homeless: Level) -> dict[int, Level]:
+    """Return what is to be offered to labels without a place, and to those around them."""
+    return dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.homeless(), homeless)
+
+
 def _crowds(seats: Seats) -> list[int]:
-    """Return the labels without a place, and those around each that has a place in sight."""
+    """Return the labels around each one without a place that has a place in sight."""
     offers, homeless = seats.offers, seats.homeless()
-    found, ends = [*homeless], offers.page.subjects.ends
+    found: list[int] = []
+    ends = offers.page.subjects.ends
     middle = (ends[:, :2] + ends[:, 2:]) / 2
     for i in homeless:
         if offers.menus[i]:

@@ -171,7 +171,8 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
 
 def raise_marks(board: Board, some: Sequence[Mark]) -> None:
     """Put some marks above all others that are drawn so far."""
-    board.marks = [*(mark for mark in board.marks if mark not in some), *some]
+    raised = {id(mark) for mark in some}
+    board.marks = [*(mark for mark in board.marks if id(mark) not in raised), *some]
 
 
 def vectors(marks: Sequence[Mark]) -> list[Mark]:

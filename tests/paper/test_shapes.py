@@ -77,9 +77,7 @@ def as_places(found) -> Places:
 
 def apart(one, other) -> float:
     """How much room there is beyond what two places need, in mm; below 0 they clash."""
-    (first, x0, y0, a0, b0, way0), (second, x1, y1, a1, b1, way1) = one, other
-    if first == second:
-        return math.inf
+    (_, x0, y0, a0, b0, way0), (_, x1, y1, a1, b1, way1) = one, other
     room = [max(abs(x0 - x1) - a0 - a1 - BESIDE, abs(y0 - y1) - b0 - b1 - PAD)]
     paths = [LineString([w[:2], w[2:]]) if w[0] < NOWHERE else None for w in (way0, way1)]
     for path, (x, y, a, b) in zip(paths, ((x1, y1, a1, b1), (x0, y0, a0, b0)), strict=True):
@@ -100,6 +98,8 @@ def test_places_rule_out_those_too_near_and_those_across_their_leader(found, cut
             clashes.rows()
     rows = clashes.rows()
     for i, j in combinations(range(len(found)), 2):
+        if found[i][0] == found[j][0]:
+            continue  # what is noted between places of one label means nothing
         room, clash = apart(found[i], found[j]), bool(rows[i] >> j & 1)
         assert clash is bool(rows[j] >> i & 1)
         assert not clash or room < PAD  # a gap across a corner is taken for less than it is
