@@ -64,7 +64,7 @@ def test_a_crowded_position_is_drawn_with_every_point_named(name, setting):
 
 
 def test_names_of_vectors_without_room_are_noted():
-    small = varied("stephenson-1", ("[ask]", "[sheet]\nscale = 400\n[ask]"))
+    small = varied("stephenson-1", ("[ask]", "[sheet]\nscale = 500\n[ask]"))
     page = hand_out(small, language="en")[1].pages[0]
     plan = Page(420, 297, tuple(m for m in page.marks if isinstance(m, Text) and m.x > PLAN))
     _, _, names = notes(plan).partition("no room for the names of: ")
