@@ -37,7 +37,7 @@ def hand_out(mechanism: Mechanism, view: str = "key", language: str | None = Non
     """
     from graphkin.paper.calculation import calculation
 
-    spoken = language_of(mechanism, language)
+    spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
     if mechanism.scene.sheet.sheets != len(WANTED):
         raise SceneError(
             Problem("sheet.sheets", "one sheet for both plans is not drawn yet", "2, or left out")

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 STEPS = 720
 """Positions of a turn from which a curve is drawn."""
+NEAR = 0.35
+"""How far on both sides of its fit a locus is drawn, in parts of the mechanism."""
 AWAY = 20.0
 """Breadths of the mechanism beyond which a centrode is not followed."""
 
@@ -36,20 +38,27 @@ def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
 
 
 def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
-    """The locus by which each group of higher class is closed, where a point shows the fit."""
+    """Near the fit the locus by which each group of higher class is closed, where a point shows it.
+
+    A hand tries a few places there; branches that close in other ways would only cover the drawing.
+    """
     steps = mechanism.program.steps
     closing = [n for n, step in enumerate(steps) if step.action and is_closer(step.action.value)]
     if not closing:
         return ()
     trace = mechanism.trace([t for t in mechanism.program.targets if t[0] == "position"])
-    curves = []
+    curves: list[Curve] = []
+    spots = (n for (what, _), n in mechanism.program.targets.items() if what == "position")
+    places = [trace.values[number] for number in spots]
+    far = NEAR * max(abs(p - q) for p in places for q in places)
     for number in closing:
         step = steps[number]
         assert step.action is not None and isinstance(step.action.value, Closer)
         _, *signs, _ = trace.values[number]
         found = step.action.value.locus([trace.values[arg] for arg in step.args], signs)
         if found is not None:
-            curves.append(Curve("locus", step.says["l"], unbroken(found)))
+            fit, round_ = trace.value("position", step.says["l"]), step.action.value.trying.turns
+            curves.append(Curve("locus", step.says["l"], piece(found, fit, far, closed=round_)))
     return tuple(curves)
 
 
@@ -58,15 +67,31 @@ def is_closer(value: object) -> bool:
     return isinstance(value, Closer)
 
 
-def unbroken(points: Any) -> tuple[tuple[complex, ...], ...]:
-    """The runs of points without a NaN between them."""
-    runs: list[list[complex]] = [[]]
-    for point in points:
-        if point == point:  # noqa: PLR0124
-            runs[-1].append(complex(point))
-        elif runs[-1]:
-            runs.append([])
-    return tuple(tuple(run) for run in runs if len(run) > 1)
+def piece(
+    points: Any, fit: complex, far: float, *, closed: bool
+) -> tuple[tuple[complex, ...], ...]:
+    """The run of points through the place of the fit, so far along it to both sides.
+
+    It ends where a point is NaN; a round that is ``closed`` goes on at its beginning.
+    """
+    import numpy as np
+
+    here = int(np.nanargmin(abs(points - fit)))
+    if closed:
+        points = np.roll(points[:-1], len(points) // 2 - here)
+        here = int(np.nanargmin(abs(points - fit)))
+    before, after = along(points[here::-1], far), along(points[here:], far)
+    run = (*before[::-1], complex(points[here]), *after)
+    return (run,) if len(run) > 1 else ()
+
+
+def along(points: Any, far: float) -> list[complex]:
+    """The points after the first, as many as reach so far along them."""
+    import numpy as np
+
+    gone = np.cumsum(abs(np.diff(points)))  # NaN from the first place on that cannot be drawn
+    short = np.append(0.0, gone[:-1]) < far
+    return [complex(point) for point in points[1:][short & np.isfinite(gone)]]
 
 
 def followed(whole: Cycle) -> Cycle:

@@ -15,6 +15,7 @@ from graphkin.kinds import array_kind
 from graphkin.plans.compile import write
 from graphkin.plans.trial_rates import trial_rates
 from graphkin.scene.model import Scene
+from graphkin.scene.names import in_language
 from graphkin.scene.read import read_scene
 from graphkin.steps.batch import run_blocks
 from graphkin.steps.gather import decided, gathered
@@ -73,6 +74,11 @@ class Mechanism:
     def trial_rates(self) -> Mapping[int, float]:
         """What the hand tries in the trial plans of groups of higher class, by the step."""
         return trial_rates(self.program, self.scene.values)
+
+    def spoken(self, language: str | None) -> Mechanism:
+        """The same with its links called as in a language; in the scene's own if None."""
+        scene = in_language(self.scene, language or self.scene.sheet.language)
+        return self if scene is self.scene else Mechanism(scene)
 
     def asked(self) -> tuple[Target, ...]:
         """What the scene asks for, as targets of the program; everything when it asks nothing."""

@@ -44,9 +44,8 @@ def plot(
     from graphkin.paper.axes import put_drawing, size_of
     from graphkin.paper.figure import for_axes
 
-    drawings = drawings_of(
-        mechanism, proved(mechanism, shown(mechanism)), language_of(mechanism, language)
-    )
+    spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
+    drawings = drawings_of(mechanism, proved(mechanism, shown(mechanism)), spoken)
     drawing = chosen(drawings, which)
     marks, field, times = for_axes(drawing, *size_of(ax), mechanism=which == "mechanism")
     put_drawing(ax, marks, field, times, ink)

@@ -83,7 +83,7 @@ def triangle_ratios(sheet: Sketch) -> Iterator[tuple[str, Array]]:
         key = step.action.key if step.action else ""
         if key == "normal" and not step.hand and step.by_hand in values:
             p, q, tail, tip = (values[arg] for arg in step.args)
-            yield "v_" + step.says["i"], abs(tip - tail) * sheet.seconds / abs(q - p)
+            yield "v_" + step.says["v"], abs(tip - tail) * sheet.seconds / abs(q - p)
 
 
 def ray_angles(sheet: Sketch, form: Sequence[Item]) -> Iterator[tuple[str, Array]]:

@@ -13,13 +13,15 @@ from graphkin.paper.marks import Circle, Line
 from graphkin.paper.paths import clipped_path, ring
 from graphkin.paper.plan import line_name, name_point
 from graphkin.paper.symbolic import symbol
-from graphkin.paper.symbols import head
+from graphkin.paper.symbols import FIXED, head
 from graphkin.steps.program import Part, Step
 
 LAST = 20.0
 """How much of a ray to a far centre its name belongs to, in mm."""
+SMALL, ARM = 1.3, 2.2
+"""Radius of the circle of a centre, and how far its cross reaches, in mm."""
 RING = 1.9
-"""Radius of the ring around a pin that is a centre, in mm."""
+"""The same radius around a pin that is a centre, in mm."""
 STRAIGHT = 1e6
 """Radius in mm of a circle that is a straight line, or none at all, on any page."""
 FAR = 2000.0
@@ -36,15 +38,22 @@ def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
     point = desk.drawing.place(value)
     if point is not None and desk.field.holds(point, 2.0):
         at = desk.field(point)
-        x, y = at
+        (x, y), cls = at, f"centre {desk.colour}"
+        radius = RING if is_under_pin(desk, point) else SMALL
         desk.board.marks += (
-            Circle(x, y, 1.3, f"centre {desk.colour}", step.name, number),
-            Line(x - 2.2, y, x + 2.2, y, f"centre {desk.colour}", step.name, number),
-            Line(x, y - 2.2, x, y + 2.2, f"centre {desk.colour}", step.name, number),
+            Circle(x, y, radius, cls, step.name, number),
+            Line(x - ARM, y, x + ARM, y, cls, step.name, number),
+            Line(x, y - ARM, x, y + ARM, cls, step.name, number),
         )
-        name_point(desk, number, step, at, 2.2)
+        name_point(desk, number, step, at, ARM)
         return
     put_far_centre(desk, number, step, value)
+
+
+def is_under_pin(desk: Desk, point: complex) -> bool:
+    """Whether the pin of a point covers the middle of a centre."""
+    places = desk.drawing.positions.values()
+    return any(abs(place - point) * desk.field.mm < FIXED for place in places)
 
 
 def put_named_centre(desk: Desk, number: int, step: Step, value: Any) -> None:

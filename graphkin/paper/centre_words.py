@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.paper.drawing import Drawing
+from graphkin.paper.drawing import NOISE, Drawing
 from graphkin.paper.sentence import Sentence, together
 from graphkin.paper.symbolic import symbol
 from graphkin.steps.program import Step
@@ -39,6 +39,20 @@ def oddity(drawing: Drawing, step: Step) -> str:
         return "far"
     lost = step.by_hand is not None and step.by_hand not in drawing.trace.values
     return "still" if lost and step.action and step.action.key in STILL else ""
+
+
+def at_rest(drawing: Drawing, step: Step, fields: dict[str, str]) -> str:
+    """What is said of a centre where the normals do not cross: a point at rest, or the tips' line.
+
+    The point is told as ``rest``.
+    """
+    values, (o, _, _, *images) = drawing.trace.values, step.args
+    least = NOISE * (drawing.largest or 1.0)
+    for name, image in zip((step.says["p"], step.says["q"]), images, strict=True):
+        if abs(values[image] - values[o]) <= least:
+            fields["rest"] = symbol(name)
+            return "still"
+    return "tips"
 
 
 def with_centres_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:

@@ -20,8 +20,10 @@ from graphkin.paper.coriolis import (
     put_square,
 )
 from graphkin.paper.desk import Desk
+from graphkin.paper.images import put_similar
 from graphkin.paper.letters import is_coriolis
 from graphkin.paper.plan import put_arc, put_arrow, put_driver_ray, put_line, put_point, put_pole
+from graphkin.paper.trial_gaps import put_gaps
 from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line
 from graphkin.paper.triangle import (
     put_bar_line,
@@ -46,6 +48,7 @@ def draw_plan_steps(desk: Desk) -> None:
     """Put down every step of the plan, in order."""
     for number, step, value in desk.drawing.steps(desk.drawing.plane):
         put_step(desk, number, step, value)
+    put_gaps(desk)
 
 
 def put_step(desk: Desk, number: int, step: Step, value: Any) -> None:
@@ -53,7 +56,7 @@ def put_step(desk: Desk, number: int, step: Step, value: Any) -> None:
     key = step.action.key if step.action else "given"
     plane = Plane.MECHANISM if step.plane is Plane.MECHANISM else Plane.NUMBERS
     put = PUTS.get((plane, key))
-    if number in desk.drawing.tags:
+    if number in desk.drawing.tags and put is not put_similar:
         put = put_trial
     elif plane is Plane.MECHANISM and step.part is Part.NORMAL and is_coriolis(step):
         put = CORIOLIS.get(key)
@@ -103,7 +106,7 @@ PUTS: dict[
     (Plane.NUMBERS, "from-corner"): put_arrow,
     (Plane.NUMBERS, "turned-velocity"): put_point,
     (Plane.NUMBERS, "meet"): put_point,
-    (Plane.NUMBERS, "similar-point"): put_point,
+    (Plane.NUMBERS, "similar-point"): put_similar,
     (Plane.NUMBERS, "alike"): put_point,
     (Plane.NUMBERS, "centripetal"): put_point,
     (Plane.NUMBERS, "driven-tangential"): put_point,

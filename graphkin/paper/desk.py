@@ -13,8 +13,10 @@ from graphkin.paper.layout import Layout
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
+EDGE = 3.0
+"""How far from a field's edge lines end that would go on, in mm."""
 FOOT = 6.5
-"""Height kept free of construction lines at the foot of a field, in mm."""
+"""The same at the foot of a field, which is for notes."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +47,8 @@ def line_part(desk: Desk, value: Any, low: float, high: float) -> tuple[XY, XY] 
 
 
 def above_foot(rect: Rect) -> Rect:
-    """A field without its lowest part, which is for notes."""
-    return rect[0] + 1, rect[1] + 1, rect[2] - 1, rect[3] - FOOT
+    """A field without its edges and its lowest part, which is for notes."""
+    return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - FOOT
 
 
 def middle(tail: XY, tip: XY) -> XY:

@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.paper.drawing import TAGS, Drawing
+from graphkin.paper.gaps import fields_of
 from graphkin.paper.naming import arrow_of, index_of, is_driven, rate_symbol, vector_of, way_of
+from graphkin.paper.phrases import in_line
 from graphkin.paper.relation import Relation, answer, figure, length_of
-from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import CONTACT, Plane, Step
 
@@ -33,19 +34,31 @@ def of_step(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
     tried = number in drawing.tags
     match step.action.key if step.action else "":
         case "square-to":
-            yield euler(drawing, step.says["p"], step.says["q"])
+            yield euler(drawing, step)
         case "parallel-to":
             yield from along(drawing, number, step)
         case "along-bar":
             yield touching(drawing, step)
-        case "turned-velocity" if not tried and not is_pin_of_driver(drawing, step, step.args[3]):
-            yield turned(drawing, step, "v", "ω")
-        case "centripetal" if not is_pin_of_driver(drawing, step, step.args[3]):
-            yield turned(drawing, step, "a", "ω")
+        case "turned-velocity" if not is_pin_of_driver(drawing, step, step.args[3]):
+            yield euler(drawing, step)
+            if not tried:
+                yield turned(drawing, step, "v", "ω")
+        case "centripetal":
+            driven = is_pin_of_driver(drawing, step, step.args[3])
+            if not (driven and step.name):
+                yield euler(drawing, step, steady=bool(step.name))
+            if not driven:
+                yield turned(drawing, step, "a", "ω")
         case "driven-tangential" if not tried and not is_pin_of_driver(drawing, step, step.args[3]):
             yield turned(drawing, step, "a", "ε")
-        case "driven-slide" if not tried:
+        case "driven-slide" if tried:
+            yield along_way(drawing, step.says["q"], step)
+        case "driven-slide":
             yield given_along(drawing, number, step, "v" if velocity else "a")
+        case "similar-point" if step.by_hand not in drawing.trace.values:
+            yield similar(drawing, step)
+        case "alike":
+            yield alike(drawing, step)
 
 
 def rate_taken(drawing: Drawing, step: Step) -> str:
@@ -66,14 +79,20 @@ def is_pin_of_driver(drawing: Drawing, step: Step, rate: int) -> bool:
 # --- about a pin ---------------------------------------------------------------------------------
 
 
-def euler(drawing: Drawing, p: str, q: str) -> Relation:
-    """Euler's theorem for the motion of a pin about another, or about a fixed pivot."""
-    fixed = p in drawing.scene.frame.points
-    index, letter = (q if fixed else q + p), "v" if drawing.kind == "velocity" else "a"
+def euler(drawing: Drawing, step: Step, *, steady: bool = False) -> Relation:
+    """Euler's theorem for the motion of a pin about another, or about a fixed pivot.
+
+    What turns ``steady`` gives no tangential component.
+    """
+    p, q = step.says["p"], step.says["q"]
+    pin, pivot = step.says.get("w", q), step.says.get("x", p)
+    index, letter = index_of(drawing, step.says), "v" if drawing.kind == "velocity" else "a"
+    fixed = index == pin
     key = f"calculation.{'about' if fixed else 'euler'}_{drawing.kind}"
+    key = "calculation.euler_steady" if steady else key
     fields = {
-        "whole": symbol(f"{letter}_{q}"),
-        "start": symbol(f"{letter}_{p}"),
+        "whole": symbol(f"{letter}_{pin}"),
+        "start": symbol(f"{letter}_{pivot}"),
         "relative": symbol(f"v_{index}"),
         "normal": symbol(f"a_{index}^ν"),
         "tangential": symbol(f"a_{index}^τ"),
@@ -104,21 +123,40 @@ def turned(drawing: Drawing, step: Step, letter: str, rate: str) -> Relation:
     )
 
 
+def similar(drawing: Drawing, step: Step) -> Relation:
+    """The image of a point of a link by similarity to the link."""
+    letter = "v" if drawing.kind == "velocity" else "a"
+    fields = {**fields_of(drawing, step, step.says), "name": symbol(step.name)}
+    key = "similar_in_line" if in_line(drawing, step) else "similar"
+    vector = symbol(f"{letter}_{step.says.get('w', step.says['r'])}")
+    return Relation(drawing.words(f"calculation.{key}", vector=vector, **fields))
+
+
+def alike(drawing: Drawing, step: Step) -> Relation:
+    """The image of a point of a link that only shifts: all its points move as one."""
+    letter = "v" if drawing.kind == "velocity" else "a"
+    whole, start = (symbol(f"{letter}_{step.says[key]}") for key in "qp")
+    return Relation(drawing.words("calculation.alike", whole=whole, start=start))
+
+
 # --- along a guide -------------------------------------------------------------------------------
 
 
 def along(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
-    """The motion along a guide: alone where that stands still, else on top of its point's."""
+    """The motion along a guide of the point that is found on its parallel."""
     sought = found_on(drawing, number)
-    if not sought:
-        return
+    if sought:
+        yield along_way(drawing, sought, step)
+
+
+def along_way(drawing: Drawing, sought: str, step: Step) -> Relation:
+    """The motion of a point along a guide: alone where that stands still, else on its point's."""
     point, beneath = slider(drawing, sought, step)
     velocity, guide = drawing.kind == "velocity", way_of(drawing, step.says["g"])
     letter = "v" if velocity else "a"
     if drawing.trace.program.steps[step.args[0]].name == drawing.pole:
         name = symbol(f"{letter}_{beneath if '@' in sought else point}")
-        yield Relation(drawing.words("calculation.along_guide", name=name, guide=guide))
-        return
+        return Relation(drawing.words("calculation.along_guide", name=name, guide=guide))
     fields = {
         "whole": symbol(f"{letter}_{point}"),
         "start": symbol(f"{letter}_{beneath}"),
@@ -127,12 +165,13 @@ def along(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
     }
     turns = not velocity and drawing.trace.program.steps[step.args[0]].name == ""
     key = "coriolis" if turns else "sliding"
-    yield Relation(drawing.words(f"calculation.{key}", guide=guide, **fields))
+    return Relation(drawing.words(f"calculation.{key}", guide=guide, **fields))
 
 
 def found_on(drawing: Drawing, number: int) -> str:
     """The point whose image is found on a line of a plan; nothing where none is."""
-    users = [drawing.trace.program.steps[child] for child in drawing.children.get(number, ())]
+    found = [drawing.results.get(child, child) for child in drawing.children.get(number, ())]
+    users = [drawing.trace.program.steps[child] for child in found]
     return next((user.says["q"] for user in users if "q" in user.says), "")
 
 
@@ -165,7 +204,7 @@ def given_along(drawing: Drawing, number: int, step: Step, letter: str) -> Relat
 def touching(drawing: Drawing, step: Step) -> Relation:
     """Where wheels touch their accelerations differ along the common normal only."""
     normal = bar(step.says["p"], step.says["q"])
-    return Relation(drawing.words("calculation.touching", bar=normal, s=symbol(step.says["s"])))
+    return Relation(drawing.words("calculation.touching", bar=normal))
 
 
 def of_contacts(drawing: Drawing) -> Iterator[Relation]:
@@ -187,26 +226,16 @@ def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], s
     """The velocities at contacts that are used: contact, index, ends in the plan, what to say."""
     targets, pole = drawing.trace.program.targets, -1
     contacts = {found for (_, name), found in targets.items() if name.startswith(CONTACT)}
-    images = {
-        lettered(name): found for (what, name), found in targets.items() if what == "velocity"
-    }
     for number, step, _ in drawing.steps(drawing.plane, Plane.NUMBERS):
         p, q = step.says.get("p", ""), step.says.get("q", "")
         match step.action.key if step.action else "":
             case "pole":
                 pole = number
             case "square-to" if "c" in step.says:
-                start = step.args[0]
-                yield p, p, (pole, start), "no_slip"
-                yield p, q + p, (start, images[q]), at_rest("contact_rests", start, pole)
+                yield p, p, (pole, step.args[0]), "no_slip"
             case "omega" if step.args[1] in contacts:
-                key = at_rest("contact_rests_opposite", step.args[3], pole)
+                key = "contact_rests_opposite" if step.args[3] == pole else "no_slip"
                 yield q, index_of(drawing, step.says), (step.args[2], step.args[3]), key
-
-
-def at_rest(key: str, image: int, pole: int) -> str:
-    """What to say of a contact that rests, or else that nothing slips."""
-    return key if image == pole else "no_slip"
 
 
 def is_laid_off(drawing: Drawing, step: Step) -> bool:

@@ -20,11 +20,14 @@ from graphkin.paper.naming import (
 )
 from graphkin.paper.pairs import heading
 from graphkin.paper.richtext import escape
+from graphkin.paper.rolled import arc_rolled, is_moving_track, track_line, turned_by
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import Plane, Step
 
 LAID_OFF = ("turned-velocity", "driven-slide", "centripetal", "driven-tangential")
 """Actions that lay off a vector from a point of a plan."""
+RATES = {"omega": "v_{}", "epsilon": "a_{}^τ"}
+"""The vectors from which a plan finds how a link turns."""
 
 
 def fields_of(drawing: Drawing, step: Step, says: Mapping[str, str]) -> dict[str, str]:
@@ -49,6 +52,10 @@ def on_mechanism(
         case "ray" if "k" in says:
             driver = next(d for d in drawing.scene.drivers if d.link == says["k"])
             return {"angle": angle_symbol(drawing.scene, driver)}
+        case "ray" if is_moving_track(step):
+            return {"line": track_line(drawing, step)}
+        case "rack-at":
+            return {"arc": arc_rolled(drawing, step)}
         case "compass":
             return {"bar": fields["bar"] + derived(drawing, step.args[1])}
         case "arcs-meet":
@@ -68,7 +75,9 @@ def on_mechanism(
             return {"start": symbol(beyond(drawing, step))}
         case "beside":
             way = drawing.standing.spot(step.name) - drawing.standing.spot(says["p"])
-            return {"angle": words.fixed(degrees(phase(way)), 1)}
+            found = {"angle": words.fixed(degrees(phase(way)), 1)}
+            turned = turned_by(drawing, says["g"])
+            return found | ({"turned": turned} if turned else {})
         case "inflection-point":
             away = abs(values[drawing.number_of(step)] - values[step.args[0]])
             drawn = words.fixed(1000 * away / drawing.scales.kL, 1)
@@ -96,10 +105,10 @@ def on_plan(
         drawn = drawn_between(drawing, step.args[0], number, step.plane)
         found["drawn"] = drawing.words.fixed(drawn, 2)
     match key:
-        case "square-to" if "i" in says:
-            found["vector"] = symbol(f"a_{says['i']}^τ")
         case "square-to" if "c" in says:
             found["c"] = symbol(says["c"])
+        case "square-to" if "i" in says:
+            found["vector"] = symbol(f"a_{says['i']}^τ")
         case "parallel-to" | "driven-slide":
             found["vector"] = sliding_vector(drawing, step, number)
         case "turned-velocity":
@@ -107,7 +116,7 @@ def on_plan(
             found["vector"] = vector_of(drawing, step.args[0], number, default)
             found["omega"] = rate_of(drawing, step, says, "ω")
         case "centripetal":
-            kind = "" if step.name else "^ν"
+            kind = "" if step.name and says["s"] == drawing.pole else "^ν"
             found["vector"] = symbol(f"a_{index_of(drawing, says)}{kind}")
             found["omega"] = rate_symbol(drawing, step.args[3])
         case "driven-tangential":
@@ -128,11 +137,21 @@ def rate_of(drawing: Drawing, step: Step, says: Mapping[str, str], letter: str) 
     """The rate by which a vector is laid off; one that a trial plan tries is its link's."""
     tried = drawing.number_of(step) in drawing.tags and "k" in says
     named = drawing.trace.program.steps[step.args[3]].name in drawing.scene.links
-    return (
-        symbol(f"{letter}_{says['k']}")
-        if tried and not named
-        else rate_symbol(drawing, step.args[3], letter)
-    )
+    if tried and not named:
+        return symbol(f"{letter}_{says['k']}")
+    return rate_symbol(drawing, step.args[3], letter) + found_by(drawing, step)
+
+
+def found_by(drawing: Drawing, step: Step) -> str:
+    """From which vector of this plan a rate is found, where it is taken the first time."""
+    rate = drawing.trace.program.steps[step.args[3]]
+    form = RATES.get(rate.action.key if rate.action else "", "")
+    users = drawing.children[step.args[3]]
+    alike = [user for user in users if drawing.trace.program.steps[user].action is step.action]
+    if not form or alike[0] != drawing.number_of(step):
+        return ""
+    vector = symbol(form.format(index_of(drawing, rate.says)))
+    return f" = {vector}/{bar(rate.says['p'], rate.says['q'])}"
 
 
 def figures(drawing: Drawing, step: Step, fields: Mapping[str, str]) -> dict[str, str]:

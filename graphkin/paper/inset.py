@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise, takewhile
+from math import hypot
 
 from graphkin import plane
+from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.field import XY, Field
+from graphkin.paper.field import Field
 from graphkin.paper.free import free_disc
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Circle, Line, Mark, Text, box
 from graphkin.paper.paths import ring
+from graphkin.paper.plates import corners_of, farthest
 from graphkin.paper.scale import Scales, extent_of, preferred
+from graphkin.paper.slides import places_of
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Ratio
 from graphkin.steps.program import Part, Step
 
-WIDTH, HEIGHT = 46.0, 30.0
-"""Size of an inset in mm."""
+LARGEST, SMALLEST = (80.0, 60.0), 26.0
+"""Width and height of an inset at most, and the longer of both at least, in mm."""
 EDGE = 8.0
 """Room inside an inset for names, in mm."""
 FARTHEST = 200.0
@@ -25,59 +30,78 @@ FARTHEST = 200.0
 
 
 def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
-    """The insets of a mechanism's field, each where there is a free place for it."""
+    """The insets of a mechanism's field, one for each far place, where there is room for it."""
     found: list[Mark] = []
+    shown: list[complex] = []
     for _, step, value in drawing.mechanism_steps():
         if step.part not in (Part.CENTRE, Part.POLE) or not isinstance(value, Ratio):
             continue
         point = drawing.place(value)
-        if point is None or field.holds(point, 2.0):
+        if point is None or field.holds(point, 2.0) or not lines_to(drawing, step):
             continue
         if abs(point - value.start) * field.mm > FARTHEST * (field.rect[2] - field.rect[0]):
             continue
-        room = (WIDTH**2 + HEIGHT**2) ** 0.5 / 2 + 2
-        disc = free_disc([*marks, *found], field.rect, field.at, room)
-        if disc is not None:
-            found += inset(drawing, step, point, disc.at)
+        if all(abs(point - other) * field.mm > TINY for other in shown):
+            shown.append(point)
+            found += inset(drawing, step, point, field, [*marks, *found])
     return found
 
 
-def inset(drawing: Drawing, step: Step, centre: complex, at: XY) -> Iterator[Mark]:
-    """The lines that find a far centre from where they begin, at a preferred scale."""
-    lines = lines_to(drawing, step)
-    if not lines:
-        return
-    circle = circle_on(drawing, step)
-    around = ring(circle) if circle else []
-    extent = extent_of([*(end for line in lines for end in line.values()), centre, *around])
-    least = 1000 * max(extent.width / (WIDTH - 2 * EDGE), extent.height / (HEIGHT - 2 * EDGE))
-    kL = next(preferred(least))
-    rect = (at[0] - WIDTH / 2, at[1] - HEIGHT / 2, at[0] + WIDTH / 2, at[1] + HEIGHT / 2)
-    field = Field(rect, 1000 / kL, extent.middle, at)
-    board = Board(rect)
-    far = field(centre)
+def inset(
+    drawing: Drawing, step: Step, centre: complex, field: Field, marks: Sequence[Mark]
+) -> Sequence[Mark]:
+    """The mechanism and the lines that find a far centre, as large as there is room for."""
+    around = ring(circle) if (circle := circle_on(drawing, step)) else []
+    extent = extent_of([*drawing.positions.values(), *spots_of(drawing, step), centre, *around])
+    inner = [size - 2 * EDGE for size in LARGEST]
+    scales = preferred(1000 * max(extent.width / inner[0], extent.height / inner[1]))
+    least = 1000 * max(extent.width, extent.height) / (SMALLEST - 2 * EDGE)
+    for kL in takewhile(lambda kL: kL <= least, scales):
+        width, height = (1000 * size / kL + 2 * EDGE for size in (extent.width, extent.height))
+        disc = free_disc(marks, field.rect, field.at, hypot(width, height) / 2 + 2)
+        if disc is not None:
+            x, y = disc.at[0] - width / 2, disc.at[1] - height / 2
+            rect = (x, y, x + width, y + height)
+            return pictured(drawing, step, centre, Field(rect, 1000 / kL, extent.middle, disc.at))
+    return ()
+
+
+def pictured(drawing: Drawing, step: Step, centre: complex, field: Field) -> Sequence[Mark]:
+    """What an inset shows: its frame and scale, bars, rays, the centre, and their names."""
+    left, top, right, bottom = field.rect
+    lines, far = lines_to(drawing, step), field(centre)
     firsts = [field(next(iter(line.values()))) for line in lines]
+    scale = Scales(1000 / field.mm, 1.0).words
+    board = Board(field.rect)
     board.marks = [
-        box(rect[0], rect[1], WIDTH, HEIGHT, "panel"),
-        *base_of(drawing, step, firsts),
+        box(left, top, right - left, bottom - top, "panel"),
+        *bars_of(drawing, field),
         *(Line(*first, *far, "ray inset") for first in firsts),
-        *around_of(circle, field, drawing.kind),
-        *(Circle(*field(end), 0.5, "point inset") for line in lines for end in line.values()),
+        *around_of(circle_on(drawing, step), field, drawing.kind),
+        *(Circle(*field(end), 0.5, "point inset") for end in spots_of(drawing, step)),
         Circle(*far, 0.9, f"centre {drawing.kind} inset"),
-        Text(rect[2] - 1.5, rect[3] - 1.5, Scales(kL, 1.0).words, "caption", 2.5, "end"),
+        Text(right - 1.5, bottom - 1.5, scale, "caption", 2.5, "end"),
     ]
     names = {name: end for line in lines for name, end in line.items()}
     board.labels = [Label(symbol(name), "", field(end), 2.5) for name, end in names.items()]
     board.labels.append(Label(symbol(step.name), drawing.kind, far, 2.5, radius=0.9))
-    yield from board.marks
-    yield from board.placed()
+    return [*board.marks, *board.placed()]
 
 
-def base_of(drawing: Drawing, step: Step, ends: Sequence[XY]) -> Iterator[Mark]:
-    """The base of a link between the two points whose rays find its centre."""
-    if "q" in step.says:
-        (x0, y0), (x1, y1) = ends
-        yield Line(x0, y0, x1, y1, "link inset")
+def spots_of(drawing: Drawing, step: Step) -> list[complex]:
+    """The places on the lines to a far centre."""
+    return [place for line in lines_to(drawing, step) for place in line.values()]
+
+
+def bars_of(drawing: Drawing, field: Field) -> Iterator[Mark]:
+    """The bars and the outlines of the plates of a mechanism."""
+    for link in drawing.scene.links.values():
+        places = places_of(drawing, link.name)
+        corners = corners_of(drawing, link)
+        if corners is None and len(places) > 1:
+            corners = [*farthest(places)]
+        for start, end in pairwise([*corners, corners[0]] if corners else ()):
+            yield Line(*field(start), *field(end), "link inset")
 
 
 def circle_on(drawing: Drawing, step: Step) -> plane.Circle | None:

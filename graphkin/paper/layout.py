@@ -13,7 +13,7 @@ from math import degrees
 from typing import Any
 
 from graphkin.errors import PageError, Problem
-from graphkin.paper.areas import AREA, HEIGHT, MARGIN, WIDTH, Rect
+from graphkin.paper.areas import ABOVE, AREA, HEIGHT, MARGIN, WIDTH, Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field
 from graphkin.paper.scale import Extent
@@ -24,6 +24,8 @@ BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
 LEAST = 110.0
 """Width that a plan's field gets where the mechanism leaves it, in mm."""
+GROUND = 15.0
+"""Room below a mechanism for the ground of its pivots and a line of notes, in mm."""
 FAR = 100.0
 """A place so many mechanisms away lies beyond the edge of every field."""
 SWEEP = 7.0
@@ -51,7 +53,7 @@ def lay_out(drawing: Drawing) -> Layout:
     wider = with_poles(drawing, mechanism, mm, left)
     metres = drawing.scales.metres(drawing.kind)
     fields = Layout(
-        Field(left, mm, wider.middle, raised(left, wider.height * mm - HEIGHT)),
+        Field(left, mm, wider.middle, raised(left, wider.height * mm)),
         Field(right, mm * metres, plan.middle / metres, centre(right)),
         {},
     )
@@ -80,13 +82,14 @@ def centre(rect: Rect) -> tuple[float, float]:
     return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
 
 
-def raised(rect: Rect, excess: float) -> tuple[float, float]:
-    """The middle of a field, higher where a drawing takes up some of the margin above it.
+def raised(rect: Rect, height: float) -> tuple[float, float]:
+    """The middle of a drawing in a field: half of what is spare above it, half below.
 
-    Fixed pivots need the margin below for their ground.
+    Fixed pivots need the room below for their ground, and notes for themselves: they get it first.
     """
-    x, y = centre(rect)
-    return x, y - max(excess, 0.0) / 2
+    spare = max(HEIGHT - height, 0.0)
+    below = ABOVE + max(spare / 2, min(spare, GROUND - ABOVE))
+    return centre(rect)[0], rect[3] - below - height / 2
 
 
 def with_poles(drawing: Drawing, extent: Extent, mm: float, rect: Rect) -> Extent:

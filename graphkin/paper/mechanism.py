@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import hypot
 
+from graphkin.paper.desk import above_foot
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.edges import draw_edges
 from graphkin.paper.field import XY, Field, clipped
@@ -56,8 +57,8 @@ def draw_frame(board: Board, drawing: Drawing, field: Field) -> None:
     draw_ground(board, drawing, field)
     pinned = moving_points(drawing)
     for name in drawing.scene.frame.points:
-        if name in pinned:
-            board.marks.append(pin(field(drawing.positions[name]), name, FIXED))
+        radius = FIXED if name in pinned else FREE
+        board.marks.append(pin(field(drawing.positions[name]), name, radius))
         letter(board, drawing, field, name)
 
 
@@ -71,19 +72,12 @@ def draw_ground(board: Board, drawing: Drawing, field: Field) -> None:
             board.marks += pivot_ground(at, height)
             half = 5.2 * height / PIVOT + 0.4
             board.taken.append((at[0] - half, at[1], at[0] + half, at[1] + height + 2.6))
-        else:
-            draw_mark(board, at, name)
 
 
 def is_covered(drawing: Drawing, field: Field, name: str) -> bool:
     """True for a point of the frame about which a block turns."""
     here = drawing.positions[name]
     return any(abs(place - here) * field.mm < PIN for place in swivelling(drawing))
-
-
-def draw_mark(board: Board, at: XY, name: str) -> None:
-    """A point of the frame that carries no pin."""
-    board.marks += [Line(at[0] - 1, at[1], at[0] + 1, at[1], "link", name)]
 
 
 def letter(board: Board, drawing: Drawing, field: Field, name: str) -> None:
@@ -130,7 +124,7 @@ def draw_line(board: Board, field: Field, line: tuple[complex, complex], name: s
     """A line across the field, chain-dotted."""
     start, along = line
     seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
-    part = clipped(*stretched(field(start), field(seen)), field.rect)
+    part = clipped(*stretched(field(start), field(seen)), above_foot(field.rect))
     if part:
         board.marks.append(Line(*part[0], *part[1], "centre-line", name))
 
@@ -192,12 +186,11 @@ def draw_pins(board: Board, drawing: Drawing, field: Field) -> None:
     fixed, pinned = set(drawing.scene.frame.points), moving_points(drawing)
     for name, place in drawing.positions.items():
         at, count = field(place), sharers(drawing, name)
-        if name not in fixed or name in pinned:
-            rings = [PIN + HINGE * i for i in range(1, count - 1)]
-            board.marks += [Circle(*at, r, "hinge", name) for r in reversed(rings)]
-            radius = FIXED if name in fixed else PIN if count > 1 else FREE
-            board.marks.append(pin(at, name, radius))
-            draw_unbroken(board, drawing, field, name)
+        rings = [PIN + HINGE * i for i in range(1, count - 1)]
+        board.marks += [Circle(*at, r, "hinge", name) for r in reversed(rings)]
+        radius = FIXED if name in fixed & pinned else PIN if count > 1 else FREE
+        board.marks.append(pin(at, name, radius))
+        draw_unbroken(board, drawing, field, name)
         letter(board, drawing, field, name)
 
 

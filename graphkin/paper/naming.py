@@ -66,6 +66,8 @@ def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
 
 def index_of(drawing: Drawing, says: Mapping[str, str]) -> str:
     """Index of a motion about a pin: B about a fixed pivot, BA about a moving one."""
+    if "i" in says:
+        return says["i"]
     return says["q"] + ("" if says["p"] in drawing.scene.frame.points else says["p"])
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
-from graphkin.paper.centre_words import CENTRES, OWN_WORDS, SAID, far_end, oddity
+from graphkin.paper.centre_words import CENTRES, OWN_WORDS, SAID, at_rest, far_end, oddity
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.gaps import LAID_OFF, fields_of
 from graphkin.paper.naming import NAUGHT, beyond, drawn_between, is_driven
+from graphkin.paper.rolled import is_halfway, is_moving_track, untold_track
 from graphkin.paper.symbolic import symbol
 from graphkin.scene.model import FRAME
 from graphkin.steps.program import Part, Plane, Step
@@ -63,7 +64,9 @@ def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
     last = drawing.trace.program.steps[step.by_hand] if by_hand and step.by_hand else step
     assert step.action is not None
     if step.action.key in WHOLE:
-        return phrase(drawing, step, step.name, step)
+        track = untold_track(drawing, step)
+        parts = [phrase(drawing, track, "", track)] if track else []
+        return "; ".join([*parts, phrase(drawing, step, step.name, step)])
     parts = [clause for arg in last.args for clause in clauses(drawing, arg, last.plane)]
     parts.append(phrase(drawing, last, step.name, step))
     return "; ".join(parts)
@@ -125,7 +128,7 @@ def key_of(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, str])
     if whole in CENTRES:
         return centre_key(drawing, step, words_of, fields)
     if step.plane is Plane.MECHANISM:
-        return mechanism_key(drawing, step, key)
+        return mechanism_key(drawing, step, key, fields)
     return plan_key(drawing, step, key)
 
 
@@ -136,6 +139,8 @@ def centre_key(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, s
     if key in OWN_WORDS:
         return key + far_end(drawing, step, fields)
     if whole in CENTRES and (odd := oddity(drawing, words_of)):
+        if whole == "instant-centre" and odd == "still":
+            odd = at_rest(drawing, words_of, fields)
         return f"{whole}-{odd}"
     if key == "acceleration-pole" and step.by_hand is None:
         return f"{key}-{step.says.get('how', 'pivot')}"
@@ -146,16 +151,18 @@ def centre_key(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, s
     return key
 
 
-def mechanism_key(drawing: Drawing, step: Step, key: str) -> str:
+def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, str]) -> str:
     """The key of the sentence of a step that draws the mechanism."""
     scene, steps = drawing.scene, drawing.trace.program.steps
+    if key == "ray" and is_moving_track(step):
+        return "track-of"
     if key in ("ray", "along-bar") and "g" in step.says:
         ways = sum(len(link.slides) + len(link.rolls) for link in scene.links.values())
         return "guide" if ways == 1 and scene.links[step.says["g"]].slides else "guide-named"
     if key == "guide-back" and is_tried(steps[step.args[1]]):
         return "guide-back-found"
     if key == "beside" and not scene.links[step.says["g"]].slides:
-        return "beside-turned"
+        return "beside-rolled" if "turned" in fields else "beside-turned"
     if key == "contact-on-track" and step.says["g"] != FRAME:
         return "contact-on-track-of"
     if key == "mark-off" and is_lever(drawing, step.args[0]):
@@ -164,6 +171,8 @@ def mechanism_key(drawing: Drawing, step: Step, key: str) -> str:
         return "step-along-beyond"
     if key == "set-at" and is_tried(steps[step.args[1]]):
         return "set-at-found"
+    if key == "set-at" and is_halfway(drawing, steps[step.args[1]]):
+        return "set-halfway"
     return f"{key}.say" if key == "arcs-meet" else key
 
 
@@ -181,12 +190,16 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
         return "square-to-end"
     if key == "square-to" and step.says.get("c", step.says["s"]) != step.says["s"]:
         return "square-to-touch"
+    if key == "square-to" and "c" in step.says:
+        return "square-to-both"
     if key == "along-bar":
         return "common-normal"
     if key == "parallel-to" and not step.says["s"]:
         before = drawing.trace.program.steps[step.args[0]].action
         back = before is not None and before.key == "lay-back-coriolis"
         return "parallel-to-tail" if back else "parallel-to-end"
+    if key == "similar-point" and "c" in step.says and in_line(drawing, step):
+        return "similar-touch"
     if key == "similar-point" and in_line(drawing, step):
         return "similar-in-line"
     if key == "centripetal" and not step.name:

@@ -8,9 +8,9 @@ from dataclasses import replace
 from graphkin.paper.bodies import Disc
 from graphkin.paper.data import driver_index
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import rate_symbol
+from graphkin.paper.naming import index_of, rate_symbol
 from graphkin.paper.relation import Relation, answer, figure, length_of
-from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.symbolic import TAGS, bar, symbol
 from graphkin.paper.tables import sense
 from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.program import Step
@@ -78,7 +78,7 @@ def rate_of(drawing: Drawing) -> tuple[str, str, str]:
 def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) -> Relation:
     """A rate from the relative motion of two points of the link."""
     p, q = step.says["p"], step.says["q"]
-    indices = [q] if p in drawing.scene.frame.points else [q + p, p + q]
+    indices = [index_of(drawing, step.says), p + q]
     form = "v_{}" if drawing.kind == "velocity" else "a_{}^τ"
     drawn = {step.says["symbol"] for _, step, _ in drawing.steps(drawing.plane) if step.arrow}
     vectors = [form.format(index) for index in indices]
@@ -97,7 +97,8 @@ def by_trials(
     first, second, share = (float(drawing.trace.values[arg]) for arg in step.args)
     figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
     figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
-    whole = f"*{letter}*^1 + *λ*·(*{letter}*^2 − *{letter}*^1)"
+    one, two = (symbol(f"{letter}_{step.name}{tag}") for tag in TAGS)
+    whole = f"{one} + *λ*·({two} − {one})"
     result, unit, turning = tail
     if first + share * (second - first) < 0:
         result = f"{MINUS}{result}"
@@ -135,8 +136,12 @@ def within(drawing: Drawing, value: float) -> str:
 
 
 def of_gears(drawing: Drawing) -> Iterator[Relation]:
-    """Willis' relation for wheels that roll on one another: rates against the arm by the radii."""
+    """Willis' relation for wheels that roll on one another: rates against the arm by the radii.
+
+    On the first sheet those of gears, before they are used, from module and number of teeth.
+    """
     _, letter, unit = rate_of(drawing)
+    told: set[str] = set()
     links = (drawing.scene.frame, *drawing.scene.links.values())
     for touch in drawing.standing.touches:
         if touch.other is None:
@@ -146,7 +151,21 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
         names = (touch.disc.link, *arms[:1], touch.other.link)
         rates = [rate for name in names if (rate := rate_at(drawing, name)) is not None]
         if len(rates) == 3 and names[0] != FRAME:
+            for disc in (touch.disc, touch.other):
+                if drawing.kind == "velocity" and disc.wheel.teeth and disc.link not in told:
+                    told.add(disc.link)
+                    yield by_teeth(drawing, disc)
             yield by_radii(drawing, names, rates, (touch.disc, touch.other), letter, unit)
+
+
+def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
+    """The radius of a gear, half its module times its number of teeth."""
+    assert disc.wheel.teeth is not None
+    module, teeth = drawing.length(disc.module), float(disc.wheel.teeth.si(drawing.scene.values))
+    figures = f"{figure(drawing, module)}·{figure(drawing, teeth)}/2"
+    radius = answer(drawing, drawing.length(disc.radius))
+    count = f"*m*·{symbol(f'z_{disc.link}')}/2"
+    return Relation(radius_of(disc), count, figures, radius, drawing.scene.units["length"])
 
 
 def rate_at(drawing: Drawing, link: str) -> float | None:

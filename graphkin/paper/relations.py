@@ -22,6 +22,8 @@ from graphkin.plane import Ratio, Vector
 from graphkin.steps.program import Part, Plane, Step
 
 Section = tuple[str, list[Relation]]
+GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
+"""What two trial plans miss."""
 
 
 def relations(drawings: Sequence[Drawing]) -> list[Section]:
@@ -133,22 +135,40 @@ def of_trials(drawing: Drawing) -> Iterator[Relation]:
     for number, step, value in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "share" or step.part is not part:
             continue
+        users = [user for user in drawing.children.get(number, ()) if is_point(drawing, user)]
+        steps = drawing.trace.program.steps
+        measured = step.by_hand in drawing.trace.values
+        crossed = [user for user in users if measured and steps[user].by_hand in drawing.results]
+        one, two = (symbol(steps[arg].name) for arg in steps[(crossed or users)[0]].args[:2])
+        ratio = f"{one}{symbol(steps[(crossed or users)[0]].name)}/{one}{two}"
+        others = [symbol(steps[user].name) for user in users if user not in crossed]
+        fields = {"ratio": ratio, "list": drawing.words("list_mark").join(others)}
+        result = answer(drawing, float(value))
+        if crossed:
+            figures = on_line(drawing, steps[crossed[0]])
+            remark = drawing.words("calculation.divided-alike", **fields) if others else ""
+            yield Relation("*λ*", ratio, figures, result, "", remark)
+            continue
         gaps = misses(drawing, step)
         yield from of_gaps(drawing, step, gaps)
         first, second = figure(drawing, gaps[0].size), within(drawing, gaps[1].size)
-        users = [user for user in drawing.children.get(number, ()) if is_point(drawing, user)]
-        steps = drawing.trace.program.steps
-        names = drawing.words("list_mark").join(symbol(steps[user].name) for user in users)
-        one, two = (symbol(steps[arg].name) for arg in steps[users[0]].args[:2])
-        ratio = f"{one}{symbol(steps[users[0]].name)}/{one}{two}"
         yield Relation(
             "*λ*",
-            "*m*^1/(*m*^1 − *m*^2)",
+            "{0}/({0} − {1})".format(*GAPS),
             f"{first}/({first} − {second})",
-            answer(drawing, float(value)),
+            result,
             "",
-            drawing.words("calculation.divided", ratio=ratio, list=names),
+            drawing.words("calculation.divided", **fields),
         )
+
+
+def on_line(drawing: Drawing, crossed: Step) -> str:
+    """How far along the line of its trials a point was found, over how long that is, in mm."""
+    one, two = (drawing.trace.values[arg] for arg in crossed.args[:2])
+    scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+    whole = 1000 * abs(two - one) / scale
+    share = float(drawing.trace.values[crossed.args[2]])
+    return f"{drawn(drawing, share * whole)}/{drawn(drawing, whole)}"
 
 
 def is_point(drawing: Drawing, number: int) -> bool:
@@ -162,12 +182,12 @@ def of_gaps(drawing: Drawing, step: Step, gaps: tuple[Miss, Miss]) -> Iterator[R
     velocity = drawing.kind == "velocity"
     unit = ("rad/s" if turns else "m/s") + ("" if velocity else "^2")
     scale = (drawing.scales.kv if velocity else drawing.scales.ka) / 1000
-    for tag, gap in zip(TAGS.values(), gaps, strict=True):
+    for name, gap in zip(GAPS, gaps, strict=True):
         length = gap.found if "d" in step.says else gap.size
         mm = within(drawing, length / scale)
         figures = figure(drawing, length, FINE) if turns else f"{figure(drawing, scale)}·{mm}"
         less = f" − {within(drawing, gap.found - gap.size)}" if "d" in step.says else ""
-        name, size = f"*m*{tag}", answer(drawing, gap.size)
+        size = answer(drawing, gap.size)
         yield Relation(name, "", f"{figures}{less}", size, unit, gap.remark(drawing))
 
 
@@ -182,12 +202,12 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
     for _, step, value in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "normal":
             continue
-        p, q, i = step.says["p"], step.says["q"], step.says["i"]
+        p, q, i, v = (step.says[key] for key in "pqiv")
         length, size = length_of(drawing, p, q), drawing.settled(abs(value))
         speed = (size * length) ** 0.5
         yield Relation(
             symbol(f"a_{i}^ν"),
-            f"{symbol('v_' + i)}^2/{bar(p, q)}",
+            f"{symbol('v_' + v)}^2/{bar(p, q)}",
             f"{figure(drawing, speed)}^2/{figure(drawing, length)}",
             answer(drawing, size),
             "m/s^2",

@@ -8,6 +8,7 @@ from typing import Any
 from graphkin.paper.centre_words import with_centres_together
 from graphkin.paper.closing import closing_sentence, idle_sentences
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.indices import with_indices
 from graphkin.paper.letters import is_coriolis, letter_on
 from graphkin.paper.naming import (
     NAUGHT,
@@ -48,7 +49,7 @@ def sentences(drawing: Drawing) -> list[Sentence]:
     ]
     last = Sentence(-1, "", read_off(drawing))
     found = with_centres_together(drawing, with_trials_together(drawing, found))
-    return [*with_normals_together(drawing, found), last]
+    return with_indices(drawing, [*with_normals_together(drawing, found), last])
 
 
 def read_off(drawing: Drawing) -> str:
@@ -186,7 +187,7 @@ def component_sentence(drawing: Drawing, number: int, step: Step, *, first: bool
         if drawing.scales.apart:
             return Sentence(number, "ν by number", computed_normal(drawing, number, step))
         if drawing.settled(abs(drawing.trace.values[number])) == 0:
-            fields = {"a": symbol(f"a_{step.says['i']}^ν"), "v": symbol("v_" + step.says["i"])}
+            fields = {"a": symbol(f"a_{step.says['i']}^ν"), "v": symbol("v_" + step.says["v"])}
             return Sentence(number, "ν none", drawing.words("step.normal-none", **fields))
         markup = normal_sentence(drawing, step, first=first)
         return Sentence(number, "ν1" if first else "ν", markup)
@@ -200,7 +201,7 @@ def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
         "p": symbol(says["p"]),
         "q": symbol(says["q"]),
         "bar": bar(says["p"], says["q"]),
-        "v": symbol("v_" + says["i"]),
+        "v": symbol("v_" + says["v"]),
         "a": symbol(f"a_{says['i']}^ν"),
     }
     if not first:
@@ -228,7 +229,7 @@ def computed_normal(drawing: Drawing, number: int, step: Step) -> str:
         p=symbol(says["p"]),
         q=symbol(says["q"]),
         bar=bar(says["p"], says["q"]),
-        v=symbol("v_" + says["i"]),
+        v=symbol("v_" + says["v"]),
         a=symbol(f"a_{says['i']}^ν"),
         drawn=plan_amount(drawing, size, Plane.ACCELERATIONS),
     )

@@ -124,11 +124,11 @@ def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]
     """The data in two lines, or in three of smaller lettering."""
     first, *pieces = given(drawing)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
-    for height, leading, room in ((2.5, 4.2, 2), (1.8, 2.9, 3)):
+    for height, leading, room, above in ((2.5, 4.2, 2, 0.0), (1.8, 2.8, 3, 1.0)):
         lines = flowed(pieces, "; ", width, height)
         if len(lines) <= room:
             return [
-                Text(x, y + i * leading, line, "caption", height, name="data")
+                Text(x, y - above + i * leading, line, "caption", height, name="data")
                 for i, line in enumerate(lines)
             ]
     raise PageError(

@@ -12,13 +12,14 @@ NAME = re.compile(
     r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]?)(?:\^(?P<sup>\w))?$"
 )
 FOURTH = "⁗"
-TAGS = {"¹": "^1", "²": "^2"}
-"""The tags of two trial plans as markup."""
+TAGS = {"¹": "I", "²": "II"}
+"""The tags of two trial plans as they are written: below, so that none reads as a power."""
 
 
 @lru_cache(maxsize=1024)
 def symbol(name: str) -> str:
-    """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ its tag."""
+    """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the
+    numeral of its trial."""
     found = NAME.match(name)
     if name.isdigit():
         return name
@@ -28,8 +29,9 @@ def symbol(name: str) -> str:
     sub, sup, tag = found.group("sub", "sup", "tag")
     apart = "," if index and sub and sub[0].isdigit() else ""
     scripts = f"{index}{apart}{sub or ''}".removeprefix(",")
+    scripts = ",".join(filter(None, (scripts, TAGS.get(tag))))
     low = f"_{{{escape(scripts)}}}" if scripts else ""
-    high = f"^{{{sup}}}" if sup else "^{IV}" if prime == FOURTH else TAGS.get(tag, "")
+    high = f"^{{{sup}}}" if sup else "^{IV}" if prime == FOURTH else ""
     return f"{times}*{letter}*{'' if prime == FOURTH else prime}{low}{high}"
 
 

@@ -32,7 +32,7 @@ def put_trial(desk: Desk, number: int, step: Step, value: Any) -> None:
             desk.board.marks.append(Line(*tail, *at, "trial", step.name, number))
     if step.name:
         desk.board.marks.append(Circle(*at, DOT, "point trial", step.name, number))
-        name_point(desk, number, step, at, DOT, "trial", 1.8)
+        name_point(desk, number, step, at, DOT, "trial", 2.5)
 
 
 def leg_start(desk: Desk, step: Step) -> complex | None:

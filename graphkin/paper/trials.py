@@ -78,10 +78,8 @@ def share_sentence(drawing: Drawing, number: int, step: Step) -> str:
             f"step.gap-{'alike' if first.size * second.size > 0 else 'opposite'}"
         ),
     }
-    line, other = first.line(drawing), second.line(drawing)
-    if line == other:
-        return drawing.words("step.share-line", locus=line, **fields)
-    return drawing.words("step.share-lines", locus=line, other=other, **fields)
+    lines = {"locus": first.line(drawing), "other": second.line(drawing)}
+    return drawing.words("step.share-lines", **lines, **fields)
 
 
 def driver_sentence(drawing: Drawing, step: Step, first: Miss, second: Miss) -> str:

@@ -20,7 +20,7 @@ def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> No
     if is_tiny(desk, step, value):
         return
     pin = desk.drawing.standing.spot(step.says["q"])
-    set_vector(desk, number, "v_" + step.says["i"], pin, value)
+    set_vector(desk, number, "v_" + step.says["v"], pin, value)
     put_construction_point(desk, number, step, value)
 
 

@@ -40,10 +40,13 @@ def draw_tracks(board: Board, drawing: Drawing, field: Field) -> None:
 
 
 def draw_fixed_wheels(board: Board, drawing: Drawing, field: Field) -> None:
-    """The wheels of the frame without their teeth, which the task sheet shows, too."""
+    """The wheels of the frame without their teeth, hatched, which the task sheet shows, too."""
     for disc in drawing.standing.discs:
         if disc.link == FRAME:
-            board.marks.append(Circle(*field(disc.centre), disc.radius * field.mm, "wheel", FRAME))
+            centre, radius = field(disc.centre), disc.radius * field.mm
+            ground = hatching(centre, radius, outward=disc.wheel.inside)
+            board.marks.append(Circle(*centre, radius, "wheel", FRAME))
+            board.marks += within(ground, field.rect)
 
 
 def draw_contacts(board: Board, drawing: Drawing, field: Field) -> None:

@@ -67,8 +67,9 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False)
         name = second_image(tip) if steady else ""
         with pen.calls_for(Effect.NORMAL):
             found = pen.draw(centripetal, start, *ends, pen.the("omega", link), name=name, **says)
-        if not steady:
+        if not steady or start != pen.pole(Plane.ACCELERATIONS):
             component_arrow(pen, start, found, "ν", tip, pivot)
+        if not steady:
             corner, rate = found, pen.the("epsilon", link)
             name = second_image(tip)
             with pen.calls_for(tangential_effect(pen, rate)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.plans.pen import PRIME, Pen, letter, named, second_image
+from graphkin.plans.pen import PRIME, Pen, letter, named, owned, second_image
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import join
 
@@ -40,5 +40,5 @@ def acceleration_arrow(pen: Pen, pin: str) -> None:
     name = f"o{PRIME}{second_image(pin)}"
     if name not in pen.arrows:
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            symbol = f"a_{letter(pin)}"
-            pen.arrow(join, o, tip, name=name, symbol=symbol, q=letter(pin), p="")
+            symbol = f"a_{owned(pin)}"
+            pen.arrow(join, o, tip, name=name, symbol=symbol, q=owned(pin), p="")

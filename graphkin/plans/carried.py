@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.links import under
 from graphkin.plans.normals import component_arrow
-from graphkin.plans.pen import Pen, Says, about, image, letter, second_image
+from graphkin.plans.pen import Pen, Says, about, against, image, letter, owned, second_image
 from graphkin.scene.model import FRAME
 from graphkin.steps.effect import Effect
 from graphkin.steps.program import Part, Plane
@@ -45,8 +45,9 @@ def rate_of(pen: Pen, link: str, quantity: str) -> int:
     points = (base.start, base.end)
     ends = [pen.the(what, point) for what in ("position", plan) for point in points]
     with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for(None):
-        p, q = map(letter, points)
-        return pen.draw(action, *ends, name=link, p=p, q=q)
+        says: Says = {"p": letter(base.start), "q": letter(base.end)}
+        says["i"] = (against if plan == "velocity" else about)(pen, base.end, base.start)
+        return pen.draw(action, *ends, name=link, **says)
 
 
 def image_under(pen: Pen, link: str, point: str) -> int:
@@ -76,7 +77,8 @@ def carried(pen: Pen, link: str, point: str, quantity: str) -> int:
         pen.want("position", name, pen.the("position", point))
         pen.want(quantity, name, found_under(pen, link, point, quantity))
         if quantity == "velocity":
-            velocity_arrows(pen, name, None)
+            base = pen.bases[link]
+            velocity_arrows(pen, name, base.start if base.end is None else None)
         else:
             acceleration_arrow(pen, name)
     return pen.the(quantity, name)
@@ -96,6 +98,7 @@ def found_under(pen: Pen, link: str, point: str, quantity: str) -> int:
         ratio = pen.draw(in_proportion, places[0], pen.the("position", base.end), places[1])
     says: Says = {"p": letter(base.start), "q": letter(base.end), "r": letter(name)}
     is_velocity = quantity == "velocity"
+    says |= {} if is_velocity else {"w": owned(name)}
     part = Part.VELOCITY if is_velocity else Part.ACCELERATION
     plane = Plane.VELOCITIES if is_velocity else Plane.ACCELERATIONS
     with pen.on(part, plane):
@@ -114,17 +117,18 @@ def found_by_turning(pen: Pen, link: str, point: str, quantity: str) -> int:
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             return pen.draw(turned_velocity, start, *ends, turning, name=image(name), **says)
     rate, called = omega_of(pen, link, "epsilon"), second_image(name)
-    says["i"] = about(pen, name, base.start)
+    says |= {"i": about(pen, name, base.start), "w": owned(name)}
     steady = pen.is_nought(rate)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         with pen.calls_for(Effect.NORMAL):
             given = called if steady else ""
             corner = pen.draw(centripetal, start, *ends, turning, name=given, **says)
+        if not steady or start != pen.pole(Plane.ACCELERATIONS):
+            component_arrow(pen, start, corner, "ν", name, base.start)
         if steady:
             return corner
         with pen.calls_for(tangential_effect(pen, rate)):
             found = pen.draw(driven_tangential, corner, *ends, rate, name=called, **says)
-        component_arrow(pen, start, corner, "ν", name, base.start)
         component_arrow(pen, corner, found, "τ", name, base.start)
         return found
 

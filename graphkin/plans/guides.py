@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.plans.pen import Pen
+from graphkin.plans.pen import Pen, Says
 from graphkin.plans.shape import Shapes
 from graphkin.scene.model import FRAME, Rolling, Slide
 from graphkin.steps.guides import (
@@ -65,11 +65,12 @@ def guide_line(pen: Pen, shapes: Shapes, slide: Slide | Rolling, on: str, name: 
     through = slide.through
     assert through is not None
     turn = direction_on(pen, shapes, on, pen.given("direction", slide.angle))
+    says: Says = {"g": name} if isinstance(slide, Slide) else {"g": name, "h": on}
     if isinstance(through, str):
         start = pen.the("position", through)
-        return pen.draw(ray, start, turn, p=through, g=name)
+        return pen.draw(ray, start, turn, p=through, **says)
     start = point_on(pen, shapes, on, pen.given("point", *through))
-    return pen.draw(ray, start, turn, p="", g=name)
+    return pen.draw(ray, start, turn, p="", **says)
 
 
 def point_on(pen: Pen, shapes: Shapes, link: str, local: int) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.plans.arrows import relative_arrow
-from graphkin.plans.pen import Pen, Says, about, letter, named
+from graphkin.plans.pen import Pen, Says, about, against, letter, named, owned
 from graphkin.steps.effect import Effect
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import (
@@ -29,7 +29,7 @@ def normal_component(pen: Pen, pivot: str, pin: str) -> int:
     images = pen.the("velocity", pivot), pen.the("velocity", pin)
     relative_arrow(pen, pin, pivot)
     index = about(pen, pin, pivot)
-    says: Says = {"p": letter(pivot), "q": letter(pin), "i": index}
+    says: Says = {"p": letter(pivot), "q": letter(pin), "i": index, "v": against(pen, pin, pivot)}
     with pen.on(Part.NORMAL, Plane.MECHANISM), pen.calls_for(Effect.NORMAL):
         by_hand = right_triangle(pen, places, images, says)
     with pen.on(Part.NORMAL, Plane.NUMBERS), pen.calls_for(Effect.NORMAL):
@@ -67,6 +67,7 @@ def square(pen: Pen, pivot: str, pin: str, corner: int) -> int:
     """Through the end of a normal component the perpendicular to its bar."""
     ends = pen.the("position", pivot), pen.the("position", pin)
     says: Says = {"p": letter(pivot), "q": letter(pin), "i": about(pen, pin, pivot)}
+    says |= {"w": owned(pin), "x": owned(pivot)}
     with pen.calls_for(Effect.TANGENTIAL):
         return pen.draw(square_to, corner, *ends, **says)
 
@@ -74,6 +75,4 @@ def square(pen: Pen, pivot: str, pin: str, corner: int) -> int:
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
     """The arrow of a normal (ν) or tangential (τ) component."""
     symbol = f"a_{about(pen, pin, pivot)}^{kind}"
-    pen.arrow(
-        join, tail, tip, name=symbol, symbol=symbol, kind=kind, q=letter(pin), p=letter(pivot)
-    )
+    pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind=kind, q=owned(pin), p=owned(pivot))

@@ -265,31 +265,53 @@ def is_input(step: Step) -> bool:
 
 
 def image(point: str) -> str:
-    """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3."""
-    name, _, link = point.removeprefix(CONTACT).partition("@")
+    """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3.
+
+    Both points of a contact have one image there, for nothing slips.
+    """
+    name, link = ends_of(point)
     small = name.lower() if name.lower() not in (name, "o") else name.lower() + "_v"
-    return f"{small}_{link}" if link else small
+    return f"{small}_{link}" if link and not point.startswith(CONTACT) else small
 
 
 def second_image(point: str) -> str:
     """Name of a point's image in the acceleration plan: the small letter with a prime."""
     small, _, index = image(point).partition("_")
-    return f"{small}{PRIME}_{index}" if index else small + PRIME
+    link = ends_of(point)[1] if point.startswith(CONTACT) else ""
+    return f"{small}{PRIME}_{index or link}" if index or link else small + PRIME
+
+
+def ends_of(point: str) -> tuple[str, str]:
+    """The name of a point without the mark of a contact, and the link that it is of."""
+    name, _, link = point.removeprefix(CONTACT).partition("@")
+    return name, link
 
 
 def letter(point: str) -> str:
+    """A point as the index of a velocity, or in a bar: a contact's is of both its links."""
+    return ends_of(point)[0] if point.startswith(CONTACT) else owned(point)
+
+
+def owned(point: str) -> str:
     """A point as the index of a symbol: A, and A3 for the point of link 3 under A.
 
     A comma keeps the link apart where the point's own name ends in digits or the link has a word.
     """
-    name, _, link = point.removeprefix(CONTACT).partition("@")
+    name, link = ends_of(point)
     apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
     return name + apart + link
 
 
 def about(pen: Pen, pin: str, pivot: str) -> str:
-    """Index of a relative motion: BA for B about A, and B alone about a fixed pivot."""
+    """Index of a relative acceleration: BA for B about A, and B alone about a fixed pivot."""
     fixed = pivot in pen.scene.frame.points
+    return owned(pin) if fixed else owned(pin) + owned(pivot)
+
+
+def against(pen: Pen, pin: str, pivot: str) -> str:
+    """Index of a relative velocity: B alone about what is fixed, or touches what is."""
+    rests = pen.the("velocity", pivot) == pen.pole(Plane.VELOCITIES)
+    fixed = pivot in pen.scene.frame.points or (pivot.startswith(CONTACT) and rests)
     return letter(pin) if fixed else letter(pin) + letter(pivot)
 
 

@@ -118,6 +118,7 @@ def touch_and_turn(pen: Pen, shapes: Shapes, contact: Contact) -> None:
         lead, start = angle_of(pen, shapes, contact, on), start_turn(pen, contact, wheel)
         turn = pen.draw(rolled_on_track, lead, start, way, radius_of(pen, contact))
         settle_turn(pen, wheel, turn)
+    pen.want("turned from", wheel, start)
 
 
 def named(contact: Contact) -> Says:
@@ -195,12 +196,14 @@ def roll_round(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> None:
     turns = [turned_by(pen, shapes, contact, each) for each in (arm, side.other)]
     with pen.on(Part.POSITION, Plane.NUMBERS):
         since = pen.draw(rolled_on_wheel, *turns, side.track_radius, side.radius)
-        settle_turn(pen, link, pen.draw(sum_of, start_turn(pen, contact, link), since))
+        start = start_turn(pen, contact, link)
+        settle_turn(pen, link, pen.draw(sum_of, start, since))
+    pen.want("turned from", link, start)
 
 
 def settle_turn(pen: Pen, link: str, turn: int) -> None:
     """The angle of a link's x axis in radians, whole turns counted, and so its axis."""
-    pen.shared["turned", link] = turn
+    pen.shared["turned", link] = pen.want("turned", link, turn)
     pen.want("axis", link, pen.draw(axis_turned, turn))
 
 

@@ -16,10 +16,11 @@ from graphkin.plans.coriolis import guide_corner
 from graphkin.plans.guides import known_guide
 from graphkin.plans.higher import Each, cut_at, slide_of
 from graphkin.plans.links import bases, ending
-from graphkin.plans.normals import lay_off_normal, normal_component, square
+from graphkin.plans.normals import normal_component
 from graphkin.plans.pen import Pen, Says, image, named, second_image
 from graphkin.plans.shape import Shapes
 from graphkin.plans.trial_arrows import components, relative_arrows
+from graphkin.plans.trial_crossing import crossed_point, crossing
 from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.closing import (
     between,
@@ -28,14 +29,13 @@ from graphkin.steps.closing import (
     lacks,
     lacks_across,
     less,
-    line_through,
     product,
     share,
+    share_on_line,
 )
 from graphkin.steps.program import Part, Plane, Target
 from graphkin.steps.vocabulary import (
     distance,
-    meet,
     part_along,
     sum_of,
 )
@@ -84,10 +84,15 @@ def two_trials(pen: Pen, shapes: Shapes, group: Higher, each: Each, kind: Kind) 
             misses.append(missed(pen, shapes, group, kind))
         layers.append(layer)
     tried = range(begun[1], len(pen.steps))
+    crossed = crossings(pen, shapes, group, kind, layers)
     with pen.on(kind.part, Plane.NUMBERS):
+        by_hand = None
+        for point, found in crossed.items():
+            with pen.hands_way():
+                by_hand = pen.draw(share_on_line, *trials_of(layers, kind, point), found)
         says: Says = {"k": group.trial.link, "tried": "{} {}".format(*values), **cut_at(group.last)}
-        divided = pen.draw(share, *misses, **says)
-    settle(pen, group, kind, layers, divided)
+        divided = pen.draw(share, *misses, by_hand=by_hand, **says)
+    settle(pen, group, kind, layers, divided, crossed)
     if kind is ACCELERATION:
         components(pen, group, layers[1], tried)
     for last in ending(group):
@@ -199,8 +204,32 @@ def missed_slide(pen: Pen, shapes: Shapes, driver: Driver, kind: Kind) -> int:
         return pen.draw(less, found, given)
 
 
+def trials_of(layers: list[dict[Target, int]], kind: Kind, point: str) -> tuple[int, int]:
+    """The images of a point in both trial plans."""
+    first, second = (layer[kind.quantity, point] for layer in layers)
+    return first, second
+
+
+def crossings(
+    pen: Pen, shapes: Shapes, group: Higher, kind: Kind, layers: list[dict[Target, int]]
+) -> dict[str, int]:
+    """The point that a line known before the trials finds by a crossing, and the step that does."""
+    images = [of for what, of in layers[0] if what == kind.quantity]
+    tried = {of for of in images if len({*trials_of(layers, kind, of)}) > 1}
+    point = crossed_point(pen, group, kind.quantity, tried)
+    if point is None:
+        return {}
+    ends = trials_of(layers, kind, point)
+    return {point: crossing(pen, shapes, group, kind.quantity, point, ends)}
+
+
 def settle(
-    pen: Pen, group: Higher, kind: Kind, layers: list[dict[Target, int]], divided: int
+    pen: Pen,
+    group: Higher,
+    kind: Kind,
+    layers: list[dict[Target, int]],
+    divided: int,
+    crossed: dict[str, int],
 ) -> None:
     """Every point of the right plan, on the lines through its two trials."""
     first, second = layers
@@ -213,11 +242,16 @@ def settle(
         elif quantity == kind.quantity and one == two:
             pen.want(quantity, of, one)
         elif quantity == kind.quantity:
-            by_hand = crossing(pen, group, kind, of, one, two)
             says: Says = {"q": of, "a": named(pen, one), "b": named(pen, two)}
             with pen.on(kind.part, kind.plane):
                 found = pen.draw(
-                    between, one, two, divided, name=kind.named(of), by_hand=by_hand, **says
+                    between,
+                    one,
+                    two,
+                    divided,
+                    name=kind.named(of),
+                    by_hand=crossed.get(of),
+                    **says,
                 )
             pen.want(quantity, of, found)
             settled.append(of)
@@ -237,24 +271,6 @@ def settle(
 def in_order(ends: tuple[str, str], found: list[str]) -> tuple[str, ...]:
     """The ends of the bar that closes a group, the one that is known or found first before."""
     return tuple(sorted(ends, key=lambda end: found.index(end) if end in found else -1))
-
-
-def crossing(pen: Pen, group: Higher, kind: Kind, of: str, one: int, two: int) -> int | None:
-    """The hand's way to the pin that closes a group: its line cuts the perpendicular to its bar."""
-    match group.last:
-        case Tie(_, Pin(point=p), Pin(point=q)) if of in (p, q):
-            other = p if of == q else q
-        case _:
-            return None
-    if not pen.has(kind.quantity, other):
-        return None
-    vector = normal_component(pen, other, of) if kind is ACCELERATION else None
-    with pen.on(kind.part, kind.plane), pen.hands_way():
-        line = pen.draw(line_through, one, two, a=named(pen, one), b=named(pen, two))
-        if vector is None:
-            return pen.draw(meet, line, velocities.square(pen, other, of))
-        corner = lay_off_normal(pen, other, of, vector)
-        return pen.draw(meet, line, square(pen, other, of, corner))
 
 
 def own_rate(pen: Pen, link: str) -> bool:

@@ -7,7 +7,7 @@ from graphkin.plans.arrows import arrow_between, velocity_arrows
 from graphkin.plans.carried import image_under, omega_of
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import Base, crank_tip, sides_of, under
-from graphkin.plans.pen import Pen, Says, image, letter, named
+from graphkin.plans.pen import Pen, Says, against, image, letter, named
 from graphkin.plans.plates import crosses_well
 from graphkin.plans.position import led_path
 from graphkin.plans.shape import Shapes
@@ -153,7 +153,7 @@ def square(pen: Pen, pivot: str, pin: str) -> int:
     ends = pen.the("position", pivot), pen.the("position", pin)
     says: Says = {"s": named(pen, start), "p": letter(pivot), "q": letter(pin)}
     if pivot.startswith(CONTACT):
-        says["c"] = image(pivot)
+        says |= {"c": image(pivot), "i": against(pen, pin, pivot)}
     return pen.draw(square_to, start, *ends, **says)
 
 

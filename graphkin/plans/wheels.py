@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
+from graphkin.plans.arrows import acceleration_arrow, relative_arrow, velocity_arrows
 from graphkin.plans.carried import carried, omega_of, second_image_under
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import contact_name, under
 from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
-from graphkin.plans.pen import Pen, Says, image, letter, named, second_image
+from graphkin.plans.pen import Pen, Says, about, against, image, letter, named, owned, second_image
 from graphkin.plans.rolling import radius_of
 from graphkin.plans.shape import Shapes
 from graphkin.plans.touching import by_contact
@@ -20,6 +20,7 @@ from graphkin.steps.vocabulary import (
     driven_tangential,
     epsilon,
     in_proportion,
+    join,
     lay_off,
     meet,
     omega,
@@ -72,6 +73,7 @@ def geared(pen: Pen, group: Geared) -> None:
             if pen.turns(link):
                 ends = pen.the("position", name), pen.the("position", point)
                 says: Says = {"p": letter(name), "q": point, "s": named(pen, start)}
+                says["i"] = against(pen, point, under(name, link))
                 with pen.on(Part.VELOCITY, Plane.VELOCITIES):
                     rate = omega_of(pen, link)
                     start = pen.draw(turned_velocity, start, *ends, rate, name=image(point), **says)
@@ -79,7 +81,7 @@ def geared(pen: Pen, group: Geared) -> None:
                 with pen.on(Part.VELOCITY, Plane.VELOCITIES):
                     start = pen.draw(alike, start, name=image(point), p=letter(name), q=point)
             pen.want("velocity", point, start)
-            velocity_arrows(pen, point, None)
+            velocity_arrows(pen, point, under(name, link) if pen.turns(link) else None)
         case Contact() as own:
             first = touched(pen, own, link, partner(own, link))
             names = [under(contact_name(own), link), under(name, link)]
@@ -88,10 +90,13 @@ def geared(pen: Pen, group: Geared) -> None:
             with pen.on(Part.SHAPE, Plane.NUMBERS):
                 ratio = pen.draw(in_proportion, *places)
             says = {"p": letter(names[0]), "q": letter(names[1]), "r": centre}
+            says |= {"c": image(names[0]), "d": image(names[1])}
             with pen.on(Part.VELOCITY, Plane.VELOCITIES):
                 found = pen.draw(similar_point, first, start, ratio, name=image(centre), **says)
             pen.want("velocity", centre, found)
             velocity_arrows(pen, centre, None)
+            relative_arrow(pen, names[1], names[0])
+            says["i"] = against(pen, names[1], names[0])
             with pen.on(Part.RESULT, Plane.NUMBERS):
                 turning = pen.draw(omega, *places[:2], first, start, name=link, **says)
             pen.want("omega", link, turning)
@@ -233,14 +238,19 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     called = second_image(under(name, link))
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = pen.draw(lay_off, start, vector, name=called, **says)
+        rolling_arrow(pen, start, corner, says)
     pen.want("acceleration", under(name, link), corner)
     ends = pen.the("position", name), pen.the("position", point)
     turning, twist = omega_of(pen, link), omega_of(pen, link, "epsilon")
-    says = {"p": letter(under(name, link)), "q": point, "s": called, "k": link}
+    rim = under(name, link)
+    says = {"p": letter(rim), "q": point, "s": called, "k": link}
+    says |= {"i": about(pen, point, rim), "x": owned(rim)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = pen.draw(centripetal, corner, *ends, turning, **says)
+        end = pen.draw(centripetal, corner, *ends, turning, **says)
         named_ = second_image(point)
-        found = pen.draw(driven_tangential, corner, *ends, twist, name=named_, **says)
+        found = pen.draw(driven_tangential, end, *ends, twist, name=named_, **says)
+        component_arrow(pen, corner, end, "ν", point, rim)
+        component_arrow(pen, end, found, "τ", point, rim)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
 
@@ -248,7 +258,7 @@ def turning_rack(pen: Pen, group: Geared) -> None:
 def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
     """A roller between tracks: its points of contact move against them to its centre only."""
     link, centre = group.link, own.wheel.centre
-    images, names = [], []
+    images, names, starts = [], [], []
     for contact in (own, group.contact):
         name, known = contact_name(contact), partner(contact, link)
         start = carried(pen, known, name, "acceleration")
@@ -261,15 +271,27 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             named_ = second_image(under(name, link))
             images.append(pen.draw(lay_off, start, vector, name=named_, **says))
+            rolling_arrow(pen, start, images[-1], says)
         pen.want("acceleration", under(name, link), images[-1])
         names.append(name)
+        starts.append(start)
     places = [pen.the("position", each) for each in (*names, centre)]
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         ratio = pen.draw(in_proportion, *places)
-    says = {"p": letter(under(names[0], link)), "q": letter(under(names[1], link)), "r": centre}
+    rims = [under(name, link) for name in names]
+    says = {"p": letter(rims[0]), "q": letter(rims[1]), "r": centre}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         found = pen.draw(similar_point, *images, ratio, name=second_image(centre), **says)
+        if not any(pen.turns(partner(contact, link)) for contact in (own, group.contact)):
+            component_arrow(pen, starts[0], starts[1], "τ", rims[1], rims[0])
     pen.want("acceleration", centre, found)
     acceleration_arrow(pen, centre)
+    says["i"] = about(pen, rims[1], rims[0])
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("epsilon", link, pen.draw(epsilon, *places[:2], *images, name=link, **says))
+
+
+def rolling_arrow(pen: Pen, start: int, end: int, says: Says) -> None:
+    """The arrow of the acceleration of a rolling point of contact against its track."""
+    symbol = f"a_{says['i']}^ν"
+    pen.arrow(join, start, end, name=symbol, symbol=symbol, kind="ν", q=says["q"], p=says["p"])

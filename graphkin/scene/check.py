@@ -11,6 +11,7 @@ from graphkin.scene.edges import check_profiles
 from graphkin.scene.findings import Findings, listed, nearest, numbered
 from graphkin.scene.known import all_points, known_link, known_point, named, place_of, quoted
 from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
+from graphkin.scene.names import check_names
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -24,6 +25,7 @@ def check_scene(scene: Scene, findings: Findings) -> None:
     check_drivers(scene, findings)
     check_branches(scene, findings)
     check_ask(scene, findings)
+    check_names(scene, findings)
     check_far(scene, findings)
 
 

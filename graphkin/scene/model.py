@@ -257,7 +257,8 @@ class Sheet(NamedTuple):
 class Scene:
     """A planar mechanism in one position, with what is asked of it.
 
-    ``titles`` and ``notes`` hold texts per language; ``values`` the parameters as set, exact.
+    ``titles`` and ``notes`` hold texts per language, ``names`` what links are called in each;
+    ``values`` the parameters as set, exact.
     """
 
     name: str
@@ -272,6 +273,7 @@ class Scene:
     sheet: Sheet = field(default_factory=Sheet)
     time: Quantity | None = None
     titles: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)
     values: Mapping[str, object] = field(default_factory=dict)
     source: Path | None = None

@@ -17,6 +17,7 @@ from graphkin.scene.joints import read_rolls, read_slides, read_wheels
 from graphkin.scene.limits import decoded, read_bytes, tables_of
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Link, Scene
+from graphkin.scene.names import read_names
 from graphkin.scene.parameters import read_parameters, set_values
 from graphkin.scene.profiles import normals
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
@@ -112,6 +113,7 @@ def assembled(
         sheet=read_sheet(top.table("sheet"), measures),
         time=time,
         titles=read_languages(top.table("titles"), findings),
+        names=read_names(top.table("names"), findings),
         notes=read_languages(top.table("notes"), findings),
         values=values,
         source=source,

@@ -10,10 +10,12 @@ from typing import Any
 from graphkin.arithmetic import larger, pick, smaller
 from graphkin.paper.centre import STRAIGHT
 from graphkin.paper.desk import TINY, above_foot
+from graphkin.paper.images import undrawn_sides
 from graphkin.paper.layout import BEYOND, SWEEP
 from graphkin.paper.letters import is_coriolis
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline
 from graphkin.paper.symbols import SHORT, VECTORS
+from graphkin.paper.trial_gaps import gap_lines
 from graphkin.paper.trial_marks import NEAR as SHORTEST
 from graphkin.paper.trial_marks import leg_start
 from graphkin.plane import Circle as Round
@@ -165,7 +167,7 @@ class Steps(Seen):
             return self.circle(number, Circle(0, 0, 1, ""))
         for start, end in self.legs(number):
             if self.is_at(mark, start, end):
-                is_leg = cls in ("trial", "trial-line")
+                is_leg = cls in ("trial", "trial-line") or self.key(number) == "similar-point"
                 shown = self.apart(end, start) - SHORTEST if is_leg else self.seen(number)
                 return self.bench.between(start, end, shown=shown)
         if isinstance(self.drawn(number), Carrier) and number in self.layout.spans:
@@ -195,6 +197,16 @@ class Steps(Seen):
             yield shelf.lifted(self.value(step.args[0])), shelf.lifted(value)
         if self.key(number) == "between":
             yield self.divided(number)
+        for _, tail, tip in gap_lines(number, step, self.lifted, self.bench.field.mm):
+            yield tail, tip
+        if self.key(number) == "similar-point":
+            for one, other in undrawn_sides(drawing, number, step):
+                yield shelf.lifted(self.value(one)), shelf.lifted(self.value(other))
+
+    def lifted(self, number: int) -> Any:
+        """The value of a step as a traced number; a line as it is."""
+        value = self.value(number)
+        return value if isinstance(value, Carrier) else self.bench.shelf.lifted(value)
 
     def divided(self, number: int) -> tuple[Any, Any]:
         """The line through the two trials of a point, as far as the right one and a little more."""

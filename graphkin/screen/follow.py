@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.arithmetic import pick
-from graphkin.paper.desk import TINY
+from graphkin.paper.desk import TINY, above_foot
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import Layout
 from graphkin.paper.marks import Circle, Line, Mark, Text
@@ -164,7 +164,7 @@ class Following:
         """A line across the field, which stays and goes on where the field grows."""
         ends = stretched((mark.x1, mark.y1), (mark.x2, mark.y2))
         start, end = (self.bench.shelf.lifted(complex(*place)) for place in ends)
-        return self.bench.joining(start, end, self.bench.room)
+        return self.bench.joining(start, end, above_foot(self.bench.room))
 
     # --- labels --------------------------------------------------------------------------------
 

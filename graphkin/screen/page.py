@@ -57,6 +57,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
     Raises WitnessError when the independent route disagrees, PageError where a drawing does not
     fit.
     """
+    mechanism = mechanism.spoken(language)
     sheets = screen_sheets(mechanism, language)
     told = telling(sheets)
     moves = slider(mechanism, sheets)
@@ -89,6 +90,7 @@ def task_page(
     form: Form | None = None,
 ) -> str:
     """The page of a scene as a task: what is given and what is asked, and nothing of the key."""
+    mechanism = mechanism if form else mechanism.spoken(language)  # answers go by the scene's names
     sheets = screen_sheets(mechanism, language, "task")
     words = sheets[0].drawing.words
     asked = words("page.asked")

@@ -85,6 +85,13 @@ def share(first: Real, second: Real) -> Real:
     return first / (first - second)
 
 
+@action("share-on-line")
+def share_on_line(first: Point, second: Point, found: Point) -> Real:
+    """The same share as it is measured on the line of the two trials of a point."""
+    way = second - first
+    return dot(way, found - first) / dot(way, way)
+
+
 @action("between")
 def between(first: Point, second: Point, part: Real) -> Point:
     """The point that divides the way from the first trial's point to the second's so."""

@@ -159,12 +159,16 @@ class Program:
         return found - wanted
 
     def _comes_along(self, number: int, found: set[int]) -> bool:
-        """Whether an arrow brings a step: a given value, or the point under a sliding one in a plan
-        that two trials give, through which the sliding one's components lead."""
+        """Whether an arrow brings a step: a given value, or a point of a plan that two trials give.
+
+        That is the one that a crossing finds, by which the others are, or the one under a sliding
+        one, through which the sliding one's components lead.
+        """
         step = self.steps[number]
         if step.action is None or step.action.key != "between":
             return step.given is not None
-        return "@" in step.says.get("q", "") and found.issuperset(step.args)
+        leads = "@" in step.says.get("q", "") or step.by_hand in found
+        return leads and found.issuperset(step.args)
 
     def descendants(self, number: int) -> frozenset[int]:
         """The steps whose values depend on a step, itself included."""

@@ -430,8 +430,8 @@ ram = "forward"
         (
             "gears-ring",
             [
-                ("26.57°", "normal", "the right triangle of T1,2 about P"),
-                ("26.57°", "normal", "the right triangle of Q about T1,2"),
+                ("26.57°", "normal", "the right triangle of T1 about P"),
+                ("26.57°", "normal", "the right triangle of Q about T1"),
             ],
         ),
         (

@@ -1,12 +1,16 @@
-"""The drawn part of a guide of the frame stays clear of fixed pivots, in every kind of number."""
+"""The drawn part of a guide of the frame stays clear of fixed pivots, in every kind of number, its
+line of the field's edge; what bears the frame stays clear of the notes."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from graphkin.paper.desk import above_foot
+from graphkin.paper.marks import Line, Text, reach
 from graphkin.paper.slides import AWAY, LEAST, REACH, clear_of_pivots, rails_of
 from tests.paper.made_up import field_of, made_up
+from tests.paper.sheet_tools import drawn
 
 SCENE = """
 [frame]
@@ -50,3 +54,27 @@ def test_many_places_at_once_give_what_each_gives_alone():
 
 def test_a_pivot_well_beside_the_guide_shortens_nothing():
     assert span(10.0, below=20) == pytest.approx((10 - REACH, 10 + REACH))
+
+
+@pytest.mark.parametrize(
+    "name", ["offset-slider-crank", "rapid-return", "trammel", "roller-plates"]
+)
+def test_the_line_of_a_guide_ends_within_the_field(name):
+    page = drawn(name, 1 if name == "offset-slider-crank" else None, "velocity")
+    left, top, right, bottom = above_foot(page.layout.mechanism.rect)
+    lines = [m for m in page.page.marks if isinstance(m, Line) and m.name.startswith("guide ")]
+    assert lines
+    for line in lines:
+        across, down = sorted((line.x1, line.x2)), sorted((line.y1, line.y2))
+        assert left - 1e-9 <= across[0] and across[1] <= right + 1e-9, line
+        assert top - 1e-9 <= down[0] and down[1] <= bottom + 1e-9, line
+
+
+@pytest.mark.parametrize("language", ["en", "it", "ro"])
+def test_notes_stand_below_the_ground_of_pivots(language):
+    page = drawn("watt-1", None, "acceleration", language=language)
+    marks = page.marks["mechanism"]
+    notes = [reach(m) for m in marks if isinstance(m, Text) and m.name == "note"]
+    ground = [m for m in marks if isinstance(m, Line) and m.cls == "ground"]
+    assert notes and ground
+    assert max(max(m.y1, m.y2) for m in ground) < min(box[1] for box in notes)

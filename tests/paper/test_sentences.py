@@ -179,12 +179,16 @@ def test_the_gaps_of_the_trials_divide_the_line_as_the_sentence_says(name):
 @pytest.mark.parametrize(
     ("name", "kind", "gap"),
     [
-        ("rapid-return", 0, "draw the parallel to guide 5 through o, on which the right point"),
-        ("stephenson-2-ternary", 1, "draw the perpendicular to O2E through the end of aEν"),
-        ("rod-and-wheel", 0, "measure along guide 2, in its positive sense: b11b1 = 0.00 mm"),
+        (
+            "rapid-return",
+            0,
+            "the line qIqII of the trials; through o the parallel to guide 5; they",
+        ),
+        ("stephenson-2-ternary", 1, "the line e′Ie′II of the trials; from o′ lay off aEν ∥ O2E"),
+        ("rod-and-wheel", 0, "measure along guide 2, in its positive sense: b1,IbI = 0.00 mm"),
     ],
 )
-def test_the_gap_of_a_trial_is_told_by_its_line_and_points(name, kind, gap):
+def test_the_crossing_or_the_gap_of_trials_is_told_by_its_line_and_points(name, kind, gap):
     told = [plain(said.markup) for said in sentences(drawings(name)[kind])]
     assert any(said.startswith(gap) for said in told), told
 

@@ -253,13 +253,13 @@ def test_only_vectors_have_heads(page):
     assert not [m for m in heads if m.cls.split()[1] in ("link", "construction")]
 
 
-def test_every_inset_names_both_ends_of_its_link_and_the_centre(page):
+def test_every_inset_names_the_centre_and_the_points_of_its_rays(page):
     marks = page.marks["mechanism"]
     boxes = [m for m in marks if isinstance(m, Polyline) and m.cls == "panel"]
     names = [label.text for label in labels_of(marks) if not label.text.name]
     for panel in boxes:
         inside = [t.markup for t in names if within(t, reach(panel))]
-        assert len(inside) == len(set(inside)) == 3, inside
+        assert len(inside) == len(set(inside)) >= 3, inside
 
 
 # --- the task view -------------------------------------------------------------------------------

@@ -40,6 +40,36 @@ MARKS = {"en": ".", "ro": ",", "it": ","}
 OTHER_LANGUAGES = [language for language in LANGUAGES if language != "en"]
 
 RARE = {
+    "a block that swings on the frame closes a group of class III": """
+[frame]
+O1 = [0, 0]
+O2 = [220, 60]
+[links.1]
+O1-A = 69
+O1-B = 67
+A-B = 93
+B = "right of O1-A"
+[links.2]
+A-C = 119
+[links.3]
+B-D = 93
+[links.4]
+C-D = 112
+[links.5]
+O2 = [0, 0]
+slides = { on = 4, along = "C-D" }
+[[drivers]]
+turn = 1
+angle = 102
+speed = 5
+[branches]
+2 = "closure 1"
+[ask]
+velocity = ["C", "D"]
+acceleration = ["C", "D"]
+omega = [4]
+epsilon = [4]
+""",
     "slider-crank at its dead point": """
 [frame]
 O = [0, 0]
@@ -108,6 +138,25 @@ velocity = ["B"]
 acceleration = ["B"]
 centres = [2]
 poles = [2]
+""",
+    "pinion driven by a rack": """
+[frame]
+O = [0, 0]
+[links.1]
+R = [0, 0]
+slides = { on = 0, through = [0, -60], angle = 0 }
+[links.2]
+O-A = 45
+wheel = { centre = "O", teeth = 30, module = 4 }
+rolls = { on = 1, through = "R", angle = 0 }
+[[drivers]]
+slide = 1
+position = 30
+speed = 200
+[ask]
+velocity = ["A"]
+acceleration = ["A"]
+omega = [2]
 """,
     "frame point given by distance and angle": """
 [frame]

@@ -45,7 +45,7 @@ def test_so_they_do_in_groups_that_take_two_trials():
 @pytest.mark.parametrize(
     ("name", "symbols"),
     [
-        ("gears-planet", {"v_QP", "v_QT3", "v_T3P"}),
+        ("gears-planet", {"v_QP", "v_QT", "v_TP"}),
         ("stephenson-2-binary", {"v_BA", "v_DC", "v_DE"}),
         ("stephenson-2-ternary", {"v_EC", "v_ED"}),
         ("stephenson-3-crank", {"v_CB"}),
@@ -79,4 +79,4 @@ def test_nor_is_one_in_mechanisms_made_at_random_but_for_that_of_a_point_of_cont
     """Against the wheel's centre that is the centre's along the track, and each is told."""
     made = {seed: found.mechanism.program for seed in SEEDS if (found := case(seed))}
     found = {seed: symbols for seed, program in made.items() if (symbols := both_ways(program))}
-    assert found == {36: {"v_P5P5,2", "v_T3P5"}}
+    assert found == {36: {"v_P5P5,2", "v_TP5"}}

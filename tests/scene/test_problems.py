@@ -367,7 +367,7 @@ def test_an_empty_file_is_one_problem(text: str, said: str) -> None:
 
 
 def test_every_table_written_as_a_number() -> None:
-    keys = "links drivers frame units parameters ask branches sheet titles notes title module"
+    keys = "links drivers frame units parameters ask branches sheet titles names notes title module"
     with pytest.raises(SceneError) as caught:
         read_text("graphkin = 1\n" + "".join(f"{key} = -3\n" for key in keys.split()), "numbers")
     assert {problem.place for problem in caught.value.problems} == set(keys.split())

@@ -1,0 +1,55 @@
+"""The images of links in a plan: the line or the triangle on which similarity finds a point."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any
+
+from graphkin.paper.desk import Desk
+from graphkin.paper.drawing import Drawing
+from graphkin.paper.marks import Line
+from graphkin.paper.phrases import in_line
+from graphkin.paper.plan import put_point
+from graphkin.paper.trial_marks import NEAR, put_trial
+from graphkin.steps.program import Step
+
+
+def put_similar(desk: Desk, number: int, step: Step, value: Any) -> None:
+    """A point of a link's image, with the sides of the image that nothing else draws."""
+    values = desk.drawing.trace.values
+    tried = number in desk.drawing.tags
+    cls = "trial" if tried else "construction"
+    for one, other in undrawn_sides(desk.drawing, number, step):
+        if abs(values[other] - values[one]) * desk.field.mm > NEAR:
+            ends = desk.field(values[one]), desk.field(values[other])
+            desk.board.marks.append(Line(*ends[0], *ends[1], cls, step.name, number))
+    put = put_trial if tried else put_point
+    put(desk, number, step, value)
+
+
+def undrawn_sides(drawing: Drawing, number: int, step: Step) -> Iterator[tuple[int, int]]:
+    """The sides of the image, by the numbers of their ends, along which no arrow of the plan lies.
+
+    None where the hand finds the point by crossing two lines. Three points in line have one side,
+    or, where an arrow lies along a part of it, those from each to the next.
+    """
+    if step.by_hand in drawing.trace.values:
+        return
+    corners = [*step.args[:2], number]
+    sides = [*combinations(corners, 2)]
+    bare = [side for side in sides if not is_joined(drawing, *side)]
+    if in_line(drawing, step):
+        share = drawing.trace.values[step.args[2]].real
+        along = dict(zip(corners, (0.0, 1.0, share), strict=True))
+        whole = max(sides, key=lambda side: abs(along[side[1]] - along[side[0]]))
+        if whole not in bare:
+            return
+        bare = [whole] if bare == sides else [side for side in bare if side != whole]
+    yield from bare
+
+
+def is_joined(drawing: Drawing, one: int, other: int) -> bool:
+    """Whether a plan draws an arrow between two of its points."""
+    found = drawing.joins.get((one, other)) or drawing.joins.get((other, one))
+    return found is not None and drawing.number_of(found) in drawing.trace.values

@@ -1,0 +1,72 @@
+"""Where similarity finds a point of a plan, the line or the triangle that holds it is drawn."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pytest
+import shapely
+
+from graphkin.paper.images import undrawn_sides
+from graphkin.paper.layout import lay_out
+from graphkin.paper.marks import Line
+from graphkin.paper.phrases import in_line
+from graphkin.paper.sheet import right_board
+from tests.paper.sheet_tools import drawings
+
+NAMES = (
+    "crank-slot",
+    "engine",
+    "gears-pair",
+    "lifter",
+    "oldham",
+    "rapid-return-slider",
+    "rod-and-wheel",
+    "roller",
+    "trammel",
+)
+LINES = ("velocity", "relative-velocity", "acceleration", "construction", "trial")
+NEAR = 0.5
+"""Millimetres; what is shorter is not drawn."""
+
+
+def found_by_similarity(drawing):
+    """The numbers of the points that only similarity finds."""
+    values = drawing.trace.values
+    for number, step, _ in drawing.steps(drawing.plane):
+        if step.action.key == "similar-point" and step.by_hand not in values:
+            yield number, step
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_side_of_the_image_is_drawn(name):
+    seen = 0
+    for drawing in drawings(name):
+        layout = lay_out(drawing)
+        lines = shapely.union_all(
+            [
+                shapely.LineString([(m.x1, m.y1), (m.x2, m.y2)]).buffer(0.01)
+                for m in right_board(drawing, layout, "key").marks
+                if isinstance(m, Line) and m.cls.split()[0] in LINES
+            ]
+        )
+        for number, step in found_by_similarity(drawing):
+            corners = [layout.plan(drawing.trace.values[n]) for n in (*step.args[:2], number)]
+            for ends in combinations(corners, 2):
+                side = shapely.LineString(ends)
+                assert side.length < NEAR or lines.covers(side), (drawing.kind, step.name)
+                seen += 1
+    assert seen
+
+
+def test_what_an_arrow_draws_is_not_drawn_again():
+    velocity, acceleration = drawings("lifter")
+    sides = {
+        step.name: [*undrawn_sides(velocity, n, step)] for n, step in found_by_similarity(velocity)
+    }
+    assert sides == {"e": [], "p": []}
+    named = {step.name: (n, step) for n, step in found_by_similarity(acceleration)}
+    assert in_line(acceleration, named["p′"][1])
+    (whole,) = undrawn_sides(acceleration, *named["p′"])
+    names = {acceleration.trace.program.steps[number].name for number in whole}
+    assert names == {"p′", "f′"}
