@@ -71,7 +71,7 @@ def draw_ground(board: Board, drawing: Drawing, field: Field) -> None:
             height = TALL if is_covered(drawing, field, name) else PIVOT
             board.marks += pivot_ground(at, height)
             half = 5.2 * height / PIVOT + 0.4
-            board.taken.append((at[0] - half, at[1], at[0] + half, at[1] + height + 2.6))
+            board.taken.append((at[0] - half, at[1] + height, at[0] + half, at[1] + height + 2.6))
 
 
 def is_covered(drawing: Drawing, field: Field, name: str) -> bool:
