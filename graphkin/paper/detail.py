@@ -11,7 +11,7 @@ from graphkin.paper.crowd import HELPERS
 from graphkin.paper.doubt import segment_of
 from graphkin.paper.field import XY
 from graphkin.paper.free import Disc, free_disc
-from graphkin.paper.labels import Board, Label, free_ones
+from graphkin.paper.labels import SMALL, Board, Label, free_ones
 from graphkin.paper.marks import Circle, Line, Mark, Text
 from graphkin.paper.plan import DOT
 from graphkin.paper.symbols import SHORT, VECTORS, head
@@ -177,12 +177,12 @@ def named(
             assert isinstance(x, float) and isinstance(y, float)
             if label.cls not in HELPERS and dist((x, y), source) <= small:
                 at = larger((x, y), source, place, times)
-                yield replace(label, subject=at, height=2.5, radius=DOT, name="", step=None)
+                yield replace(label, subject=at, height=SMALL, radius=DOT, name="", step=None)
         elif label.cls in VECTORS and (part := within(Line(*ends[0], *ends[1], ""), source, small)):
             first, last = (larger(end, source, place, times) for end in part)
             if part == ends or dist(first, last) >= SEEN:
                 rank = WHOLE if part == ends else 0
-                yield Label(label.markup, label.cls, (first, last), 2.5, priority=rank)
+                yield Label(label.markup, label.cls, (first, last), SMALL, priority=rank)
 
 
 def dots(labels: Sequence[Label]) -> Iterator[Mark]:
