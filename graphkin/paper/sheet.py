@@ -7,7 +7,7 @@ from itertools import product
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, inputs, mechanism
-from graphkin.paper.areas import A3_AREA, AREA, BELOW, MARKED, TABLES, Rect
+from graphkin.paper.areas import A3_AREA, AREA, BELOW, MARKED, TABLES
 from graphkin.paper.data import given
 from graphkin.paper.desk import Desk, above_foot
 from graphkin.paper.detail import parted
@@ -36,8 +36,6 @@ BLANK = ". . . . . . . . ."
 """Room to write in what a task does not give away."""
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
-NARROW = 125.0
-"""A plan's field narrower than this, in mm, has no room for captions in large lettering."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 RAISED = (*VECTORS, "arrowhead")
@@ -144,11 +142,8 @@ def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]
 def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     """The mechanism's field."""
     field = layout.mechanism
-    words = drawing.words
-    board = Board(field.rect, unnamed=words("page.unnamed"))
-    kL = words.decimal(digits(drawing.scales.kL))
-    caption = words("page.mechanism_heading", scale=drawing.scales.words, kL=kL)
-    board.marks.append(headline(field.rect, caption, layout))
+    board = Board(field.rect, unnamed=drawing.words("page.unnamed"))
+    board.marks.append(headlines(drawing, layout, view)[0])
     if view == "task":
         mechanism.draw_frame(board, drawing, field)
         return board
@@ -184,14 +179,8 @@ def vectors(marks: Sequence[Mark]) -> list[Mark]:
 def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     """The plan's field."""
     field = layout.plan
-    words, scales = drawing.words, drawing.scales
-    board = Board(field.rect, unnamed=words("page.unnamed"))
-    factor = scales.kv if drawing.kind == "velocity" else scales.ka
-    k = figure(drawing, factor / 1000)
-    if view == "task" and scales.from_driver:
-        k = BLANK
-    caption = words(f"page.{drawing.kind}_heading", k=k)
-    board.marks.append(headline(field.rect, caption, layout))
+    board = Board(field.rect, unnamed=drawing.words("page.unnamed"))
+    board.marks.append(headlines(drawing, layout, view)[1])
     desk = Desk(board, field, drawing, layout)
     if view == "task":
         for number, step, value in drawing.steps(drawing.plane):
@@ -202,11 +191,21 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     return board
 
 
-def headline(rect: Rect, caption: str, layout: Layout) -> Mark:
-    """The caption of a field; small on both fields where the plan's is narrow."""
-    narrow = layout.plan.rect[2] - layout.plan.rect[0] < NARROW
-    height = 2.5 if narrow or extent(caption, 3.5)[0] > rect[2] - rect[0] - 5 else 3.5
-    return Text(rect[0] + 3, rect[1] - 2.5, caption, "caption", height)
+def headlines(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
+    """The captions of both fields, small where one of them has no room for large lettering."""
+    words, scales = drawing.words, drawing.scales
+    factor = scales.kv if drawing.kind == "velocity" else scales.ka
+    k = BLANK if view == "task" and scales.from_driver else figure(drawing, factor / 1000)
+    kL = words.decimal(digits(scales.kL))
+    captions = {
+        words("page.mechanism_heading", scale=scales.words, kL=kL): layout.mechanism.rect,
+        words(f"page.{drawing.kind}_heading", k=k): layout.plan.rect,
+    }
+    fit = all(extent(said, 3.5)[0] <= r[2] - r[0] - 5 for said, r in captions.items())
+    height = 3.5 if fit else 2.5
+    return [
+        Text(rect[0] + 3, rect[1] - 2.5, said, "caption", height) for said, rect in captions.items()
+    ]
 
 
 def below(drawing: Drawing, view: str) -> list[Mark]:
