@@ -49,13 +49,14 @@ def doubtful_ones(
 
     found: list[int] = []
     for bars in (True, False):
-        shapes = rivals(marks, bars=bars)
-        place = {name: j for j, name in enumerate(shapes)}
-        which = [
+        bare = [
             i
             for i, (label, spot) in enumerate(zip(labels, spots, strict=True))
-            if label.ring is bars and label.name in place and segment_of(label) and not spot.leader
+            if label.ring is bars and segment_of(label) and not spot.leader
         ]
+        shapes = rivals(marks, bars=bars) if bare else {}
+        place = {name: j for j, name in enumerate(shapes)}
+        which = [i for i in bare if labels[i].name in place]
         if not which or len(shapes) < 2:
             continue
         areas = shapely.box(*np.array([reach(labels[i].text(spots[i])) for i in which]).T)
