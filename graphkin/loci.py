@@ -38,7 +38,7 @@ def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
 
 
 def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
-    """Near the fit the locus by which each group of higher class is closed, where a point shows it.
+    """Near the fit the loci by which each group of higher class is closed, where points show it.
 
     A hand tries a few places there; branches that close in other ways would only cover the drawing.
     """
@@ -55,10 +55,11 @@ def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
         step = steps[number]
         assert step.action is not None and isinstance(step.action.value, Closer)
         _, *signs, _ = trace.values[number]
-        found = step.action.value.locus([trace.values[arg] for arg in step.args], signs)
-        if found is not None:
-            fit, round_ = trace.value("position", step.says["l"]), step.action.value.trying.turns
-            curves.append(Curve("locus", step.says["l"], piece(found, fit, far, closed=round_)))
+        round_ = step.action.value.trying.turns
+        loci = step.action.value.loci([trace.values[arg] for arg in step.args], signs)
+        for point, locus in zip(step.says["l"].split(), loci, strict=True):
+            fit = trace.value("position", point)
+            curves.append(Curve("locus", point, piece(locus, fit, far, closed=round_)))
     return tuple(curves)
 
 
@@ -86,12 +87,15 @@ def piece(
 
 
 def along(points: Any, far: float) -> list[complex]:
-    """The points after the first, as many as reach so far along them."""
+    """The points after the first, as many as reach so far along them, until they turn back."""
     import numpy as np
 
-    gone = np.cumsum(abs(np.diff(points)))  # NaN from the first place on that cannot be drawn
+    ways = np.diff(points)
+    gone = np.cumsum(abs(ways))  # NaN from the first place on that cannot be drawn
     short = np.append(0.0, gone[:-1]) < far
-    return [complex(point) for point in points[1:][short & np.isfinite(gone)]]
+    back = (ways[1:] * ways[:-1].conjugate()).real < 0
+    ahead = np.append(0, np.cumsum(back)) == 0
+    return [complex(point) for point in points[1:][short & ahead & np.isfinite(gone)]]
 
 
 def followed(whole: Cycle) -> Cycle:

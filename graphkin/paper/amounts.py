@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from math import degrees
+
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words
 
 LONGEST = 9
 """Signs of the longest number printed in full among the data."""
+
+
+def in_degrees(scene: Scene, words: Words, quantity: Quantity) -> str:
+    """An angle that is written in radians as a protractor shows it; nothing for any other."""
+    if quantity.unit != "rad":
+        return ""
+    return f"{words.fixed(degrees(float(quantity.si(scene.values))), 2)}°"
 
 
 def written(scene: Scene, words: Words, quantity: Quantity) -> str:

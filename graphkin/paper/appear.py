@@ -13,6 +13,7 @@ from graphkin.paper.sentence import Sentence
 from graphkin.paper.stages import stage_of
 from graphkin.paper.style import NOW
 from graphkin.paper.symbolic import symbol
+from graphkin.steps.program import Part
 
 TOGETHER = re.compile(" [≡≈] ")
 """What stands between the letters of points that fall together, or as good as together."""
@@ -37,13 +38,13 @@ def appearing(
 
 
 def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
-    """The sentence that finds each letter of the plan, and each vector by its symbol."""
+    """The sentence that finds each letter of the plan, each centre, each vector by its symbol."""
     found: dict[str, int] = {}
     for number, step in enumerate(drawing.trace.program.steps):
         if number in staged:
             vector = symbol(step.says["symbol"]) if step.arrow else symbol(step.name)
             found.setdefault(vector, staged[number])
-            if step.plane is drawing.plane:
+            if step.plane is drawing.plane or step.part in (Part.CENTRE, Part.POLE):
                 found[step.name] = staged[number]
     return found
 

@@ -6,6 +6,7 @@ from cmath import phase
 from math import degrees
 from typing import Any
 
+from graphkin.paper.centre_words import same_centre
 from graphkin.paper.desk import TINY, Desk, above_foot, line_ends
 from graphkin.paper.field import clipped
 from graphkin.paper.labels import Label
@@ -14,6 +15,7 @@ from graphkin.paper.paths import clipped_path, ring
 from graphkin.paper.plan import line_name, name_point
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import FIXED, head
+from graphkin.paper.tips import put_tips
 from graphkin.steps.program import Part, Step
 
 LAST = 20.0
@@ -35,6 +37,7 @@ def put_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
     """
     if not step.name:
         return
+    put_tips(desk, number, step)
     point = desk.drawing.place(value)
     if point is not None and desk.field.holds(point, 2.0):
         at = desk.field(point)
@@ -95,14 +98,19 @@ def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
     if step.action is not None and step.action.key == "inflection-pole":
         desk.board.notes.append(far_words(desk, step, 0.0 if endless else abs(way), way))
         return
+    same = same_centre(desk.drawing, step)
     start, (u, v) = desk.field(value.start), desk.field.way(way)
     part = clipped(start, (start[0] + FAR * u, start[1] + FAR * v), above_foot(desk.field.rect))
     if part is None:
         return
-    desk.board.marks.append(head(*part, desk.colour, step.name, number))
+    if same is None:
+        desk.board.marks.append(head(*part, desk.colour, step.name, number))
     if step.by_hand not in desk.drawing.trace.values or "aside" in step.says:
         desk.board.marks.append(Line(*part[0], *part[1], "ray", step.name, number))
-    text = far_words(desk, step, 0.0 if endless else abs(way), way)
+    if same is None:
+        text = far_words(desk, step, 0.0 if endless else abs(way), way)
+    else:
+        text = f"{symbol(step.name)} = {symbol(same.name)}"
     end = part[1]
     subject = ((end[0] - LAST * u, end[1] - LAST * v), end)
     desk.board.labels.append(Label(text, desk.colour, subject, 2.5, step.name, number, priority=2))

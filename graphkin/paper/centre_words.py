@@ -5,6 +5,7 @@ from __future__ import annotations
 from graphkin.paper.drawing import NOISE, Drawing
 from graphkin.paper.sentence import Sentence, together
 from graphkin.paper.symbolic import symbol
+from graphkin.scene.model import FRAME
 from graphkin.steps.program import Step
 
 CENTRES = ("instant-centre", "acceleration-pole", "relative-centre", "inflection-pole")
@@ -39,6 +40,18 @@ def oddity(drawing: Drawing, step: Step) -> str:
         return "far"
     lost = step.by_hand is not None and step.by_hand not in drawing.trace.values
     return "still" if lost and step.action and step.action.key in STILL else ""
+
+
+def same_centre(drawing: Drawing, step: Step) -> Step | None:
+    """The instantaneous centre on this sheet that the centre of a link and the frame is, too."""
+    if step.action is None or step.action.key != "relative-centre":
+        return None
+    pair, own = [step.says.get(key, "") for key in ("j", "k")], drawing.number_of(step)
+    link = pair[1] if pair[0] == FRAME else pair[0]
+    number = drawing.trace.program.targets.get(("centre", link), own)
+    if FRAME not in pair or number == own or number not in drawing.trace.values:
+        return None
+    return drawing.trace.program.steps[number]
 
 
 def at_rest(drawing: Drawing, step: Step, fields: dict[str, str]) -> str:
@@ -99,4 +112,6 @@ def crossing(drawing: Drawing, said: Sentence) -> str:
     """A centre with the two lines that meet in it, as I₁₃ (I₁₂I₂₃, I₁₄I₃₄)."""
     step = drawing.trace.program.steps[said.step]
     lines = (symbol(line.says["m"]) + symbol(line.says["n"]) for line in lines_of(drawing, step))
-    return f"{symbol(step.name)} ({drawing.words('list_mark').join(lines)})"
+    same = same_centre(drawing, step)
+    name = f"{symbol(step.name)} = {symbol(same.name)}" if same else symbol(step.name)
+    return f"{name} ({drawing.words('list_mark').join(lines)})"

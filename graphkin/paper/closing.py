@@ -6,10 +6,13 @@ from collections.abc import Iterator, Mapping
 
 from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import way_of
+from graphkin.paper.lines import place
+from graphkin.paper.naming import amount, way_of
+from graphkin.paper.pairs import heading
 from graphkin.paper.richtext import escape
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.scene.model import Rolling, Slide
 from graphkin.steps.program import Part, Plane, Step
 
 IDLE = "idle "
@@ -44,6 +47,24 @@ def links_drawn(drawing: Drawing, says: Mapping[str, str]) -> list[str]:
     near = [says["g"], *(slide.on for slide in links[says["g"]].slides)] if "g" in says else names
     cut = next(name for name in near if name in names and ends <= {*links[name].points})
     return [name for name in names if name != cut]
+
+
+def found_place(drawing: Drawing, step: Step) -> dict[str, str]:
+    """How far from the zero of its path, and on which side of it, a group was found to close."""
+    where = drawing.trace.program.steps[step.args[1]]
+    if where.action is None or where.action.key != "part":
+        return {}
+    link, size = drawing.scene.links[step.says["k"]], float(drawing.trace.values[step.args[1]])
+    paths: list[Slide | Rolling] = [*link.slides, *link.rolls]
+    path = next(path for path in paths if path.on == step.says.get("h", path.on))
+    zero = path.along[0] if isinstance(path, Slide) and path.along else path.through
+    assert zero is not None
+    side = heading(drawing.trace.values[step.args[0]].along * (-1 if size < 0 else 1))
+    return {
+        "what": amount(drawing, abs(size)),
+        "side": drawing.words(f"page.{side}"),
+        "zero": place(drawing, path.on, zero),
+    }
 
 
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:

@@ -24,7 +24,7 @@ from graphkin.paper.images import put_similar
 from graphkin.paper.letters import is_coriolis
 from graphkin.paper.plan import put_arc, put_arrow, put_driver_ray, put_line, put_point, put_pole
 from graphkin.paper.trial_gaps import put_gaps
-from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line
+from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line, raise_trials
 from graphkin.paper.triangle import (
     put_bar_line,
     put_crossing,
@@ -49,6 +49,7 @@ def draw_plan_steps(desk: Desk) -> None:
     for number, step, value in desk.drawing.steps(desk.drawing.plane):
         put_step(desk, number, step, value)
     put_gaps(desk)
+    raise_trials(desk)
 
 
 def put_step(desk: Desk, number: int, step: Step, value: Any) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 from graphkin.paper.desk import Desk, line_ends
 from graphkin.paper.field import XY
 from graphkin.paper.labels import Label
-from graphkin.paper.letters import is_coriolis, letter_on, no_base
+from graphkin.paper.letters import is_coriolis, letter_on, no_base, no_triangle
 from graphkin.paper.marks import Circle, Line
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import square_mark
@@ -50,6 +50,8 @@ def shown_before(desk: Desk, number: int, step: Step) -> int | None:
     """The step of a right triangle that sets the same velocity at the same pin."""
     for earlier, other, _ in desk.drawing.mechanism_steps():
         if earlier != number and other.action is step.action and other.args == step.args:
+            if not is_coriolis(other) and no_triangle(desk.drawing, other, desk.field.mm):
+                continue
             return earlier if earlier < number or not is_coriolis(other) else None
     return None
 

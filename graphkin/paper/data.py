@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graphkin.paper.amounts import written
+from graphkin.paper.amounts import in_degrees, written
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.lines import axis_of
 from graphkin.paper.pairs import closures, of_guide, tracks, wheels
@@ -62,7 +62,9 @@ def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
     if driver.kind == "turn":
         speed = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
     index = f"_{{{driver_index(driver)}}}"
-    yield f"{angle_symbol(scene, driver)} = {after_parameter(scene, words, driver.position)}"
+    angle = in_degrees(scene, words, driver.position)
+    place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
+    yield f"{angle_symbol(scene, driver)} = {place}"
     steady = driver.acceleration.is_zero()
     tail = f" = {words('page.constant')}" if steady else ""
     yield f"{speed}{index} = {with_sense(scene, words, driver, driver.speed, tail)}"

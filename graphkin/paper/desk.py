@@ -10,6 +10,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
+from graphkin.text import Words
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
@@ -56,12 +57,17 @@ def middle(tail: XY, tip: XY) -> XY:
     return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
 
 
+def in_mm(words: Words, length: float) -> str:
+    """A short length in mm as it is written: one that no ruler shows as less than what one does."""
+    under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
+    return words.fixed(length, 2) if length >= 0.005 else under
+
+
 def note_tiny(desk: Desk, name: str, length: float) -> None:
     """Name a vector that is too short to be seen at the foot of its field."""
     words, drawing = desk.drawing.words, desk.drawing
     factor = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
     key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
-    short = words.fixed(length, 2) if length >= 0.005 else f"< {words.fixed(0.01, 2)}"
-    note = words(key, name=name, length=short)
+    note = words(key, name=name, length=in_mm(words, length))
     if note not in desk.board.notes:
         desk.board.notes.append(note)

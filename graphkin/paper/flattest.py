@@ -11,6 +11,7 @@ from graphkin.paper.letters import letter_on
 from graphkin.paper.marks import Mark, Text
 from graphkin.paper.richtext import extent
 from graphkin.paper.symbolic import symbol
+from graphkin.paper.trial_falls import fallen_on
 from graphkin.steps.crossings import Crossing, crossings, flattest
 from graphkin.steps.program import Part
 
@@ -50,12 +51,13 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
 
 
 def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
-    """The crossings with a letter that a sheet draws itself."""
+    """The crossings with a letter that a sheet draws itself, where its lines lead anywhere."""
     parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
     return tuple(
         crossing
         for crossing in crossings(drawing.trace)
         if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
+        if crossing.number not in drawing.tags or not fallen_on(drawing, crossing.number)
     )
 
 
@@ -67,6 +69,12 @@ def locus_of(drawing: Drawing, crossing: Crossing) -> tuple[int, str] | None:
         if action is not None and action.key == "close" and letter:
             return number, letter
     return None
+
+
+def is_gap(drawing: Drawing, crossing: Crossing) -> bool:
+    """True where two loci show how a group closes: where they are a bar apart, not by crossing."""
+    locus = locus_of(drawing, crossing)
+    return locus is not None and " " in drawing.trace.program.steps[locus[0]].says["l"]
 
 
 def letter_of_crossing(drawing: Drawing, crossing: Crossing) -> str:

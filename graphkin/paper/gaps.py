@@ -6,8 +6,13 @@ from cmath import phase
 from collections.abc import Mapping
 from math import degrees
 
-from graphkin.paper.data import angle_symbol
+from graphkin.paper.amounts import in_degrees
+from graphkin.paper.closing import found_place
+from graphkin.paper.data import angle_symbol, driver_index
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.falling import rate_at_rest
+from graphkin.paper.lines import axis_of
+from graphkin.paper.misses import tried_link
 from graphkin.paper.naming import (
     amount,
     beyond,
@@ -20,12 +25,22 @@ from graphkin.paper.naming import (
 )
 from graphkin.paper.pairs import heading
 from graphkin.paper.richtext import escape
-from graphkin.paper.rolled import arc_rolled, is_moving_track, track_line, turned_by
+from graphkin.paper.rolled import (
+    arc_rolled,
+    is_moving_track,
+    radius_to,
+    rolling_rate,
+    track_line,
+    turned_by,
+)
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.program import Plane, Step
 
 LAID_OFF = ("turned-velocity", "driven-slide", "centripetal", "driven-tangential")
 """Actions that lay off a vector from a point of a plan."""
+SUMS = {"sum": "+", "difference": "−"}
+"""The actions that give a rate from two others, and the sign between them."""
 RATES = {"omega": "v_{}", "epsilon": "a_{}^τ"}
 """The vectors from which a plan finds how a link turns."""
 
@@ -51,9 +66,11 @@ def on_mechanism(
     match step.action.key:
         case "ray" if "k" in says:
             driver = next(d for d in drawing.scene.drivers if d.link == says["k"])
-            return {"angle": angle_symbol(drawing.scene, driver)}
+            return {"angle": angle_of(drawing, driver)} | against(drawing, driver, says["p"])
         case "ray" if is_moving_track(step):
             return {"line": track_line(drawing, step)}
+        case "contact-of-wheels":
+            return radius_to(drawing, step)
         case "rack-at":
             return {"arc": arc_rolled(drawing, step)}
         case "compass":
@@ -70,7 +87,10 @@ def on_mechanism(
             angle = words.fixed(degrees(phase(values[drawing.number_of(step)].along)), 1)
             return {"q": symbol(drawing.scene.links[says["g"]].points[0]), "angle": angle}
         case "set-at" | "set-back":
-            return {"what": coordinate(drawing, step)}
+            return {"what": coordinate(drawing, step), **found_place(drawing, step)}
+        case "arm":
+            way = values[drawing.number_of(step)] - values[step.args[0]]
+            return {"angle": words.fixed(degrees(phase(way)), 1)}
         case "step-along":
             return {"start": symbol(beyond(drawing, step))}
         case "beside":
@@ -104,6 +124,7 @@ def on_plan(
     if key in LAID_OFF:
         drawn = drawn_between(drawing, step.args[0], number, step.plane)
         found["drawn"] = drawing.words.fixed(drawn, 2)
+        found["rate"] = rate_at_rest(drawing, step)
     match key:
         case "square-to" if "c" in says:
             found["c"] = symbol(says["c"])
@@ -124,6 +145,11 @@ def on_plan(
             found["epsilon"] = rate_of(drawing, step, says, "ε")
         case "lay-off":
             found["vector"] = symbol(f"a_{says['i']}^ν")
+            if step.name:
+                drawn = drawn_between(drawing, step.args[0], number, step.plane)
+                rates = drawing.trace.program.steps[step.args[1]].args[2:]
+                found["drawn"] = drawing.words.fixed(drawn, 2)
+                found["omega"] = rolling_rate(drawing, *rates)
         case "lay-off-coriolis" | "lay-back-coriolis":
             found["vector"] = symbol(f"a_{says['i']}^c")
         case "along-bar":
@@ -133,25 +159,65 @@ def on_plan(
     return found
 
 
+def angle_of(drawing: Drawing, driver: Driver) -> str:
+    """The symbol of a driver's angle, with the degrees that a protractor shows."""
+    size = in_degrees(drawing.scene, drawing.words, driver.position)
+    return angle_symbol(drawing.scene, driver) + (f" = {size}" if size else "")
+
+
+def against(drawing: Drawing, driver: Driver, pivot: str) -> dict[str, str]:
+    """The line of a moving link from which a driver's angle is laid off; nothing of the frame's.
+
+    Where the pivot ends that link's bar it is the bar produced.
+    """
+    if driver.against == FRAME:
+        return {}
+    link = drawing.scene.links[driver.against]
+    line = axis_of(drawing, link)
+    ends = link.points[1:2] == (pivot,) and line == bar(*link.points[:2])
+    return {"line": line, "produced": line} if ends else {"line": line}
+
+
 def rate_of(drawing: Drawing, step: Step, says: Mapping[str, str], letter: str) -> str:
     """The rate by which a vector is laid off; one that a trial plan tries is its link's."""
-    tried = drawing.number_of(step) in drawing.tags and "k" in says
-    named = drawing.trace.program.steps[step.args[3]].name in drawing.scene.links
-    if tried and not named:
-        return symbol(f"{letter}_{says['k']}")
+    rate = drawing.trace.program.steps[step.args[3]]
+    if drawing.number_of(step) in drawing.tags and "k" in says:
+        own, lead = symbol(f"{letter}_{says['k']}"), tried_link(drawing, step.args[3])
+        if lead not in ("", says["k"]):
+            return f"{own} = {symbol(f'{letter}_{lead}')}"
+        if lead or rate.name not in drawing.scene.links:
+            return own
     return rate_symbol(drawing, step.args[3], letter) + found_by(drawing, step)
 
 
 def found_by(drawing: Drawing, step: Step) -> str:
     """From which vector of this plan a rate is found, where it is taken the first time."""
     rate = drawing.trace.program.steps[step.args[3]]
-    form = RATES.get(rate.action.key if rate.action else "", "")
+    key = rate.action.key if rate.action else ""
+    form = RATES.get(key, "")
     users = drawing.children[step.args[3]]
     alike = [user for user in users if drawing.trace.program.steps[user].action is step.action]
-    if not form or alike[0] != drawing.number_of(step):
+    if alike[0] != drawing.number_of(step):
+        return ""
+    if key in SUMS:
+        return summed(drawing, step.args[3], SUMS[key])
+    if not form:
         return ""
     vector = symbol(form.format(index_of(drawing, rate.says)))
     return f" = {vector}/{bar(rate.says['p'], rate.says['q'])}"
+
+
+def summed(drawing: Drawing, number: int, sign: str) -> str:
+    """The sum of which a rate follows: that of a link and the given one against it."""
+    rate, words = drawing.trace.program.steps[number], drawing.words
+    letter, unit = ("ω", "rad/s") if drawing.kind == "velocity" else ("ε", "rad/s^2")
+    for driver in drawing.scene.drivers:
+        if rate.name == (driver.link if sign == "+" else driver.against):
+            own = f"*{letter}*_{{{driver_index(driver)}}}"
+            other = rate_symbol(drawing, rate.args[0], letter)
+            value = words.significant(float(drawing.trace.values[number]))
+            return f" = {other} {sign} {own} = {value} {unit}"
+    return ""
 
 
 def figures(drawing: Drawing, step: Step, fields: Mapping[str, str]) -> dict[str, str]:

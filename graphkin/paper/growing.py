@@ -10,7 +10,7 @@ from graphkin.paper.appear import appearing, grown, when_told
 from graphkin.paper.areas import A3_TITLE_BLOCK, BELOW, MARKED
 from graphkin.paper.detail import parted
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.flattest import crossings_on, letter_of_crossing, locus_of
+from graphkin.paper.flattest import crossings_on, is_gap, letter_of_crossing, locus_of
 from graphkin.paper.frame import sheet_frame
 from graphkin.paper.inset import insets
 from graphkin.paper.layout import Layout, lay_out
@@ -44,7 +44,11 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     timed += appearing(drawing, right, staged, said)
     last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
     block, same = title_block(drawing, "steps", number), [*heading(drawing), *panels(layout)]
-    lines = [(stage_of_crossing(drawing, c, staged), c) for c in crossings_on(drawing)]
+    lines = [
+        (stage_of_crossing(drawing, each, staged), each)
+        for each in crossings_on(drawing)
+        if not is_gap(drawing, each)
+    ]
     title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
     return tuple(
         Page(

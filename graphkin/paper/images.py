@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import Any
 
 from graphkin.paper.desk import Desk
-from graphkin.paper.drawing import Drawing
+from graphkin.paper.drawing import NOISE, Drawing
 from graphkin.paper.marks import Line
 from graphkin.paper.phrases import in_line
 from graphkin.paper.plan import put_point
@@ -50,6 +50,21 @@ def undrawn_sides(drawing: Drawing, number: int, step: Step) -> Iterator[tuple[i
 
 
 def is_joined(drawing: Drawing, one: int, other: int) -> bool:
-    """Whether a plan draws an arrow between two of its points."""
-    found = drawing.joins.get((one, other)) or drawing.joins.get((other, one))
-    return found is not None and drawing.number_of(found) in drawing.trace.values
+    """Whether a plan draws an arrow between two of its points, or points at the same places."""
+    values, near = drawing.trace.values, NOISE * drawing.largest
+    for (tail, tip), step in drawing.joins.items():
+        if drawing.number_of(step) in values and (
+            {tail, tip} == {one, other}
+            or is_same(values, (tail, tip), (one, other), near)
+            or is_same(values, (tip, tail), (one, other), near)
+        ):
+            return True
+    return False
+
+
+def is_same(
+    values: Mapping[int, Any], ends: tuple[int, int], side: tuple[int, int], near: float
+) -> bool:
+    """Whether two points of a plan lie where two others do, and stand by then."""
+    pairs = zip(ends, side, strict=True)
+    return max(ends) <= max(side) and all(abs(values[a] - values[b]) <= near for a, b in pairs)

@@ -38,7 +38,8 @@ def notes(drawing: Drawing, markup: str) -> Iterator[tuple[str, str]]:
         image = steps[number].name
         point, _, link = name.partition("@")
         own = lettered(name)
-        written = symbol(image) in markup and image.endswith(f"_{link}")
+        called = [symbol(own), *([symbol(image)] if image.endswith(f"_{link}") else [])]
+        written = any(name in markup for name in called)
         if link and (written or any(own in index for index in indices)):
             fields = {"name": symbol(own), "k": escape(link), "p": symbol(lettered(point))}
             yield "link", drawing.words("step.index-link", **fields)

@@ -6,9 +6,9 @@ from cmath import phase
 from collections.abc import Iterator
 from math import degrees, hypot
 
-from graphkin.paper.amounts import written
+from graphkin.paper.amounts import in_degrees, written
 from graphkin.paper.data import angle_symbol, driver_index
-from graphkin.paper.drawing import Drawing
+from graphkin.paper.drawing import NOISE, Drawing
 from graphkin.paper.field import XY, Field
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Arc, Line, Mark
@@ -29,6 +29,8 @@ LEAST = 9.0
 """The shortest distance that is dimensioned, in mm."""
 ENOUGH = 4.0
 """How far points stay from a dimension line, in mm."""
+SENSE, AROUND = (12.0, 70.0), 10.0
+"""Between which angles beyond its crank a turning arrow stands, and what it keeps clear, in °."""
 HALF = 5.5
 """Half the length of the arrow of a driver's speed, in mm."""
 
@@ -67,8 +69,8 @@ def draw_crank(board: Board, drawing: Drawing, field: Field, driver: Driver, rad
     if abs(swept) > 0.5:
         board.marks.append(Arc(*centre, radius, zero, end, "angle", name))
     middle = Arc(*centre, radius, 0, 1, "angle").at(zero + swept / 2)
-    text = f"{angle_symbol(drawing.scene, driver)} = "
-    text += written(drawing.scene, drawing.words, driver.position)
+    given = drawing.scene, drawing.words, driver.position
+    text = f"{angle_symbol(drawing.scene, driver)} = {in_degrees(*given) or written(*given)}"
     board.labels.append(Label(text, "", middle, 2.5, name, away=unit(centre, middle)))
     draw_sense(board, drawing, centre, end, driver, radius - 3)
 
@@ -103,11 +105,33 @@ def draw_sense(
     if not omega:
         return
     sign = 1 if omega > 0 else -1
-    arc = (end + sign * 12, end + sign * 70)
+    near, far = clear_of(drawing, driver, end, sign)
+    arc = (end + sign * near, end + sign * far)
     board.marks += turned_arrow(centre, radius, *arc, "sense")
     at = Arc(*centre, radius, 0, 1, "sense").at((arc[0] + arc[1]) / 2)
     index = driver_index(driver)
     board.labels.append(Label(f"*ω*_{{{index}}}", "", at, 2.5, f"omega {driver.link}"))
+
+
+def clear_of(drawing: Drawing, driver: Driver, end: float, sign: int) -> tuple[float, float]:
+    """From where to where beyond its crank a turning arrow stands, in degrees in its own sense.
+
+    Further on where the velocity of its pivot, which is set there, or a bar would cut it.
+    """
+    (near, far), here = SENSE, (driver.of or drawing.scene.links[driver.link].points)[0]
+    velocity = drawing.trace.value("velocity", here)
+    if velocity is None or abs(velocity) < NOISE * drawing.largest:
+        return near, far
+    links = (link for link in drawing.scene.links.values() if here in link.points)
+    others = (point for link in links for point in link.points if link.name != driver.link)
+    ways = [drawing.positions[point] - drawing.positions[here] for point in others]
+    turns = (sign * (degrees(phase(way)) - end) % 360 for way in (velocity, *ways) if abs(way))
+    cuts = sorted(turns)
+    starts = [start for start in (near, *(cut + near for cut in cuts)) if start + far < 360]
+    length = far - near
+    free = (s for s in starts if not any(-AROUND < cut - s < length + AROUND for cut in cuts))
+    start = next(free, near)
+    return start, start + length
 
 
 def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
@@ -124,16 +148,17 @@ def draw_slide(board: Board, drawing: Drawing, field: Field, driver: Driver) -> 
         path = 1j * way.offset * way.along
         lengths = (way.zero + path, way.at, way.along)
         fixed = way.slide.on == FRAME
-        draw_way(board, drawing, field, driver, lengths, seat(drawing, way) if fixed else way.at)
+        drawn = seat(drawing, way) if fixed else way.at
+        draw_way(board, drawing, field, driver, lengths, drawn, drawn)
 
 
 def draw_roll(board: Board, drawing: Drawing, field: Field, driver: Driver) -> None:
-    """The way of a driven wheel's contact from where its track counts, and its sense."""
+    """The way of a driven wheel's contact from where its track counts, the sense at its centre."""
     for touch in drawing.standing.touches:
         mine = touch.disc.link == driver.link and touch.rolling.on == driver.against
         if mine and touch.zero is not None:
             lengths = (touch.zero, touch.at, touch.along)
-            draw_way(board, drawing, field, driver, lengths, touch.at)
+            draw_way(board, drawing, field, driver, lengths, touch.at, touch.disc.centre)
 
 
 def draw_way(
@@ -143,10 +168,12 @@ def draw_way(
     driver: Driver,
     lengths: tuple[complex, complex, complex],
     drawn: complex,
+    moved: complex,
 ) -> None:
     """A coordinate along a line, dimensioned beside it, and an arrow for its rate of change.
 
-    ``lengths`` are the zero, the place and the direction; the arrow stands beside ``drawn``.
+    ``lengths`` are the zero, the place and the direction. A coordinate too short for its dimension
+    is written beside ``drawn``; the arrow stands beside ``moved``, which has this speed.
     """
     zero, here, along = lengths
     way, aside = field.way(along), free_side(drawing, field, zero, here, along)
@@ -167,7 +194,7 @@ def draw_way(
     speed = float(driver.speed.si(drawing.scene.values))
     if speed:
         ahead = HALF if speed > 0 else -HALF
-        tail, tip = (across(field(drawn), way, a, -side * BESIDE) for a in (-ahead, ahead))
+        tail, tip = (across(field(moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
         board.marks += arrow(tail, tip, "sense", f"speed {driver.link}")
         index = driver_index(driver)
         label = Label(f"*v*_{{{index}}}", "", (tail, tip), 2.5, f"speed {driver.link}")

@@ -7,6 +7,7 @@ from itertools import pairwise, takewhile
 from math import hypot
 
 from graphkin import plane
+from graphkin.paper.centre_words import same_centre
 from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field
@@ -84,8 +85,15 @@ def pictured(drawing: Drawing, step: Step, centre: complex, field: Field) -> Seq
     ]
     names = {name: end for line in lines for name, end in line.items()}
     board.labels = [Label(symbol(name), "", field(end), 2.5) for name, end in names.items()]
-    board.labels.append(Label(symbol(step.name), drawing.kind, far, 2.5, radius=0.9))
+    name = " = ".join(symbol(each) for each in names_of(drawing, step))
+    board.labels.append(Label(name, drawing.kind, far, 2.5, radius=0.9))
     return [*board.marks, *board.placed()]
+
+
+def names_of(drawing: Drawing, step: Step) -> list[str]:
+    """The name of a centre, and that which it has as the centre of its link and the frame."""
+    steps = (other for _, other, _ in drawing.mechanism_steps())
+    return [step.name, *(each.name for each in steps if same_centre(drawing, each) is step)]
 
 
 def spots_of(drawing: Drawing, step: Step) -> list[complex]:

@@ -119,16 +119,24 @@ def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:
 
 
 def points_on(drawing: Drawing, number: int) -> list[complex]:
-    """The points that were found on a line or an arc, and the centres that it joins."""
+    """The points that were found on a line or an arc, and those that it joins."""
     points: list[Any] = []
     for child in drawing.children.get(number, ()):
         value: Any = drawing.trace.values[drawing.results.get(child, child)]
         points.append(drawing.place(value) if isinstance(value, Ratio) else value)
-    on_line = isinstance(drawing.trace.values[number], Line)
-    for arg in drawing.trace.program.steps[number].args if on_line else ():
+    for arg in joined(drawing, number):
         value = drawing.trace.values[arg]
-        points.append(drawing.place(value) if isinstance(value, Ratio) else None)
+        points.append(drawing.place(value) if isinstance(value, Ratio) else value)
     return [point for point in points if isinstance(point, complex)]
+
+
+def joined(drawing: Drawing, number: int) -> list[int]:
+    """The steps of the centres, or of the two trials of a point, that a line joins."""
+    step, values = drawing.trace.program.steps[number], drawing.trace.values
+    if not isinstance(values[number], Line):
+        return []
+    trials = step.action is not None and step.action.key == "line-through"
+    return [arg for arg in step.args if trials or isinstance(values[arg], Ratio)]
 
 
 def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:

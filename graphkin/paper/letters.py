@@ -6,6 +6,9 @@ from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.steps.program import Part, Plane, Step
 
+SIDES = ("set-velocity", "turn-over")
+"""The actions that give the two sides of a right triangle which begin at its pin."""
+
 
 def is_coriolis(step: Step) -> bool:
     """True for a step on the mechanism that belongs to a Coriolis component."""
@@ -23,7 +26,32 @@ def letter_on(drawing: Drawing, step: Step, mm: float) -> str:
     same = [number for number, other in drawing.normals if other.name.partition("_")[0] == base]
     if is_coriolis(step):
         same = [number for number in same if not no_base(drawing, number, mm)]
+    else:
+        steps = drawing.trace.program.steps
+        same = [number for number in same if not no_triangle(drawing, steps[number], mm)]
     return base if len(same) == 1 else step.name
+
+
+def no_triangle(drawing: Drawing, step: Step, mm: float) -> bool:
+    """True when the velocity, or the component, of a right triangle is too short to be drawn.
+
+    By what the triangle is drawn from: the velocities of its pivot and its pin, and their bar.
+    """
+    tip = drawing.trace.program.steps[ends_of(drawing, step)[0]]
+    pin, start, end, seconds = (drawing.trace.values[arg] for arg in tip.args)
+    velocity = abs(end - start) * seconds
+    component = velocity * velocity / abs(pin - drawing.standing.spot(step.says["p"]))
+    return bool(min(velocity, component) * mm < TINY)
+
+
+def ends_of(drawing: Drawing, step: Step) -> list[int]:
+    """The tips of the velocity and of the component of the right triangle that a step is of."""
+    return [
+        number
+        for number, other in drawing.normals
+        if other.action is not None and other.action.key in SIDES
+        if all(other.says.get(key) == step.says[key] for key in "pqi") and not is_coriolis(other)
+    ]
 
 
 def no_base(drawing: Drawing, number: int, mm: float) -> bool:

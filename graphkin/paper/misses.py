@@ -9,7 +9,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import scale_of, way_of
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.model import Driver
-from graphkin.steps.program import Step
+from graphkin.steps.program import Plane, Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +65,15 @@ def miss(drawing: Drawing, number: int, share: Step) -> Miss:
 def driver_of(drawing: Drawing, share: Step) -> Driver:
     """The driver that two trials do not meet."""
     return next(d for d in drawing.scene.drivers if d.link == share.says["d"])
+
+
+def tried_link(drawing: Drawing, number: int) -> str:
+    """The link whose rate a step holds, if two trial plans try it; else nothing."""
+    for _, share, _ in drawing.steps(Plane.NUMBERS):
+        called = share.action is not None and share.action.key == "share"
+        if called and str(number) in share.says["tried"].split():
+            return str(share.says["k"])
+    return ""
 
 
 def on_paper(drawing: Drawing) -> float:

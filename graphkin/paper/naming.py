@@ -25,8 +25,19 @@ def way_of(drawing: Drawing, name: str) -> str:
 
 
 def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
-    """The arrow between two points of a plan, whichever way it points."""
-    return drawing.joins.get((tail, tip)) or drawing.joins.get((tip, tail))
+    """The arrow between two points of a plan, or others on which they fall, whichever its sense."""
+    found = drawing.joins.get((tail, tip)) or drawing.joins.get((tip, tail))
+    if found:
+        return found
+    ends = {fallen(drawing, tail), fallen(drawing, tip)}
+    joins = drawing.joins.items()
+    return next((step for pair, step in joins if {fallen(drawing, n) for n in pair} == ends), None)
+
+
+def fallen(drawing: Drawing, number: int) -> int:
+    """The image on which that of a point of a link that only shifts falls, or the image itself."""
+    step = drawing.trace.program.steps[number]
+    return step.args[0] if step.action is not None and step.action.key == "alike" else number
 
 
 def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:

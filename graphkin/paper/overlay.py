@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from dataclasses import replace
 
 from graphkin.paper.areas import A3_AREA, Rect
@@ -16,24 +16,37 @@ from graphkin.paper.style import BARE, TINTS, style_of
 
 HALF, GAP, STROKE = 3.0, 2.0, 3.0
 """Half a cross, what is left free beyond it, and the stroke outside, in mm."""
+FOOT = 10.0
+"""How far above the frame's lower edge the title stands: where the task sheet has no words."""
 
 
 def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page:
     """Mechanism and plan of the key at the places and scale that they have on the task sheet.
 
+    The letters of the task sheet are left to it, whose places need not be those of the key.
     Crosses stand on the corners of the task sheet's frame, crop marks outside them.
     """
     layout = layout or lay_out(drawing)
     words = drawing.words
-    boards = [board(drawing, layout, "key") for board in (left_board, right_board)]
+    boards, tasks = (
+        [board(drawing, layout, view) for board in (left_board, right_board)]
+        for view in ("key", "task")
+    )
+    known = {(label.name, label.cls) for task in tasks for label in task.labels}
     name = f"{title_of(drawing)} – {words('sheet.' + drawing.kind)}"
     foot = f"{name}, {words('sheet.overlay')} {number}, {drawing.scales.words}"
     marks = (
-        *(untinted(mark) for mark in with_detail(*boards)),
+        *(untinted(mark) for mark in with_detail(*boards) if not is_letter(mark, known)),
         *crop_marks(A3_AREA),
-        Text(A3_AREA[0] + 12, A3_AREA[3] - 4, escape(foot), "caption", 2.5, name="title"),
+        Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, escape(foot), "caption", 2.5, name="title"),
     )
     return Page(420, 297, marks, name, words.language)
+
+
+def is_letter(mark: Mark, known: Set[tuple[str, str]]) -> bool:
+    """True for a label, or its leader, that the task sheet has by its name and its look."""
+    kind, _, look = mark.cls.partition(" ")
+    return kind in ("label", "leader") and (mark.name, look) in known
 
 
 def untinted(mark: Mark) -> Mark:

@@ -17,6 +17,8 @@ from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Wa
 from graphkin.scene.quantity import shortest
 from graphkin.text import MINUS, Words
 
+SWINGS = ("swing", "swing-through")
+"""Actions that lay a lever through a pin."""
 WHEELS = {
     (False, False): "page.wheel",
     (False, True): "page.wheel_teeth",
@@ -57,7 +59,21 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
     if line and link.name in drawing.pivots:
         side = words(f"page.{heading(line[1] * branch.way)}")
         return words("page.way", side=side, pivot=symbol(drawing.pivots[link.name]))
+    if is_led(drawing, link, slide):
+        p, q = (symbol(point) for point in slide.along or ())
+        key = "half_line" if branch.way > 0 else "half_line_back"
+        return words(f"page.{key}", p=p, q=q)
     return words("page.forward" if branch.way > 0 else "page.backward")
+
+
+def is_led(drawing: Drawing, link: Link, slide: Slide) -> bool:
+    """True where a guide is led through its block's known point from the end at which it begins."""
+    if not slide.along or not slide.offset.is_zero():
+        return False
+    ends = slide.along[0], link.points[0]
+    steps = drawing.trace.program.steps
+    swings = (step.says for step in steps if step.action and step.action.key in SWINGS)
+    return any((says["p"], says["q"]) == ends for says in swings)
 
 
 def positive(drawing: Drawing, link: Link, slide: Slide) -> str:

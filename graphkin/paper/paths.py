@@ -12,7 +12,7 @@ from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Polyline
 from graphkin.paper.scale import Extent, extent_of
 from graphkin.paper.symbolic import symbol
-from graphkin.plane import Circle
+from graphkin.plane import Circle, cross
 from graphkin.steps.solution import Curve
 from graphkin.text import Words
 
@@ -25,6 +25,8 @@ UNSEEN = 0.01
 """How far, in mm, a broken line may pass by corners that are left out."""
 ROOMY = 3.5
 """A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
+STRAIGHT = 1e-6
+"""How far aside, in parts of its length, a curve may lead that counts as straight."""
 COLOURS = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
 """The classes whose colours the names of centrodes take."""
 
@@ -54,8 +56,8 @@ def clipped_path(
 def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
     """The points of curves for which the drawing makes room.
 
-    Paths and centrodes of the mechanism's size are drawn whole; of wider ones where they touch.
-    Of a locus what lies in the field will do.
+    Paths and centrodes of the mechanism's size are drawn whole; of wider ones, and of straight
+    ones, where they touch. Of a locus what lies in the field will do.
     """
     found: list[complex] = []
     most = ROOMY * max(mechanism.width, mechanism.height)
@@ -64,11 +66,21 @@ def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
             continue
         points = [point for run in curve.runs for point in run]
         box = extent_of(points) if points else mechanism
-        if curve.kind == "trajectory" or max(box.width, box.height) <= most:
+        whole = max(box.width, box.height) <= most and not is_straight(points)
+        if curve.kind == "trajectory" or whole:
             found += points
         elif curve.now is not None and abs(curve.now - mechanism.middle) <= most:
             found.append(curve.now)
     return found
+
+
+def is_straight(points: Sequence[complex]) -> bool:
+    """Whether points all lie on one line, as a rail that a wheel rolls on."""
+    if len(points) < 2:
+        return False
+    start, far = points[0], max(points, key=lambda point: abs(point - points[0]))
+    aside = (abs(cross(far - start, point - start)) for point in points)
+    return bool(max(aside) <= STRAIGHT * abs(far - start) ** 2)
 
 
 def draw_curves(board: Board, drawing: Drawing, field: Field, rect: Rect) -> None:

@@ -4,11 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from graphkin.paper.centre_words import CENTRES, OWN_WORDS, SAID, at_rest, far_end, oddity
+from graphkin.paper.centre_words import (
+    CENTRES,
+    OWN_WORDS,
+    SAID,
+    at_rest,
+    far_end,
+    oddity,
+    same_centre,
+)
+from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.falling import falls_key
 from graphkin.paper.gaps import LAID_OFF, fields_of
 from graphkin.paper.naming import NAUGHT, beyond, drawn_between, is_driven
-from graphkin.paper.rolled import is_halfway, is_moving_track, untold_track
+from graphkin.paper.pairs import SWINGS
+from graphkin.paper.rolled import is_first_roll, is_halfway, is_moving_track, untold_track
 from graphkin.paper.symbolic import symbol
 from graphkin.scene.model import FRAME
 from graphkin.steps.program import Part, Plane, Step
@@ -54,8 +65,6 @@ WHOLE = (
     "set-back",
 )
 """Actions whose own sentence says all that the hand does."""
-SWINGS = ("swing", "swing-through")
-"""Actions that lay a lever through a pin."""
 
 
 def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
@@ -88,13 +97,13 @@ def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
 
 
 def is_nought(drawing: Drawing, number: int) -> bool:
-    """True for a component that is nought where it is laid off from a named point: not drawn."""
+    """True for a component laid off from a named point that is too short to be drawn, or none."""
     step = drawing.trace.program.steps[number]
     if step.action is None or step.action.key not in COMPONENTS:
         return False
     if not drawing.trace.program.steps[step.args[0]].name:
         return False
-    return drawn_between(drawing, step.args[0], number, step.plane) < NAUGHT
+    return drawn_between(drawing, step.args[0], number, step.plane) < TINY
 
 
 def is_lever(drawing: Drawing, number: int) -> bool:
@@ -146,6 +155,9 @@ def centre_key(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, s
         return f"{key}-{step.says.get('how', 'pivot')}"
     if key in SAID and "how" in step.says:
         return f"{key}-{step.says['how']}"
+    if key == "kennedy-meet" and (same := same_centre(drawing, words_of)):
+        fields["same"] = symbol(same.name)
+        return "kennedy-meet-again"
     if whole == "instant-centre":
         return whole if words_of.by_hand else f"{whole}-pivot"
     return key
@@ -159,6 +171,8 @@ def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, s
     if key in ("ray", "along-bar") and "g" in step.says:
         ways = sum(len(link.slides) + len(link.rolls) for link in scene.links.values())
         return "guide" if ways == 1 and scene.links[step.says["g"]].slides else "guide-named"
+    if key == "ray" and "line" in fields:
+        return "ray-produced" if "produced" in fields else "ray-against"
     if key == "guide-back" and is_tried(steps[step.args[1]]):
         return "guide-back-found"
     if key == "beside" and not scene.links[step.says["g"]].slides:
@@ -169,8 +183,8 @@ def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, s
         return "mark-off-lever"
     if key == "step-along" and beyond(drawing, step):
         return "step-along-beyond"
-    if key == "set-at" and is_tried(steps[step.args[1]]):
-        return "set-at-found"
+    if key in ("set-at", "arm") and is_tried(steps[step.args[1]]):
+        return f"{key}-found"
     if key == "set-at" and is_halfway(drawing, steps[step.args[1]]):
         return "set-halfway"
     return f"{key}.say" if key == "arcs-meet" else key
@@ -205,11 +219,11 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     if key == "centripetal" and not step.name:
         return "lay-off-none" if is_short(drawing, number) else "lay-off-computed"
     if key == "lay-off" and step.name:
-        return "lay-off-named"
+        return "lay-off-rolling" if is_first_roll(drawing, step) else "lay-off-named"
     alone = key == "driven-tangential" and is_short(drawing, step.args[0])
     if key in LAID_OFF and is_short(drawing, number):
         at_end = not step.says["s"] or (key == "driven-tangential" and not alone)
-        return "falls-end" if at_end else "falls"
+        return "falls-end" if at_end else falls_key(drawing, step)
     if alone:
         return "driven-tangential-only"
     if key == "driven-slide" and not step.says["s"]:

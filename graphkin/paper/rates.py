@@ -8,6 +8,7 @@ from dataclasses import replace
 from graphkin.paper.bodies import Disc
 from graphkin.paper.data import driver_index
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.gaps import SUMS
 from graphkin.paper.naming import index_of, rate_symbol
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.symbolic import TAGS, bar, symbol
@@ -16,8 +17,6 @@ from graphkin.scene.model import FRAME, Driver
 from graphkin.steps.program import Step
 from graphkin.text import MINUS
 
-SUMS = {"sum": "+", "difference": "−"}
-"""Rates that follow from two others."""
 FINE = 6
 """Significant digits of rates put into sums, whose digits may cancel."""
 

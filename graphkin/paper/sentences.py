@@ -2,30 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator
 
 from graphkin.paper.centre_words import with_centres_together
 from graphkin.paper.closing import closing_sentence, idle_sentences
+from graphkin.paper.component_words import (
+    component_sentence,
+    is_drawn,
+    with_normals_together,
+)
+from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.indices import with_indices
-from graphkin.paper.letters import is_coriolis, letter_on
 from graphkin.paper.naming import (
-    NAUGHT,
     amount,
     height_above,
-    plan_amount,
-    rate_symbol,
-    vector_of,
     way_of,
 )
-from graphkin.paper.phrases import SWINGS, point_sentence
+from graphkin.paper.pairs import SWINGS
+from graphkin.paper.phrases import point_sentence
 from graphkin.paper.richtext import escape
-from graphkin.paper.sentence import Sentence, in_one, together
+from graphkin.paper.rolled import with_starts_together
+from graphkin.paper.sentence import Sentence
 from graphkin.paper.stages import READ_OFF
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.tips import set_before
 from graphkin.paper.trials import share_sentence, trial_sentence, with_trials_together
-from graphkin.plane import cross
 from graphkin.steps.program import Part, Plane, Step
 
 COMPONENTS = ("normal", "coriolis")
@@ -48,7 +50,8 @@ def sentences(drawing: Drawing) -> list[Sentence]:
         if curve.kind not in ("fixed-centrode", "locus")
     ]
     last = Sentence(-1, "", read_off(drawing))
-    found = with_centres_together(drawing, with_trials_together(drawing, found))
+    found = with_starts_together(drawing, with_trials_together(drawing, found))
+    found = with_centres_together(drawing, found)
     return with_indices(drawing, [*with_normals_together(drawing, found), last])
 
 
@@ -58,11 +61,13 @@ def read_off(drawing: Drawing) -> str:
     turns = any(drawing.turning(link) is not None for link in drawing.scene.links)
     turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
     part = Part.VELOCITY if velocity else Part.ACCELERATION
+    early = set_before(drawing)
     set_on = [
         symbol(step.says["symbol"])
-        for _, step, arrow in drawing.steps(Plane.MECHANISM)
+        for number, step, arrow in drawing.steps(Plane.MECHANISM)
         if step.action and step.action.key in READ_OFF and step.part is part
-        if abs(arrow.tip - arrow.tail) * 1000 > NAUGHT * drawing.scales.kL
+        if number not in early
+        if abs(arrow.tip - arrow.tail) * 1000 >= TINY * drawing.scales.kL
     ]
     named = words("list_mark").join(dict.fromkeys(set_on))
     if not named:
@@ -128,20 +133,6 @@ def swing_sentence(drawing: Drawing, number: int, step: Step) -> str:
     )
 
 
-def rolling_sentence(drawing: Drawing, number: int, step: Step) -> str:
-    """The acceleration of a rolling point of contact, which goes to the wheel's centre."""
-    says, size = step.says, abs(drawing.trace.values[number])
-    return drawing.words(
-        "step.rolling-normal",
-        a=symbol(f"a_{says['i']}^ν"),
-        bar=bar(says["p"], says["q"]),
-        p=symbol(says["p"]),
-        q=symbol(says["q"]),
-        omega=rate_symbol(drawing, step.args[2]),
-        drawn=plan_amount(drawing, size, Plane.ACCELERATIONS),
-    )
-
-
 def laid_off_sentence(drawing: Drawing, number: int, step: Step) -> str:
     """A Coriolis component laid off between points that are known: what is left is the guide's.
 
@@ -164,137 +155,8 @@ def laid_off_sentence(drawing: Drawing, number: int, step: Step) -> str:
 
 OWN: dict[str, Callable[[Drawing, int, Step], str]] = {
     **dict.fromkeys(SWINGS, swing_sentence),
-    "rolling-normal": rolling_sentence,
     "close": closing_sentence,
     "lay-off-coriolis": laid_off_sentence,
     "share": share_sentence,
 }
 """Steps that find no point by themselves and have a sentence all the same."""
-
-
-# --- normal and Coriolis components --------------------------------------------------------------
-
-
-def is_drawn(drawing: Drawing, step: Step, value: Any) -> bool:
-    """True for a component that is drawn on the mechanism and is not nought."""
-    return step.by_hand in drawing.trace.values and drawing.settled(abs(value)) > 0
-
-
-def component_sentence(drawing: Drawing, number: int, step: Step, *, first: bool) -> Sentence:
-    """The triangle of a normal or Coriolis component; for the others only from what it comes."""
-    assert step.action is not None
-    if step.action.key == "normal":
-        if drawing.scales.apart:
-            return Sentence(number, "ν by number", computed_normal(drawing, number, step))
-        if drawing.settled(abs(drawing.trace.values[number])) == 0:
-            fields = {"a": symbol(f"a_{step.says['i']}^ν"), "v": symbol("v_" + step.says["v"])}
-            return Sentence(number, "ν none", drawing.words("step.normal-none", **fields))
-        markup = normal_sentence(drawing, step, first=first)
-        return Sentence(number, "ν1" if first else "ν", markup)
-    return Sentence(number, "c", coriolis_sentence(drawing, number, step, first=first))
-
-
-def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
-    """The right triangle of one normal component, in full the first time."""
-    says = step.says
-    fields = {
-        "p": symbol(says["p"]),
-        "q": symbol(says["q"]),
-        "bar": bar(says["p"], says["q"]),
-        "v": symbol("v_" + says["v"]),
-        "a": symbol(f"a_{says['i']}^ν"),
-    }
-    if not first:
-        return drawing.words("step.normal-again", **fields)
-    steps = drawing.trace.program.steps
-    assert step.by_hand is not None
-    end = steps[steps[step.by_hand].args[1]]
-    cut = steps[end.args[0]]
-    tip = steps[steps[cut.args[0]].args[0]]
-    corners = {"tip": tip, "cut": cut, "end": end}
-    letters = {key: corner_letter(drawing, corner) for key, corner in corners.items()}
-    return drawing.words("step.normal", **fields, **letters)
-
-
-def corner_letter(drawing: Drawing, step: Step) -> str:
-    """The letter of a triangle's corner as the sheet has it."""
-    return symbol(letter_on(drawing, step, 1000 / drawing.scales.kL))
-
-
-def computed_normal(drawing: Drawing, number: int, step: Step) -> str:
-    """A normal component by number, where ka is stated apart and the right triangle fails."""
-    says, size = step.says, abs(drawing.trace.values[number])
-    return drawing.words(
-        "step.normal-computed",
-        p=symbol(says["p"]),
-        q=symbol(says["q"]),
-        bar=bar(says["p"], says["q"]),
-        v=symbol("v_" + says["v"]),
-        a=symbol(f"a_{says['i']}^ν"),
-        drawn=plan_amount(drawing, size, Plane.ACCELERATIONS),
-    )
-
-
-def coriolis_sentence(drawing: Drawing, number: int, step: Step, *, first: bool) -> str:
-    """The similar triangles of a Coriolis component, in full the first time."""
-    steps, values = drawing.trace.program.steps, drawing.trace.values
-    size = abs(values[number])
-    fields = {
-        "a": symbol(f"a_{step.says['i']}^c"),
-        "v": symbol("v_" + step.says["i"]),
-        "segment": "".join(symbol(steps[arg].name) for arg in step.args[1:]),
-        "omega": rate_symbol(drawing, step.args[0]),
-        "drawn": plan_amount(drawing, size, Plane.ACCELERATIONS),
-    }
-    if drawing.settled(size) == 0:
-        return drawing.words("step.coriolis-none", **fields)
-    if step.by_hand is None or step.by_hand not in values:
-        return drawing.words("step.coriolis-computed", **fields)
-    if not first:
-        return drawing.words("step.coriolis-again", **fields)
-    base, top = (steps[arg] for arg in steps[step.by_hand].args[:2])
-    pivot, pin = base.says["p"], base.says["q"]
-    fields |= {
-        "p": symbol(pivot),
-        "q": symbol(pin),
-        "bar": bar(pivot, pin),
-        "e": corner_letter(drawing, base),
-        "f": corner_letter(drawing, top),
-    }
-    line = leaning_line(drawing, steps[top.args[1]], fields)
-    return drawing.words("step.coriolis", line=line, **fields)
-
-
-def leaning_line(drawing: Drawing, lean: Step, fields: Mapping[str, str]) -> str:
-    """The line that cuts f off: to the tip on the lever itself where every base lies on its own."""
-    end = drawing.trace.program.steps[lean.args[3]]
-    w = vector_of(drawing, end.args[1], end.args[2], symbol(f"v_{lean.says['q']}"))
-    drawn = [step for _, step, _ in drawing.mechanism_steps()]
-    if not all(is_along(drawing, step) for step in drawn if step.action is lean.action):
-        return drawing.words("step.coriolis-line", w=w, **fields)
-    alike = [step for step in drawn if step.action is end.action and step.args == end.args]
-    tips = [corner_letter(drawing, step) for step in alike if not is_coriolis(step)]
-    if not tips:
-        return drawing.words("step.coriolis-line-tip", w=w, **fields)
-    return drawing.words("step.coriolis-line-letter", tip=tips[0], **fields)
-
-
-def is_along(drawing: Drawing, lean: Step) -> bool:
-    """True where twice a relative velocity, set at the pivot, lies on the line of the lever."""
-    base, pivot, pin = (drawing.trace.values[arg] for arg in lean.args[:3])
-    beside = abs(cross(pin - pivot, base - pivot)) / abs(pin - pivot)
-    return bool(1000 * beside < NAUGHT * drawing.scales.kL)
-
-
-def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The other right triangles said in one sentence, after the one that is said in full."""
-    rest = [sentence for sentence in found if sentence.name == "ν"]
-    if not rest:
-        return found
-    kept = [sentence for sentence in found if sentence.name != "ν"]
-    tail = drawing.words("step.normals-again", list=", ".join(s.markup for s in rest))
-    firsts = [i for i, sentence in enumerate(kept) if sentence.name == "ν1"]
-    if not firsts:
-        return together(found, rest, tail)
-    place = firsts[0] + 1
-    return [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import rate_symbol, vector_of
 from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.rolled import rolling_rate
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import slid, slide_sense
 from graphkin.steps.program import Plane, Step
@@ -43,11 +44,9 @@ def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
     p, q = says["p"], says["q"]
     length = length_of(drawing, p, q)
     wheel, track = (float(values[arg]) for arg in step.args[2:])
-    names = [rate_symbol(drawing, arg) for arg in step.args[2:]]
-    rate = f"({names[0]} − {names[1]})" if track else names[0]
     return Relation(
         symbol(f"a_{says['i']}^ν"),
-        f"{rate}^2·{bar(p, q)}",
+        f"{rolling_rate(drawing, *step.args[2:])}^2·{bar(p, q)}",
         f"{figure(drawing, abs(wheel - track))}^2·{figure(drawing, length)}",
         answer(drawing, size),
         "m/s^2",

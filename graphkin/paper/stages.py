@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from graphkin.paper.closing import IDLE
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Mark
 from graphkin.paper.resting import rests_on
 from graphkin.paper.sentence import Sentence
-from graphkin.steps.program import Part, Plane, Program
+from graphkin.paper.standing import lettered
+from graphkin.paper.tips import set_before
+from graphkin.steps.program import Part, Plane, Program, Step
 
 READ_OFF = ("set-on", "set-on-twice")
 """Arrows on the mechanism, which the last sentence asks for."""
 AT_LAST = ("detail", "note")
 """The names of marks that stand when all is drawn."""
-TOLD_BY = {"locus": "close", "fixed-centrode": "moving-centrode"}
+TOLD_BY = {"fixed-centrode": "moving-centrode"}
 """The names of sentences that tell of a curve of another kind than their name."""
 BEFORE = -1
 """The stage of what stands before the first sentence."""
@@ -37,15 +39,26 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
     for stage, sentence in enumerate(said):
         for number in behind(program, sentence.all_steps):
             found.setdefault(number, stage)
+    early = set_before(drawing)
     for number in drawing.trace.values:
         step = program.steps[number]
         if not step.args:
             found[number] = BEFORE
         elif step.action is not None and step.action.key in READ_OFF:
-            found[number] = len(said) - 1
+            found[number] = found.get(early.get(number, BEFORE), len(said) - 1)
         elif number not in found:
-            found[number] = max((found.get(arg, BEFORE) for arg in step.args), default=BEFORE)
+            ends = (*step.args, *of_component(drawing, step))
+            found[number] = max((found.get(end, BEFORE) for end in ends), default=BEFORE)
     return found
+
+
+def of_component(drawing: Drawing, step: Step) -> Iterator[int]:
+    """The images between which a tangential component is told: it is not there before them."""
+    if step.arrow and step.says.get("kind") == "τ":
+        ends = (step.says["p"], step.says["q"])
+        for (what, name), number in drawing.trace.program.targets.items():
+            if what == "acceleration" and lettered(name) in ends:
+                yield number
 
 
 def behind(program: Program, numbers: Iterable[int]) -> set[int]:
@@ -95,8 +108,16 @@ def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> in
     """The sentence that tells of a curve, of several of its kind each its own; else None."""
     for curve in drawing.curves:
         if mark.name == f"{curve.kind} {curve.of}":
+            if curve.kind == "locus":
+                return next(at for at, one in enumerate(said) if curve.of in traced(drawing, one))
             alike = [other.of for other in drawing.curves if other.kind == curve.kind]
             name = TOLD_BY.get(curve.kind, curve.kind)
             stages = [stage for stage, sentence in enumerate(said) if sentence.name == name]
             return stages[min(alike.index(curve.of), len(stages) - 1)]
     return None
+
+
+def traced(drawing: Drawing, said: Sentence) -> list[str]:
+    """The points whose loci a sentence has drawn."""
+    steps = drawing.trace.program.steps
+    return str(steps[said.step].says["l"]).split() if said.name == "close" else []

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import groupby
 
 from graphkin.paper.data import driver_index
 from graphkin.paper.drawing import TAGS, Drawing
+from graphkin.paper.gaps import fields_of
 from graphkin.paper.misses import Miss, driver_of, misses, on_paper, ratio
 from graphkin.paper.naming import way_of
-from graphkin.paper.phrases import point_sentence
+from graphkin.paper.pairs import heading
+from graphkin.paper.phrases import is_short, point_sentence
 from graphkin.paper.relation import figure
 from graphkin.paper.sentence import Sentence, in_one, together
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.tables import sense
+from graphkin.paper.trial_falls import fallen_on
 from graphkin.steps.program import Step
 
 RATE_AT = {"turned-velocity": 3, "driven-tangential": 3, "driven-slide": 2}
@@ -20,21 +24,76 @@ RATE_AT = {"turned-velocity": 3, "driven-tangential": 3, "driven-slide": 2}
 
 
 def trial_sentence(drawing: Drawing, number: int) -> Iterator[Sentence]:
-    """One sentence for a whole trial plan, with its last point: the first is told in full."""
-    steps, tag = drawing.trace.program.steps, drawing.tags[number]
-    named = [n for n, own in drawing.tags.items() if own == tag and steps[n].name]
-    if number != max(named):
+    """One sentence for a whole trial plan, with its last point."""
+    tag = drawing.tags[number]
+    named = points_of(drawing, tag)
+    if number != named[-1]:
         return
-    named.sort()
-    if tag == TAGS[0]:
-        told = "; ".join(point_sentence(drawing, n, steps[n]) for n in named)
-    else:
-        told = drawing.words("list_mark").join(symbol(steps[n].name) for n in named)
+    told = first_told(drawing, named) if tag == TAGS[0] else again_told(drawing, named)
     what, size = tried(drawing, named)
-    markup = drawing.words(
-        f"step.trial-{TAGS.index(tag) + 1}", what=what, amount=size, how=told, list=told
-    )
-    yield Sentence(number, f"trial{tag}", markup)
+    key = f"step.trial-{TAGS.index(tag) + 1}"
+    markup = drawing.words(key, what=what, amount=size, how="; ".join(told))
+    yield Sentence(number, f"trial{tag}", markup, tuple(named))
+
+
+def points_of(drawing: Drawing, tag: str) -> list[int]:
+    """The steps that find the points of a trial plan, in their order."""
+    steps = drawing.trace.program.steps
+    return sorted(n for n, own in drawing.tags.items() if own == tag and steps[n].name)
+
+
+def first_told(drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
+    """The points of the first trial in full; those that fall on what they are drawn from in one."""
+    for under, run in groupby(named, lambda number: fallen_on(drawing, number)):
+        if under:
+            fallen = list(run)
+            key = "falls" if len(fallen) == 1 else "fall-together"
+            yield of_many(drawing, key, fallen, s=symbol(under))
+        else:
+            yield from (point_of_trial(drawing, number) for number in run)
+
+
+def again_told(drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
+    """The points of the second trial: in full where other lengths or more lines are drawn."""
+    steps = drawing.trace.program.steps
+    first = {steps[n].name[:-1]: n for n in points_of(drawing, TAGS[0])}
+
+    def is_new(number: int) -> bool:
+        action, before = steps[number].action, first.get(steps[number].name[:-1])
+        lays_off = action is not None and action.key in RATE_AT
+        return lays_off or before is None or bool(fallen_on(drawing, before))
+
+    for new, run in groupby(named, is_new):
+        if new:
+            yield from (turned_again(drawing, number) for number in run)
+        else:
+            yield of_many(drawing, "normals-again", list(run))
+
+
+def turned_again(drawing: Drawing, number: int) -> str:
+    """How a point of the second trial is found, its normal component being that of the first."""
+    steps = drawing.trace.program.steps
+    step = steps[number]
+    if step.action is None or step.action.key != "driven-tangential":
+        return point_of_trial(drawing, number)
+    normal = steps[step.args[0]]
+    if is_short(drawing, step.args[0]) or is_short(drawing, number):
+        return point_of_trial(drawing, number)
+    fields = fields_of(drawing, step, step.says)
+    fields["normal"] = fields_of(drawing, normal, normal.says)["vector"]
+    return drawing.words("step.driven-again", name=symbol(step.name), **fields)
+
+
+def point_of_trial(drawing: Drawing, number: int) -> str:
+    """How a point of a trial plan is found."""
+    return point_sentence(drawing, number, drawing.trace.program.steps[number])
+
+
+def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -> str:
+    """The words for several points of a trial plan."""
+    steps = drawing.trace.program.steps
+    listed = drawing.words("list_mark").join(symbol(steps[number].name) for number in numbers)
+    return drawing.words(f"step.{key}", name=listed, list=listed, **fields)
 
 
 def tried(drawing: Drawing, named: list[int]) -> tuple[str, str]:
@@ -49,7 +108,11 @@ def tried(drawing: Drawing, named: list[int]) -> tuple[str, str]:
             if key == "driven-slide":
                 letter = "v" if velocity else "a"
                 unit = "m/s" if velocity else "m/s^2"
-                return symbol(f"{letter}_{step.says['q']}"), quantity(drawing, size, unit)
+                sliding = quantity(drawing, abs(size), unit)
+                if size:
+                    way = heading(values[number] - values[step.args[0]])
+                    sliding += f" {drawing.words(f'page.to_{way}')}"
+                return symbol(f"{letter}_{step.says['q']}"), sliding
             letter, unit = ("ω", "rad/s") if velocity else ("ε", "rad/s^2")
             turning = quantity(drawing, abs(size), unit)
             turning += f" {sense(drawing.words, size)}" if size else ""

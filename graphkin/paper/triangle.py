@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import degrees, hypot
 from typing import Any
 
-from graphkin.paper.desk import TINY, Desk, line_ends, middle, note_tiny
+from graphkin.paper.desk import TINY, Desk, line_ends, middle
 from graphkin.paper.labels import Label
 from graphkin.paper.layout import BEYOND, SWEEP
-from graphkin.paper.letters import letter_on
+from graphkin.paper.letters import letter_on, no_triangle
 from graphkin.paper.marks import Arc, Circle, Line
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import SHORT, arrow, bearing, square_mark
@@ -17,7 +17,7 @@ from graphkin.steps.program import Part, Step
 
 def put_triangle_velocity(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The relative velocity set at its pin, and b″ at its tip."""
-    if is_tiny(desk, step, value):
+    if no_triangle(desk.drawing, step, desk.field.mm):
         return
     pin = desk.drawing.standing.spot(step.says["q"])
     set_vector(desk, number, "v_" + step.says["v"], pin, value)
@@ -37,14 +37,9 @@ def set_vector(
     )
 
 
-def is_tiny(desk: Desk, step: Step, tip: complex) -> bool:
-    """True when a right triangle is too small to be seen: its velocity is hardly any."""
-    return abs(tip - desk.drawing.standing.spot(step.says["q"])) * desk.field.mm < TINY
-
-
 def put_triangle_edge(desk: Desk, number: int, step: Step, value: Any) -> None:
     """From the pivot to b″, and at b″ square to it as far as the bar's line."""
-    if is_tiny(desk, step, value.point):
+    if no_triangle(desk.drawing, step, desk.field.mm):
         return
     pivot = desk.field(desk.drawing.standing.spot(step.says["p"]))
     corner = desk.field(value.point)
@@ -65,7 +60,8 @@ def put_triangle_edge(desk: Desk, number: int, step: Step, value: Any) -> None:
 def put_bar_line(desk: Desk, number: int, step: Step, value: Any) -> None:
     """The bar produced beyond its pin, as far as the right triangle needs it."""
     low, high = desk.layout.spans[number]
-    if high - low < 2 * BEYOND + TINY:
+    hidden = no_triangle(desk.drawing, step, desk.field.mm)
+    if hidden or high - low < 2 * BEYOND + TINY:
         return
     ends = line_ends(desk, number, value)
     if ends:
@@ -74,6 +70,8 @@ def put_bar_line(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
     """b‴ turned over into b⁗, and the normal component from the pin to b⁗."""
+    if no_triangle(desk.drawing, step, desk.field.mm):
+        return
     pin = desk.drawing.standing.spot(step.says["q"])
     at, end = desk.field(pin), desk.field(value)
     radius = hypot(end[0] - at[0], end[1] - at[1])
@@ -83,11 +81,7 @@ def put_turned(desk: Desk, number: int, step: Step, value: Any) -> None:
         half = min(degrees(SWEEP / radius / 2), 60.0)
         span = (way - half, way + half)
         desk.board.marks.append(Arc(*at, radius, *span, "compass", step.name, number))
-    if radius > 0:
-        desk.board.marks += arrow(at, end, "normal", name, number)
-    if radius < TINY:
-        note_tiny(desk, symbol(name), radius)
-        return
+    desk.board.marks += arrow(at, end, "normal", name, number)
     short = radius < SHORT
     subject = middle(at, end) if short else (at, end)
     desk.board.labels.append(
@@ -103,10 +97,10 @@ def put_crossing(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 
 def put_construction_point(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """A small named point of the right triangle, unless it falls on its pin."""
-    at = desk.field(value)
-    if abs(value - desk.drawing.standing.spot(step.says["q"])) * desk.field.mm < TINY:
+    """A small named point of the right triangle."""
+    if no_triangle(desk.drawing, step, desk.field.mm):
         return
+    at = desk.field(value)
     name = letter_on(desk.drawing, step, desk.field.mm)
     desk.board.marks.append(Circle(*at, 0.5, "point construction", step.name, number))
     desk.board.labels.append(

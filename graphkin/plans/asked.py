@@ -7,10 +7,9 @@ from typing import NamedTuple
 
 from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.carried import carried
-from graphkin.plans.pen import Pen, image, letter, second_image
-from graphkin.scene.model import FRAME
+from graphkin.plans.pen import Pen, letter
 from graphkin.steps.program import Part, Plane
-from graphkin.steps.vocabulary import Action, alike, set_on, set_on_twice
+from graphkin.steps.vocabulary import Action, set_on, set_on_twice
 
 
 class Kind(NamedTuple):
@@ -59,18 +58,8 @@ def constructed(pen: Pen, name: str, quantity: str) -> str:
     if not pen.has(quantity, name):
         number = carried(pen, link, point, quantity)
         if not pen.has(quantity, name):
-            shifts = not owned and link != FRAME
-            pen.want(quantity, name, alike_image(pen, name, number) if shifts else number)
+            pen.want(quantity, name, number)
     return point if owned else name
-
-
-def alike_image(pen: Pen, name: str, number: int) -> int:
-    """The image of a point of a link that only shifts: on that of its others, under its letter."""
-    start = pen.bases[name.partition("@")[2]].start
-    plan = pen.steps[number]
-    called = image(name) if plan.plane is Plane.VELOCITIES else second_image(name)
-    with pen.on(plan.part, plan.plane):
-        return pen.draw(alike, number, name=called, p=start, q=letter(name))
 
 
 def set_on_mechanism(pen: Pen, kind: Kind, point: str) -> None:

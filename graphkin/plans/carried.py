@@ -8,8 +8,9 @@ from graphkin.plans.normals import component_arrow
 from graphkin.plans.pen import Pen, Says, about, against, image, letter, owned, second_image
 from graphkin.scene.model import FRAME
 from graphkin.steps.effect import Effect
-from graphkin.steps.program import Part, Plane
+from graphkin.steps.program import CONTACT, Part, Plane
 from graphkin.steps.vocabulary import (
+    alike,
     centripetal,
     difference,
     driven_tangential,
@@ -69,7 +70,7 @@ def carried(pen: Pen, link: str, point: str, quantity: str) -> int:
     if link == FRAME:
         return pen.pole(plane)
     if not pen.turns(link):
-        return pen.the(quantity, pen.bases[link].start)
+        return shifted(pen, link, point, quantity)
     if point in pen.scene.link(link).points:
         return pen.the(quantity, point)
     name = under(point, link)
@@ -82,6 +83,27 @@ def carried(pen: Pen, link: str, point: str, quantity: str) -> int:
         else:
             acceleration_arrow(pen, name)
     return pen.the(quantity, name)
+
+
+def shifted(pen: Pen, link: str, point: str, quantity: str) -> int:
+    """The image of a point of a link that only shifts: on that of its others, under its letter."""
+    start, name = pen.bases[link].start, under(point, link)
+    number = pen.the(quantity, start)
+    if point in pen.scene.link(link).points or point.startswith(CONTACT):
+        return number
+    if not pen.has(quantity, name):
+        called = image(name) if quantity == "velocity" else second_image(name)
+        pen.want("position", name, pen.the("position", point))
+        with pen.on(pen.steps[number].part, pen.steps[number].plane):
+            found = pen.draw(alike, number, name=called, p=letter(start), q=letter(name))
+        pen.shared["fallen", found] = number
+        pen.want(quantity, name, found)
+    return pen.the(quantity, name)
+
+
+def source_of(pen: Pen, number: int) -> int:
+    """The image on which that of a point of a link that only shifts falls, or the image itself."""
+    return pen.shared.get(("fallen", number), number)
 
 
 def found_under(pen: Pen, link: str, point: str, quantity: str) -> int:

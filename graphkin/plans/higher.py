@@ -48,7 +48,7 @@ def position(pen: Pen, shapes: Shapes, group: Higher, each: Each) -> None:
     trying, inputs = trial_of(pen, group, each)
     number = closure_of(pen.scene, group)
     says: Says = {"k": group.trial.link, "n": str(number), "list": ", ".join(group.links)}
-    says |= cut_at(group.last) | {"l": traced_point(pen, group.last) or ""}
+    says |= cut_at(group.last) | {"l": " ".join(traced_points(pen, group.last))}
     with pen.on(Part.POSITION, Plane.NUMBERS):
         closing = pen.draw(trying.action(number), *inputs, **says)
         tried = pen.draw(part, closing, extra=(0,), **says)
@@ -116,9 +116,8 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
         axes = tuple(axis(fork, shapes, name) for name in written)
         reach = None if turns else reach_of(fork, shapes, group)
         rim = rolling.radius_of(fork, pair) if isinstance(pair, Contact) else None
-    point = traced_point(pen, group.last)
-    traced = None if point is None else fork.the("position", point)
-    fork.keep_inputs(fit.size, fit.locus, fit.facing, *axes, reach, rim, traced)
+    traced = tuple(fork.the("position", point) for point in traced_points(pen, group.last))
+    fork.keep_inputs(fit.size, fit.locus, fit.facing, *axes, reach, rim, *traced)
     trying = Trying(
         fork.program(),
         pen.scene.values,
@@ -137,17 +136,17 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     return trying, list(fork.inputs.values())
 
 
-def traced_point(pen: Pen, last: Tie | Driver) -> str | None:
-    """The point whose locus the hand draws; None where none shows the fit.
+def traced_points(pen: Pen, last: Tie | Driver) -> list[str]:
+    """The points whose loci the hand draws: the ends of the last link that do not stand already.
 
-    The last link's other end, or what guides it, must stand already.
+    None where none shows the fit: what guides the last link must stand.
     """
     match last:
-        case Tie(_, Pin(point=p), Pin(point=q)) if pen.has("position", p) != pen.has("position", q):
-            return q if pen.has("position", p) else p
+        case Tie(_, Pin(point=p), Pin(point=q)):
+            return [point for point in (p, q) if not pen.has("position", point)]
         case Tie(link, Pin(point=p), Sliding() as pair) if stands(pen, partner(pair, link)):
-            return p
-    return None
+            return [p]
+    return []
 
 
 def stands(pen: Pen, link: str) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from string import digits
+
 from graphkin.plans.arrows import relative_arrow
 from graphkin.plans.pen import Pen, Says, about, against, letter, named, owned
 from graphkin.steps.effect import Effect
@@ -41,7 +43,7 @@ def right_triangle(pen: Pen, places: tuple[int, int], images: tuple[int, int], s
     """Velocity at the pin, perpendicular at its tip, cut with the bar, turned over (figure 4)."""
     seconds = pen.seconds()
     pivot, pin = places
-    letter, index = says["q"].lower(), says["i"]
+    letter, index = says["q"].partition(",")[0].rstrip(digits).lower(), says["i"]
     with pen.hands_way():
         tip = pen.draw(set_velocity, pin, *images, seconds, name=f"{letter}″_{index}", **says)
         edge = pen.draw(square_at, tip, pivot, **says, tip=f"{letter}″_{index}")

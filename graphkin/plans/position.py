@@ -44,7 +44,7 @@ from graphkin.steps.vocabulary import (
 )
 from graphkin.structure.graph import Contact, Pin, Sliding
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie
-from graphkin.structure.joints import Joint
+from graphkin.structure.joints import Joint, partner
 
 FITS = 1e-6
 """Misfit of an idle link, in parts of its length, that printed lengths may leave."""
@@ -126,7 +126,7 @@ def driven(pen: Pen, shapes: Shapes, group: Driven) -> None:
 def set_on_guide(pen: Pen, shapes: Shapes, pair: Sliding, link: str, where: int) -> None:
     """A point of a link at a coordinate of the guide on which it slides, or which it carries."""
     point = pen.bases[link].start
-    says: Says = {"q": point, "g": pair.links[0], "k": link}
+    says: Says = {"q": point, "g": pair.links[0], "k": link, "h": partner(pair, link)}
     line = path_of(pen, shapes, pair, link, point)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         if pair.block == link:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.plans import wheels
 from graphkin.plans.arrows import arrow_between, velocity_arrows
-from graphkin.plans.carried import image_under, omega_of
+from graphkin.plans.carried import image_under, omega_of, source_of
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import Base, crank_tip, sides_of, under
 from graphkin.plans.pen import Pen, Says, against, image, letter, named
@@ -16,6 +16,7 @@ from graphkin.steps.program import CONTACT, Part, Plane
 from graphkin.steps.vocabulary import (
     alike,
     difference,
+    join,
     meet,
     parallel_to,
     part_along,
@@ -237,7 +238,13 @@ def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
     """
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
     start, tip = image_under(pen, known, point), pen.the("velocity", point)
-    back = named(pen, tip) + named(pen, start)
-    told = back in pen.arrows and tip != o and not pen.turns(known)
+    told = not pen.turns(known) and tip != o and is_joined(pen, tip, start)
     if start not in (o, tip) and not told:
         arrow_between(pen, start, tip, point, letter(under(point, known)))
+
+
+def is_joined(pen: Pen, tail: int, tip: int) -> bool:
+    """Whether an arrow leads from one image to another, or between others on which they fall."""
+    ends = source_of(pen, tail), source_of(pen, tip)
+    arrows = (step.args for step in pen.steps if step.arrow and step.action is join)
+    return any((source_of(pen, start), source_of(pen, end)) == ends for start, end in arrows)

@@ -15,12 +15,14 @@ from graphkin.paper.layout import BEYOND, SWEEP
 from graphkin.paper.letters import is_coriolis
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline
 from graphkin.paper.symbols import SHORT, VECTORS
+from graphkin.paper.tips import BEYOND as BEYOND_TIPS
+from graphkin.paper.tips import PARALLEL, parallel_velocities
 from graphkin.paper.trial_gaps import gap_lines
 from graphkin.paper.trial_marks import NEAR as SHORTEST
 from graphkin.paper.trial_marks import leg_start
 from graphkin.plane import Circle as Round
 from graphkin.plane import Line as Carrier
-from graphkin.plane import Ratio, Vector, dot
+from graphkin.plane import Ratio, Vector, cross, dot
 from graphkin.screen.binding import Binding, only_at_start
 from graphkin.screen.places import place_of
 from graphkin.screen.poses import unit
@@ -111,7 +113,7 @@ class Steps(Seen):
         ends = self.vector(number)
         cls = mark.cls.split()[0]
         if cls == "arrowhead":
-            return only_at_start if ends is None else self.bench.head(*ends, self.fine(number))
+            return only_at_start if ends is None else self.bench.head(*ends, self.seen(number))
         if cls == "square-mark":
             return self.square(number)
         value = self.value(number)
@@ -162,9 +164,11 @@ class Steps(Seen):
         """A vector, a part of a construction line, or a leg of a triangle."""
         ends, cls = self.vector(number), mark.cls.split()[0]
         if ends is not None and cls in VECTORS:
-            return self.bench.between(*ends, shown=self.fine(number))
+            return self.bench.between(*ends, shown=self.seen(number))
         if cls == "centre":
             return self.circle(number, Circle(0, 0, 1, ""))
+        if self.key(number) == "instant-centre" and cls == "ray":
+            return self.tips(number)
         for start, end in self.legs(number):
             if self.is_at(mark, start, end):
                 is_leg = cls in ("trial", "trial-line") or self.key(number) == "similar-point"
@@ -173,6 +177,20 @@ class Steps(Seen):
         if isinstance(self.drawn(number), Carrier) and number in self.layout.spans:
             return self.part(number, self.which(number, mark))
         return None
+
+    def tips(self, number: int) -> Binding | None:
+        """The line through the tips of two velocities, while these are parallel."""
+        drawing, step, lift = self.bench.places.drawing, self.step(number), self.bench.shelf.lifted
+        pole, scale = self.value(step.args[0]), drawing.at_scale(Plane.VELOCITIES, 1)
+        found = parallel_velocities(drawing, step).values()
+        if not found:
+            return None
+        ways = [lift(self.value(image) - pole) * scale for _, image in found]
+        tips = [lift(self.value(place)) + way for (place, _), way in zip(found, ways, strict=True)]
+        on = unit(tips[1] - tips[0]) * (BEYOND_TIPS / self.bench.field.mm)
+        shown = PARALLEL - abs(cross(unit(ways[0]), unit(ways[1])))
+        room = above_foot(self.bench.room)
+        return self.bench.between(tips[0] - on, tips[1] + on, room, shown)
 
     def is_at(self, mark: Line, start: Any, end: Any) -> bool:
         """Whether a line was drawn between two places."""
@@ -238,7 +256,8 @@ class Steps(Seen):
         low, high = bench.places.span(number, bench.field.mm)
         shown = self.seen(number)
         if self.key(number) == "bar-line":
-            shown = high - low - (2 * BEYOND + TINY)
+            span = high - low - (2 * BEYOND + TINY)
+            shown = span if shown is None else smaller(span, shown)
         shelf, rect = bench.shelf, bench.rect(above_foot(bench.room))
         return lambda _: [
             "s",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphkin.arithmetic import pick
+from graphkin.arithmetic import pick, smaller
 from graphkin.paper.desk import TINY, above_foot
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import Layout
@@ -124,7 +124,7 @@ class Following:
             found = None
             if first in VECTORS and ends is not None:
                 if not (after and after[0].cls.startswith("arrowhead")):
-                    found = self.bench.head(*ends, self.steps.fine(mark.step))(mark)
+                    found = self.bench.head(*ends, self.steps.seen(mark.step))(mark)
                 if found is not None:
                     yield k, "polygon", f"arrowhead {first}", found
             elif self.steps.is_short(mark):
@@ -211,7 +211,8 @@ class Following:
         if ends is not None and not (number in steps.ends and self.names_point(mark, number)):
             tail, tip = (bench.page(end) for end in ends)
             pose = Pose((tail + tip) * 0.5, unit(tip - tail))
-            return bench.beside(pose, abs(tip - tail) - TINY)
+            size, seen = abs(tip - tail) - TINY, steps.seen(number)
+            return bench.beside(pose, size if seen is None else smaller(size, seen))
         if isinstance(value, Carrier):
             return self.beside_line(number)
         if isinstance(value, Ratio):

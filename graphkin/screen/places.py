@@ -7,8 +7,8 @@ from typing import Any
 
 from graphkin.arithmetic import larger, pick, smaller
 from graphkin.paper.drawing import ENDLESS, NOISE
-from graphkin.paper.layout import BEYOND, FAR, SWEEP
-from graphkin.plane import Circle, Line, Ratio, dot
+from graphkin.paper.layout import BEYOND, FAR, SWEEP, joined
+from graphkin.plane import Circle, Ratio, dot
 from graphkin.screen.poses import Bodies, unit
 from graphkin.steps.program import Part
 
@@ -20,9 +20,7 @@ class Places(Bodies):
         """The steps whose points a line or an arc must reach, as the layout finds them."""
         drawing, drawn = self.drawing, self.drawing.trace.values
         numbers = [drawing.results.get(c, c) for c in drawing.children.get(number, ())]
-        if isinstance(drawn[number], Line):
-            args = drawing.trace.program.steps[number].args
-            numbers += [arg for arg in args if isinstance(drawn[arg], Ratio)]
+        numbers += joined(drawing, number)
         return [each for each in numbers if isinstance(drawn[each], complex | Ratio)]
 
     def reached(self, number: int, point: int, mm: float) -> Any:

@@ -9,8 +9,7 @@ from graphkin.arithmetic import smaller
 from graphkin.paper.desk import TINY, Desk
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
-from graphkin.paper.letters import is_coriolis
-from graphkin.plane import Line as Carrier
+from graphkin.paper.letters import ends_of, is_coriolis
 from graphkin.screen.binding import Bench
 from graphkin.steps.program import Part, Plane, Step
 
@@ -58,15 +57,11 @@ class Seen:
             return None
         if is_coriolis(step):
             return self.shortest(number)
-        value, pin = self.value(number), spots.get(step.says.get("q", ""))
+        pin = spots.get(step.says.get("q", ""))
         if pin is None:
             return None
-        return self.apart(value.point if isinstance(value, Carrier) else value, pin) - TINY
-
-    def fine(self, number: int) -> Any:
-        """The same for vectors, of which that of a normal component is drawn however short."""
-        is_turned = self.key(number) == "turn-over"
-        return None if is_turned else self.seen(number)
+        ends = ends_of(self.bench.places.drawing, step)
+        return smaller(*(self.apart(self.value(end), pin) for end in ends)) - TINY
 
     def shortest(self, number: int) -> Any:
         """The same of the similar triangles of a Coriolis component."""

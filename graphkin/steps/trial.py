@@ -47,16 +47,16 @@ class Trial:
     """The step that holds how far a coordinate may have to be tried, in metres."""
     rim: int | None = None
     """The step that holds the radius of a wheel that is tried along its track."""
-    traced: int | None = None
-    """The step that holds the point whose locus a hand draws."""
+    traced: tuple[int, ...] = ()
+    """The steps that hold the points whose loci a hand draws."""
 
     # --- what is run ---------------------------------------------------------------------------
 
     @cached_property
     def results(self) -> tuple[int, ...]:
         """The steps whose values are looked at."""
-        others = [step for step in (self.facing, self.traced) if step is not None]
-        return (self.misfit, self.locus, *others, *self.axes)
+        facing = () if self.facing is None else (self.facing,)
+        return (self.misfit, self.locus, *facing, *self.traced, *self.axes)
 
     @cached_property
     def ready(self) -> Ready:

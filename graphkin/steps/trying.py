@@ -188,21 +188,22 @@ class Closer:
 
         return closed_in(self.trying, known, self.number, kind)
 
-    def locus(self, known: Sequence[Any], signs: Sequence[float]) -> Any:
-        """Where the traced point goes while the link is tried, (N,); NaN where it breaks off.
+    def loci(self, known: Sequence[Any], signs: Sequence[float]) -> list[Any]:
+        """Where the traced points go while the link is tried, (N,) each; NaN where one breaks off.
 
         None where no point shows the fit.
         """
         import numpy as np
 
         trying = self.trying
-        if trying.traced is None:
-            return None
+        if not trying.traced:
+            return []
         arrays = [np.atleast_1d(value) for value in known]
         tried = trying.grid(arrays, 1)[0]
         here = [np.broadcast_to(array, tried.shape) for array in arrays]
         rows = np.broadcast_to(np.asarray(signs, dtype=float), (tried.size, len(trying.signs)))
-        return trying.found(here, tried, rows)[trying.traced]
+        found = trying.found(here, tried, rows)
+        return [found[number] for number in trying.traced]
 
     def ways(self, known: Sequence[Any]) -> int:
         """In how many ways the group closes on known values."""

@@ -14,9 +14,11 @@ from graphkin.loci import curves_of
 from graphkin.mechanism import Mechanism
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field
+from graphkin.paper.growing import growing
 from graphkin.paper.layout import lay_out
 from graphkin.paper.marks import Line, Page, Polyline, Text
-from graphkin.paper.paths import UNSEEN, clipped_path, middle_of, ring
+from graphkin.paper.paths import UNSEEN, clipped_path, is_straight, middle_of, ring
+from graphkin.paper.richtext import plain
 from graphkin.paper.sentences import sentences
 from graphkin.paper.sheet import sheet
 from graphkin.plane import Circle as Round
@@ -24,6 +26,7 @@ from graphkin.plane import Ratio, cross
 from graphkin.scene.read import read_text
 from graphkin.steps.solution import Curve
 from graphkin.text import words
+from tests.paper.sheet_tools import drawings
 
 HEAD = """graphkin = 1
 title = "centres"
@@ -81,7 +84,24 @@ speed = -200
 [branches]
 3 = "backward"
 """
-SCENES = {"four-bar": FOUR_BAR, "slider-crank": SLIDER_CRANK, "cardan": CARDAN}
+NEAR = """
+[frame]
+A = [0, 0]
+D = [110, 0]
+[links.1]
+A-B = 60
+[links.2]
+B-C = 60
+[links.3]
+D-C = 75
+[[drivers]]
+turn = 1
+angle = 70
+speed = 3
+[branches]
+C = "left of B-D"
+"""
+SCENES = {"near": NEAR, "four-bar": FOUR_BAR, "slider-crank": SLIDER_CRANK, "cardan": CARDAN}
 ALL = 'centres = "all"'
 TENTH = 0.1
 
@@ -170,6 +190,32 @@ def test_a_centre_that_is_asked_alone_brings_only_what_leads_to_it():
     assert found == {"I01", "I12", "I23", "I03", "I13"}
 
 
+KNOWN = 'centres = [2, "all"]'
+
+
+def test_the_centre_of_a_link_and_the_frame_is_its_instantaneous_centre_found_again():
+    drawing = drawn("four-bar", KNOWN)[0]
+    (said,) = [plain(s.markup) for s in sentences(drawing) if "I02" in plain(s.markup)[-40:]]
+    assert said.endswith("they meet in I02, which is I2 again: a check")
+    assert {"I2", "I02"} <= names(page_of(drawing))
+
+
+def test_a_far_centre_that_is_found_again_is_told_by_its_first_name():
+    (drawing,) = drawings("instant-centres")
+    texts = [plain(m.markup) for m in page_of(drawing).marks if isinstance(m, Text)]
+    assert sum("off the field" in text and "218.7" in text for text in texts) == 1
+    assert "I02 = I2" in texts and "I2 = I02" in texts
+
+
+def test_centres_that_fall_together_each_have_their_page():
+    drawing = drawn("near", KNOWN)[0]
+    letters = []
+    for page in growing(drawing, "1/1"):
+        shown = [plain(m.markup) for m in page.marks if isinstance(m, Text)]
+        letters += [text for text in shown if text in ("I2", "I2 ≡ I02")]
+    assert letters[0] == "I2" and letters[-1] == "I2 ≡ I02"
+
+
 # --- the inflection circle -----------------------------------------------------------------------
 
 
@@ -249,6 +295,18 @@ def test_the_centrodes_of_cardans_cross_are_circles_of_radius_l_and_of_diameter_
     ends = [min(run[0].imag, run[-1].imag, key=abs) for run in fixed.runs]
     assert all(abs(y) < 1e-3 for y in ends)
     assert fixed.now == pytest.approx((0.1 - 0.1j) / 2**0.5, rel=1e-9)
+
+
+def test_a_straight_centrode_takes_no_room_from_the_mechanism():
+    (drawing,) = drawings("centrodes-roller")
+    fixed, moving = drawing.curves
+    rail = [point for run in fixed.runs for point in run]
+    assert is_straight(rail) and not is_straight([point for run in moving.runs for point in run])
+    assert max(point.real for point in rail) > drawing.mechanism_extent().right
+    assert drawing.scales.kL == 2
+    (way,) = [m for m in page_of(drawing).marks if isinstance(m, Text) and m.name == "s 1"]
+    lines = [m for m in page_of(drawing).marks if isinstance(m, Line) and m.name == "s 1"]
+    assert plain(way.markup) == "s = 40 mm" and len([m for m in lines if m.cls == "drive"]) == 3
 
 
 def test_the_path_of_a_crank_pin_is_its_circle_and_closes():

@@ -59,6 +59,23 @@ def test_every_side_of_the_image_is_drawn(name):
     assert seen
 
 
+@pytest.mark.parametrize("name", (*NAMES, "roller-plates"))
+def test_no_side_of_an_image_covers_an_arrow(name):
+    for drawing in drawings(name):
+        layout = lay_out(drawing)
+        marks = right_board(drawing, layout, "key").marks
+        points = {number for number, _ in found_by_similarity(drawing)}
+        sides = [m for m in marks if isinstance(m, Line) and m.step in points and m.cls != "trial"]
+        arrows = [
+            shapely.LineString([layout.plan(value.tail), layout.plan(value.tip)])
+            for number, step, value in drawing.steps(drawing.plane)
+            if step.arrow and abs(value.tip - value.tail) * layout.plan.mm > NEAR
+        ]
+        for mark in sides:
+            side = shapely.LineString([(mark.x1, mark.y1), (mark.x2, mark.y2)]).buffer(0.01)
+            assert not [arrow for arrow in arrows if side.covers(arrow)], (drawing.kind, mark.name)
+
+
 def test_what_an_arrow_draws_is_not_drawn_again():
     velocity, acceleration = drawings("lifter")
     sides = {

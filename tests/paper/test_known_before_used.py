@@ -129,12 +129,14 @@ def test_no_rate_enters_a_plan_in_degrees(path):
     """A driver's rate in degrees is turned into radians before anything is computed from it."""
     whole = found_in(path)
     for relation in whole:
-        if relation.unit.startswith("deg/s"):
+        assert "deg" not in relation.unit
+        if relation.unit.startswith("°/s"):
             assert any(r.left == relation.left and r.unit.startswith("rad/s") for r in whole)
 
 
 def test_the_angular_acceleration_of_a_driver_in_degrees_is_turned_into_radians():
     whole = found_in(next(path for path in SCENES if path.stem == "excavator-relative"))
+    assert {"°/s", "°/s²"} <= {relation.unit for relation in whole}
     lines = [r for r in whole if r.left == "*ε*_{stick/boom}" and r.unit == "rad/s^2"]
     assert [(r.figures, r.result) for r in lines] == [("π·12/180", "0.20944")]
 

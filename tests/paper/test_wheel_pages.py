@@ -3,16 +3,54 @@
 from __future__ import annotations
 
 import pytest
+from shapely import LineString, Point
 
+from graphkin.handout import drawings_of, proved
+from graphkin.mechanism import Mechanism
+from graphkin.paper.layout import lay_out
 from graphkin.paper.marks import Circle, Line
 from graphkin.paper.relations import relations
 from graphkin.paper.richtext import plain
 from graphkin.paper.sentences import sentences
+from graphkin.paper.sheet import left_board
+from graphkin.paper.stages import stages
 from graphkin.paper.standing import lettered
+from graphkin.paper.tips import set_before
+from graphkin.scene.read import read_text
 from graphkin.steps.program import CONTACT
+from graphkin.text import words
 from tests.paper.sheet_tools import SCENES, drawings, drawn
 
 WHEELS = ("gears-pair", "gears-planet", "gears-rack", "gears-ring", "rod-and-wheel", "roller")
+
+
+RACK_ON_ARM = """graphkin = 1
+title = "rack on an arm"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 200
+[links.2]
+B = [0, 0]
+slides = { on = 1, through = "O", angle = 0, offset = -30 }
+[links.3]
+A = [0, 0]
+Q = [20, 0]
+wheel = { centre = "A", radius = 30 }
+rolls = { on = 2, through = "B", angle = 0, start = { 3 = 0 } }
+[[drivers]]
+turn = 1
+angle = 30
+speed = 2
+[[drivers]]
+turn = 3
+angle = -120
+speed = 5
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+"""
 
 
 def said(name, kind="velocity"):
@@ -70,6 +108,84 @@ def test_a_centre_on_the_line_of_parallel_velocities_is_found_by_their_tips():
         line == "I1, the instantaneous centre of link 1, is C, whose velocity is nought"
         for line in said("roller")
     )
+
+
+def test_the_line_through_the_tips_is_drawn_through_the_centre_with_both_velocities_first():
+    (drawing, _) = drawings("roller-plates")
+    layout, own = lay_out(drawing), sentences(drawing)
+    place, staged = layout.mechanism, stages(drawing, own)
+    early = set_before(drawing)
+    (number,) = set(early.values())
+    lines = [
+        LineString([(m.x1, m.y1), (m.x2, m.y2)])
+        for m in left_board(drawing, layout, "key").marks
+        if isinstance(m, Line) and m.step == number and m.cls == "ray"
+    ]
+    values = drawing.trace.values
+    ends = [place(values[arrow].tip) for arrow in early]
+    ends.append(place(drawing.place(values[number])))
+    assert len(lines) == 1 and len(ends) == 3
+    assert all(lines[0].distance(Point(end)) < 1e-6 for end in ends)
+    assert {staged[arrow] for arrow in early} == {staged[number]}
+    assert "set vB, vM on" in said("roller-plates")[-1]
+
+
+@pytest.mark.parametrize("name", ["roller", "centrodes-roller"])
+def test_the_arrow_of_a_wheels_speed_stands_at_its_centre(name):
+    (drawing, *_) = drawings(name)
+    layout = lay_out(drawing)
+    marks = left_board(drawing, layout, "key").marks
+    (arrow,) = [m for m in marks if isinstance(m, Line) and m.name == "speed 1"]
+    middle = complex(arrow.x1 + arrow.x2, arrow.y1 + arrow.y2) / 2
+    assert abs(middle - complex(*layout.mechanism(drawing.positions["O"]))) < 8
+
+
+def test_the_points_of_a_wheel_that_stands_as_at_the_start_are_said_in_one_sentence():
+    assert "link 1 stands as at the start: from O lay off C, Q, T, P as given" in said("roller")
+    assert "link 3 stands as at the start: from O lay off A, B, M as given" in said("roller-plates")
+    assert not any("since the start" in line for line in said("roller") + said("roller-plates"))
+
+
+def test_where_two_gears_touch_is_told_by_a_radius():
+    assert said("gears-planet")[2].endswith("line of centres, r1 = m·z/2 = 60 mm from O")
+    assert said("gears-ring")[3].endswith("line of centres, r2 = m·z/2 = 40 mm from P")
+
+
+def test_an_acceleration_by_rolling_is_laid_off_in_the_sentence_that_gives_its_length():
+    lines = [line for line in said("roller-plates", "acceleration") if "T2O" in line]
+    assert (
+        lines[0] == "from u′ lay off u′t′2,3 = aT2Oν = ω32·T2O ∥ T2O, from T2 towards O, 50.00 mm"
+    )
+    every = said("roller-plates", "acceleration")
+    assert sum("for rolling gives the point of contact no other" in line for line in every) == 1
+
+
+def test_a_wheel_that_rolls_on_a_rack_that_turns_is_told_by_both_their_turnings():
+    mechanism = Mechanism(read_text(RACK_ON_ARM, "rack", None, {}))
+    verdict = proved(mechanism, mechanism.solve())
+    lines = [plain(s.markup) for s in sentences(drawings_of(mechanism, verdict, words("en"))[1])]
+    assert any("t′3t′2 = aTAν = (ω3 − ω1)2·AT ∥ AT, from A towards T, 21.60 mm" in s for s in lines)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "line"),
+    [
+        ("roller-plates", "acceleration", "l′ falls on o′, for v1 is constant"),
+        ("mobility-five-bar", "velocity", "d falls on o, for ω4 is nought"),
+        ("mobility-five-bar", "acceleration", "d′ falls on o′, for ω4 is nought"),
+    ],
+)
+def test_why_a_point_falls_on_the_pole_is_told(name, kind, line):
+    assert line in said(name, kind)
+
+
+def test_a_tangential_component_is_not_there_before_the_points_that_it_is_told_of():
+    (_, drawing) = drawings("roller-plates")
+    staged, program = stages(drawing, sentences(drawing)), drawing.trace.program
+    found = {step.says["symbol"]: n for n, step, _ in drawing.steps(drawing.plane) if step.arrow}
+    rims = [n for (what, of), n in program.targets.items() if what == drawing.kind and "@3" in of]
+    assert len(rims) == 2
+    assert staged[found["a_T2,3T1,3^τ"]] == max(staged[number] for number in rims)
 
 
 def test_a_rate_is_told_where_it_is_taken_first():

@@ -292,6 +292,48 @@ acceleration = ["C"]
 centres = [1, 2, 3]
 poles = [1, 2, 3]
 """,
+    "crank on a corner of a plate that turns": """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 120
+A-C = 60
+O-C = 90
+C = "left of O-A"
+[links.2]
+C-D = 70
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[[drivers]]
+turn = 2
+against = 1
+angle = 30
+speed = 3
+[ask]
+velocity = ["D"]
+""",
+    "lever with its block behind its pivot": """
+[frame]
+O1 = [0, 0]
+O2 = [0, -300]
+[links.1]
+O1-A = 120
+[links.2]
+A = [0, 0]
+slides = { on = 3, along = "O2-B" }
+[links.3]
+O2-B = 200
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[branches]
+2 = "backward"
+[ask]
+velocity = ["B"]
+""",
     "slider driven along a turning arm": """
 [frame]
 O = [0, 0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.steps.program import Plane
+from graphkin.steps.program import CONTACT, Plane
 from tests.chance.checking import case
 from tests.paper.sheet_tools import SCENES, mechanism_named
 
@@ -59,9 +59,16 @@ def test_the_velocity_plan_shows_contacts_and_bars_within_trials(name, symbols):
     assert not any(end.endswith(("¹", "²")) for end in ends)
 
 
+def fallen(program, number):
+    """The image on which that of a point of a link that only shifts falls."""
+    step = program.steps[number]
+    return step.args[0] if step.action and step.action.key == "alike" else number
+
+
 def both_ways(program):
     """The relative velocities that stand in the plan in both senses."""
-    drawn = {step.args: step for step in keyed(program, "join") if step.plane is Plane.VELOCITIES}
+    arrows = [step for step in keyed(program, "join") if step.plane is Plane.VELOCITIES]
+    drawn = {tuple(fallen(program, end) for end in step.args): step for step in arrows}
     poles = {number for number, step in enumerate(program.steps) if step.name == "o"}
     return {
         step.says["symbol"]
@@ -80,3 +87,21 @@ def test_nor_is_one_in_mechanisms_made_at_random_but_for_that_of_a_point_of_cont
     made = {seed: found.mechanism.program for seed in SEEDS if (found := case(seed))}
     found = {seed: symbols for seed, program in made.items() if (symbols := both_ways(program))}
     assert found == {36: {"v_P5P5,2", "v_TP5"}}
+
+
+def small(name):
+    """The name of an image, or of a point in an index, as bare small letters."""
+    return name.replace("_v", "").replace("_", "").replace(",", "").lower()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_ends_of_a_relative_velocity_bear_the_letters_of_its_index(name):
+    """But for the pole, on which what is fixed falls, and for contacts that plates carry."""
+    program = mechanism_named(name).program
+    points = {of for _, of in program.targets if of.startswith(CONTACT)}
+    contacts = {small(point.removeprefix(CONTACT)) for point in points}
+    for step in keyed(program, "join"):
+        letters = {small(step.says["q"]), small(step.says["p"])}
+        if step.plane is Plane.VELOCITIES and step.says["p"] and not letters & contacts:
+            ends = {small(program.steps[end].name) for end in step.args}
+            assert "o" in ends or ends == letters, step.says["symbol"]
