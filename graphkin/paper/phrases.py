@@ -86,7 +86,7 @@ def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
     step = drawing.trace.program.steps[number]
     if step.action is None or step.action.key not in LINES or step.name:
         return
-    if is_nought(drawing, number):
+    if is_left_out(drawing, number):
         return
     if step.plane is not plane or is_lever(drawing, number):
         return
@@ -96,7 +96,7 @@ def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
     yield phrase(drawing, step, step.name, step)
 
 
-def is_nought(drawing: Drawing, number: int) -> bool:
+def is_left_out(drawing: Drawing, number: int) -> bool:
     """True for a component laid off from a named point that is too short to be drawn, or none."""
     step = drawing.trace.program.steps[number]
     if step.action is None or step.action.key not in COMPONENTS:
@@ -117,7 +117,7 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
     """The words of one step with the symbols of its names."""
     says = {**words_of.says, **step.says}
     fields = fields_of(drawing, step, says)
-    if step.action and step.action.key in FOLLOWING and is_nought(drawing, step.args[0]):
+    if step.action and step.action.key in FOLLOWING and is_left_out(drawing, step.args[0]):
         start = drawing.trace.program.steps[step.args[0]].args[0]
         fields["s"] = symbol(drawing.trace.program.steps[start].name)
     key = key_of(drawing, step, words_of, fields)
@@ -198,7 +198,7 @@ def is_tried(step: Step) -> bool:
 def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     """The key of the sentence of a step that draws a plan."""
     number = drawing.number_of(step)
-    if key in ("square-to", "parallel-to") and is_nought(drawing, step.args[0]):
+    if key in ("square-to", "parallel-to") and is_left_out(drawing, step.args[0]):
         return key
     if key == "square-to" and step.plane is Plane.ACCELERATIONS:
         return "square-to-end"
@@ -217,11 +217,11 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     if key == "similar-point" and in_line(drawing, step):
         return "similar-in-line"
     if key == "centripetal" and not step.name:
-        return "lay-off-none" if is_short(drawing, number) else "lay-off-computed"
+        return "lay-off-none" if has_no_length(drawing, number) else "lay-off-computed"
     if key == "lay-off" and step.name:
         return "lay-off-rolling" if is_first_roll(drawing, step) else "lay-off-named"
-    alone = key == "driven-tangential" and is_short(drawing, step.args[0])
-    if key in LAID_OFF and is_short(drawing, number):
+    alone = key == "driven-tangential" and has_no_length(drawing, step.args[0])
+    if key in LAID_OFF and has_no_length(drawing, number):
         at_end = not step.says["s"] or (key == "driven-tangential" and not alone)
         return "falls-end" if at_end else falls_key(drawing, step)
     if alone:
@@ -234,7 +234,7 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     return key
 
 
-def is_short(drawing: Drawing, number: int) -> bool:
+def has_no_length(drawing: Drawing, number: int) -> bool:
     """True for a vector that is laid off from a point of a plan and is nought."""
     step = drawing.trace.program.steps[number]
     return drawn_between(drawing, step.args[0], number, step.plane) < NAUGHT

@@ -11,7 +11,7 @@ from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.equations import is_laid_off, of_contacts, of_equations
 from graphkin.paper.misses import Miss, driver_of, misses
-from graphkin.paper.naming import segment_of
+from graphkin.paper.naming import drawn_between, scale_of, segment_of
 from graphkin.paper.outset import of_driver, of_scales
 from graphkin.paper.rates import FINE, of_sum, of_turning, within
 from graphkin.paper.relation import Relation, answer, figure, length_of
@@ -114,7 +114,7 @@ def data_line(drawing: Drawing) -> Relation:
 
 def read_off(drawing: Drawing) -> Iterator[Relation]:
     """Each vector that is read off the plan: scale factor times drawn length."""
-    scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+    scale = scale_of(drawing, drawing.plane)
     k = "*k*_v" if drawing.kind == "velocity" else "*k*_a"
     unit = "m/s" if drawing.kind == "velocity" else "m/s^2"
     for _, step, value in drawing.steps(drawing.plane):
@@ -164,9 +164,8 @@ def of_trials(drawing: Drawing) -> Iterator[Relation]:
 
 def on_line(drawing: Drawing, crossed: Step) -> str:
     """How far along the line of its trials a point was found, over how long that is, in mm."""
-    one, two = (drawing.trace.values[arg] for arg in crossed.args[:2])
-    scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
-    whole = 1000 * abs(two - one) / scale
+    one, two = crossed.args[:2]
+    whole = drawn_between(drawing, one, two, drawing.plane)
     share = float(drawing.trace.values[crossed.args[2]])
     return f"{drawn(drawing, share * whole)}/{drawn(drawing, whole)}"
 
@@ -181,7 +180,7 @@ def of_gaps(drawing: Drawing, step: Step, gaps: tuple[Miss, Miss]) -> Iterator[R
     turns = "d" in step.says and driver_of(drawing, step).kind == "turn"
     velocity = drawing.kind == "velocity"
     unit = ("rad/s" if turns else "m/s") + ("" if velocity else "^2")
-    scale = (drawing.scales.kv if velocity else drawing.scales.ka) / 1000
+    scale = scale_of(drawing, drawing.plane) / 1000
     for name, gap in zip(GAPS, gaps, strict=True):
         length = gap.found if "d" in step.says else gap.size
         mm = within(drawing, length / scale)

@@ -19,6 +19,7 @@ from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.members import members
+from graphkin.paper.naming import scale_of
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
 from graphkin.paper.relation import figure
@@ -194,8 +195,8 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
 def headlines(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
     """The captions of both fields, small where one of them has no room for large lettering."""
     words, scales = drawing.words, drawing.scales
-    factor = scales.kv if drawing.kind == "velocity" else scales.ka
-    k = BLANK if view == "task" and scales.from_driver else figure(drawing, factor / 1000)
+    factor = scale_of(drawing, drawing.plane) / 1000
+    k = BLANK if view == "task" and scales.from_driver else figure(drawing, factor)
     kL = words.decimal(digits(scales.kL))
     captions = {
         words("page.mechanism_heading", scale=scales.words, kL=kL): layout.mechanism.rect,

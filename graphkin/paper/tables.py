@@ -9,7 +9,7 @@ from typing import Any
 from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Line, Mark, Text, box
-from graphkin.paper.naming import segment_of, way_of
+from graphkin.paper.naming import scale_of, segment_of, way_of
 from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.short import NEARLY_NOUGHT, hardly_turns, is_short
 from graphkin.paper.symbolic import symbol
@@ -39,7 +39,7 @@ class Row:
 
 def vectors(drawing: Drawing) -> list[tuple[str, str, float, float]]:
     """The vectors of the plan: symbol, segment, drawn length (mm), true magnitude (SI)."""
-    scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+    scale = scale_of(drawing, drawing.plane)
     found = []
     for _, step, value in drawing.steps(drawing.plane):
         if step.arrow and isinstance(value, Vector):

@@ -11,7 +11,7 @@ from graphkin.paper.gaps import fields_of
 from graphkin.paper.misses import Miss, driver_of, misses, on_paper, ratio
 from graphkin.paper.naming import way_of
 from graphkin.paper.pairs import heading
-from graphkin.paper.phrases import is_short, point_sentence
+from graphkin.paper.phrases import has_no_length, point_sentence
 from graphkin.paper.relation import figure
 from graphkin.paper.sentence import Sentence, in_one, together
 from graphkin.paper.symbolic import symbol
@@ -77,7 +77,7 @@ def turned_again(drawing: Drawing, number: int) -> str:
     if step.action is None or step.action.key != "driven-tangential":
         return point_of_trial(drawing, number)
     normal = steps[step.args[0]]
-    if is_short(drawing, step.args[0]) or is_short(drawing, number):
+    if has_no_length(drawing, step.args[0]) or has_no_length(drawing, number):
         return point_of_trial(drawing, number)
     fields = fields_of(drawing, step, step.says)
     fields["normal"] = fields_of(drawing, normal, normal.says)["vector"]
