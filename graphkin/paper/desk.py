@@ -10,6 +10,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
+from graphkin.paper.naming import scale_of
 from graphkin.text import Words
 
 TINY = 0.5
@@ -66,7 +67,7 @@ def in_mm(words: Words, length: float) -> str:
 def note_tiny(desk: Desk, name: str, length: float) -> None:
     """Name a vector that is too short to be seen at the foot of its field."""
     words, drawing = desk.drawing.words, desk.drawing
-    factor = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+    factor = scale_of(drawing, drawing.plane)
     key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
     note = words(key, name=name, length=in_mm(words, length))
     if note not in desk.board.notes:
