@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from math import dist, hypot, sqrt
 from typing import NamedTuple, TypeGuard
 
+from graphkin.paper.areas import Rect
 from graphkin.paper.crowd import HELPERS
 from graphkin.paper.doubt import segment_of
 from graphkin.paper.field import XY
 from graphkin.paper.free import Disc, free_disc
 from graphkin.paper.labels import SMALL, Board, Label, free_ones
-from graphkin.paper.marks import Circle, Line, Mark, Text
+from graphkin.paper.layout import centre
+from graphkin.paper.marks import Circle, Line, Mark, Text, moved
+from graphkin.paper.place import Spot
 from graphkin.paper.plan import DOT
 from graphkin.paper.symbols import SHORT, VECTORS, head
-from graphkin.paper.together import finished, spots_on
+from graphkin.paper.together import finished
 
 SHOWN = (*VECTORS, "construction", "link")
 """The classes of lines that a detail shows."""
@@ -56,6 +58,13 @@ def source(marks: Sequence[Mark]) -> Source | None:
     return None
 
 
+class Detail(NamedTuple):
+    """What a detail shows: its source, and a board with the part enlarged, aside of the page."""
+
+    source: Source
+    board: Board
+
+
 def with_detail(*boards: Board) -> list[Mark]:
     """Finished fields, with detail circles for very short vectors where there is room for them."""
     return [mark for marks, detail in parted(*boards) for mark in (*marks, *detail)]
@@ -63,61 +72,67 @@ def with_detail(*boards: Board) -> list[Mark]:
 
 def parted(*boards: Board) -> list[tuple[list[Mark], list[Mark]]]:
     """Finished fields, and apart from each its detail circle; no marks where there is none."""
-    spots = [source(board.marks) for board in boards]
-    for board, spot in zip(boards, spots, strict=True):
-        board.marks += [spot.circle()] if spot else []
-    found: list[tuple[list[Mark], list[Mark]]] = []
-    enlarged: list[tuple[Board, list[Mark]]] = []
-    wished = [list(board.labels) for board in boards]
-    for board, labels, spot, marks in zip(boards, wished, spots, finished(boards), strict=True):
-        detail: list[Mark] = []
-        found.append((marks, detail))
-        if spot is None:
-            continue
-        disc = free_disc(marks, board.rect, spot.at, RADIUS + 4)
-        if disc is None:
-            marks.remove(spot.circle())
-            continue
-        detail += circled(disc, spot.at, spot.times)
-        part = enlarged_part(marks, spot.at, disc.at, spot.times)
-        part.labels = [*named(labels, marks, spot.at, disc.at, spot.times)]
-        part.marks[-1:-1] = dots(part.labels)
-        detail += part.marks[:-1]
-        enlarged.append((part, detail))
-    places = spots_on([part for part, _ in enlarged], thorough=False)
-    for (part, into), at in zip(enlarged, places, strict=True):
-        into.extend(free_ones(part, at))
-    return found
+    details = [detail_of(board, at) for board, at in zip(boards, aside(boards), strict=True)]
+    for board, detail in zip(boards, details, strict=True):
+        board.marks += [detail.source.circle()] if detail else []
+    every, places = finished(boards, [detail.board for detail in details if detail])
+    spots = iter(places)
+    return [
+        put_in_disc(board.rect, marks, detail, next(spots)) if detail else (marks, [])
+        for board, marks, detail in zip(boards, every, details, strict=True)
+    ]
 
 
-def circled(disc: Disc, source: XY, times: int) -> Iterator[Mark]:
-    """A large circle, the line from the small one to it, and how many times it enlarges."""
-    small, place = RADIUS / times, disc.at
-    yield Circle(*place, RADIUS, "detail")
-    away = hypot(place[0] - source[0], place[1] - source[1])
-    u, v = (place[0] - source[0]) / away, (place[1] - source[1]) / away
+def aside(boards: Sequence[Board]) -> Iterator[XY]:
+    """Places for details, one below another, where they overlap neither boards nor each other."""
+    x, y = max(board.rect[2] for board in boards) + RADIUS, boards[0].rect[1] + RADIUS
+    for nth in range(len(boards)):
+        yield x + 1, y + nth * (2 * RADIUS + 1)
+
+
+def detail_of(board: Board, at: XY) -> Detail | None:
+    """The detail of a drawing, with its middle at a place; None where none is needed."""
+    found = source(board.marks)
+    return Detail(found, enlarged_part(board, found, at)) if found else None
+
+
+def put_in_disc(
+    rect: Rect, marks: list[Mark], detail: Detail, spots: Sequence[Spot]
+) -> tuple[list[Mark], list[Mark]]:
+    """The marks of a field and its detail, where there is room for it; else no small circle."""
+    disc = free_disc(marks, rect, detail.source.at, RADIUS + 4)
+    if disc is None:
+        return [mark for mark in marks if mark != detail.source.circle()], []
+    x, y = centre(detail.board.rect)
+    drawn = [*detail.board.marks, *free_ones(detail.board, spots)]
+    shown = [moved(mark, disc.at[0] - x, disc.at[1] - y) for mark in drawn]
+    return marks, [*shown, *pointing(disc, detail.source)]
+
+
+def pointing(disc: Disc, source: Source) -> Iterator[Mark]:
+    """The line from a small circle to its large one, and how many times that enlarges."""
+    small, (x, y) = RADIUS / source.times, source.at
+    far = dist(disc.at, source.at)
+    u, v = (disc.at[0] - x) / far, (disc.at[1] - y) / far
     if disc.in_sight:
-        yield Line(
-            source[0] + small * u,
-            source[1] + small * v,
-            place[0] - RADIUS * u,
-            place[1] - RADIUS * v,
-            "detail",
-        )
-    beneath = place[1] + RADIUS + 3.6 if v > 0 else place[1] - RADIUS - 1.1
-    yield Text(place[0], beneath, f"{times}:1", "caption", 2.5, "middle")
+        end = disc.at[0] - RADIUS * u, disc.at[1] - RADIUS * v
+        yield Line(x + small * u, y + small * v, *end, "detail")
+    beneath = disc.at[1] + RADIUS + 3.6 if v > 0 else disc.at[1] - RADIUS - 1.1
+    yield Text(disc.at[0], beneath, f"{source.times}:1", "caption", 2.5, "middle")
 
 
-def enlarged_part(marks: Sequence[Mark], source: XY, place: XY, times: int) -> Board:
-    """What lies in a small circle, drawn again in a large one, which is the last of its marks."""
-    small = RADIUS / times
-    board = Board((place[0] - RADIUS, place[1] - RADIUS, place[0] + RADIUS, place[1] + RADIUS))
-    for mark in marks:
+def enlarged_part(board: Board, source: Source, at: XY) -> Board:
+    """What lies in a small circle, drawn again in a large one with its middle at a place."""
+    x, y = at
+    part = Board((x - RADIUS, y - RADIUS, x + RADIUS, y + RADIUS))
+    part.marks.append(Circle(x, y, RADIUS, "detail"))
+    for mark in board.marks:
         shown = mark.cls.split()[0] in SHOWN
-        if isinstance(mark, Line) and shown and passes(mark, source, small):
-            draw_part(board, mark, source, place, times)
-    board.marks.append(Circle(*place, RADIUS, "detail"))
-    return board
+        if isinstance(mark, Line) and shown and passes(mark, source.at, RADIUS / source.times):
+            draw_part(part, mark, source, at)
+    part.labels = [*named(board, source, at)]
+    part.marks += dots(part.labels)
+    return part
 
 
 def passes(line: Line, centre: XY, radius: float) -> bool:
@@ -127,12 +142,12 @@ def passes(line: Line, centre: XY, radius: float) -> bool:
     return abs(across) <= radius * hypot(dx, dy)
 
 
-def draw_part(board: Board, line: Line, source: XY, place: XY, times: int) -> None:
+def draw_part(board: Board, line: Line, source: Source, at: XY) -> None:
     """The part of a line that lies in the small circle, enlarged, with its head if that is in."""
-    found = within(line, source, RADIUS / times)
+    found = within(line, source.at, RADIUS / source.times)
     if found is None:
         return
-    (x0, y0), (x1, y1) = (larger(end, source, place, times) for end in found)
+    (x0, y0), (x1, y1) = (larger(end, source, at) for end in found)
     style = line.cls.split()[0]
     board.marks.append(Line(x0, y0, x1, y1, f"{style} detail"))
     whole = found[1] == (line.x2, line.y2)
@@ -156,33 +171,50 @@ def within(line: Line, centre: XY, radius: float) -> tuple[XY, XY] | None:
     return start, end
 
 
-def larger(point: XY, source: XY, place: XY, times: int) -> XY:
-    """Where a point of the small circle lies in the large one."""
-    return (
-        place[0] + times * (point[0] - source[0]),
-        place[1] + times * (point[1] - source[1]),
-    )
+def larger(point: XY, source: Source, at: XY) -> XY:
+    """Where a point of the small circle lies in the large one, which has its middle at a place."""
+    (x, y), times = source
+    return at[0] + times * (point[0] - x), at[1] + times * (point[1] - y)
 
 
-def named(
-    labels: Sequence[Label], marks: Sequence[Mark], source: XY, place: XY, times: int
-) -> Iterator[Label]:
-    """The names of the vectors and points of a small circle, those that lie whole in it first."""
-    small = RADIUS / times
-    drawn = {m.name: ((m.x1, m.y1), (m.x2, m.y2)) for m in marks if is_vector(m)}
-    for label in labels:
+def named(board: Board, source: Source, at: XY) -> Iterator[Label]:
+    """The names of the vectors and points of a small circle; those that lie whole in it come first.
+
+    The others are left out where they find no place.
+    """
+    small = RADIUS / source.times
+    drawn = {m.name: ((m.x1, m.y1), (m.x2, m.y2)) for m in board.marks if is_vector(m)}
+    for label in board.labels:
         ends = segment_of(label) or drawn.get(label.name)
         if ends is None:
             x, y = label.subject
             assert isinstance(x, float) and isinstance(y, float)
-            if label.cls not in HELPERS and dist((x, y), source) <= small:
-                at = larger((x, y), source, place, times)
-                yield replace(label, subject=at, height=SMALL, radius=DOT, name="", step=None)
-        elif label.cls in VECTORS and (part := within(Line(*ends[0], *ends[1], ""), source, small)):
-            first, last = (larger(end, source, place, times) for end in part)
-            if part == ends or dist(first, last) >= SEEN:
-                rank = WHOLE if part == ends else 0
-                yield Label(label.markup, label.cls, (first, last), SMALL, priority=rank)
+            if label.cls not in HELPERS and dist((x, y), source.at) <= small:
+                yield Label(
+                    label.markup,
+                    label.cls,
+                    larger((x, y), source, at),
+                    SMALL,
+                    away=label.away,
+                    priority=label.priority,
+                    radius=DOT,
+                    optional=True,
+                )
+        elif label.cls in VECTORS:
+            part = within(Line(*ends[0], *ends[1], ""), source.at, small)
+            if part:
+                first, last = (larger(end, source, at) for end in part)
+                whole = part == ends
+                if whole or dist(first, last) >= SEEN:
+                    rank = WHOLE if whole else 0
+                    yield Label(
+                        label.markup,
+                        label.cls,
+                        (first, last),
+                        SMALL,
+                        priority=rank,
+                        optional=not whole,
+                    )
 
 
 def dots(labels: Sequence[Label]) -> Iterator[Mark]:

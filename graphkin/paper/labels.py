@@ -43,7 +43,8 @@ class Label:
     """A text that wants a place at a subject.
 
     ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader; ``spare``
-    may be left out in a crowd, for the construction and the tables name it too.
+    may be left out in a crowd, for the construction and the tables name it too; ``optional`` is
+    drawn only where there is a place for it at once.
     """
 
     markup: str
@@ -58,6 +59,7 @@ class Label:
     ring: bool = False
     led: bool = False
     spare: bool = False
+    optional: bool = False
 
     def size(self) -> tuple[float, float]:
         """Width and height of the label's box."""
@@ -74,7 +76,10 @@ class Label:
     def wish(self) -> Wish:
         """The box that the label needs, and where."""
         gap = LED if self.led else GAP
-        return Wish(*self.size(), self.subject, self.away, self.priority, gap, self.radius)
+        width, height = self.size()
+        return Wish(
+            width, height, self.subject, self.away, self.priority, gap, self.radius, self.optional
+        )
 
     def marks(self, spot: Spot) -> Iterable[Mark]:
         """The label at its place, with its leader or circle."""

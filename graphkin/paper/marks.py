@@ -9,7 +9,7 @@ blanks; the first decides the style (see ``style``). ``name`` and ``step`` go in
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import cos, isfinite, radians, sin
 from typing import Literal
@@ -134,6 +134,18 @@ def arc_points(arc: Arc) -> Iterator[Point]:
     while quarter < high:
         yield arc.at(quarter)
         quarter += 90.0
+
+
+def moved(mark: Mark, right: float, down: float) -> Mark:
+    """Give the same mark farther right and down by some mm."""
+    if isinstance(mark, Line):
+        x1, y1, x2, y2 = mark.x1 + right, mark.y1 + down, mark.x2 + right, mark.y2 + down
+        return replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
+    if isinstance(mark, Polyline):
+        return replace(mark, points=tuple((x + right, y + down) for x, y in mark.points))
+    if isinstance(mark, Text):
+        return replace(mark, x=mark.x + right, y=mark.y + down)
+    return replace(mark, cx=mark.cx + right, cy=mark.cy + down)
 
 
 def reach(mark: Mark) -> tuple[float, float, float, float]:

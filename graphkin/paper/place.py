@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from graphkin.paper.candidates import Subjects
 from graphkin.paper.clearance import Page
 from graphkin.paper.offers import CLOSE, Level, Offers
-from graphkin.paper.seats import URGENT, Seats
+from graphkin.paper.seats import LEAST, Seats
 from graphkin.paper.shapes import NOWHERE, Box
 
 Point = tuple[float, float]
@@ -19,7 +19,7 @@ Segment = tuple[Point, Point]
 
 CLEAR = 0.6  # mm between a label and a drawn line, unless the caller says otherwise
 SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
-UNPLACED = 1000.0  # a label without a place
+UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may stay so
 DEAR = 7.4  # what a label may pay before places with a leader are looked for
 BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
@@ -43,6 +43,7 @@ class Wish:
     priority: int = 0  # the higher goes first
     gap: float = 1.0  # clear distance to the subject
     radius: float = 0.0  # of the circle that a point subject is drawn as
+    optional: bool = False  # it may stay without a place
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,29 +62,30 @@ def place(
     boxes: ArrayLike,
     field: Box | Sequence[Box],
     clearance: ArrayLike = CLEAR,
-    *,
-    thorough: bool = True,
 ) -> list[Spot]:
     """Return a place for every wish, in the order of the wishes; lengths in mm.
 
     ``lines`` are drawn segments x0, y0, x1, y1 and ``clearance`` is how far labels stay from
     them (one length or one for each line); ``boxes`` are taken rectangles xmin, ymin, xmax,
     ymax; no label leaves the rectangle ``field``, or its own one if there is one for each. A label
-    that is ``free`` touches nothing; one that is not is returned where it would like to be. Where
-    the search need not be ``thorough``, it ends as soon as all urgent labels have a place.
+    that is ``free`` touches nothing; one that is not is returned where it would like to be.
     """
     if not wishes:
         return []
     offers = Offers(Page(_subjects(wishes), lines, boxes, field, clearance))
     offers.widen({i: CLOSE for i, best in enumerate(offers.best) if best > DEAR})
-    seats = Seats(offers, [UNPLACED * 1.2**wish.priority for wish in wishes])
+    seats = Seats(offers, [_fine(wish) for wish in wishes])
     seats.settle(seats.order())
     seats.chase(seats.sorry(BAD), SHORT)
     seats.shift(seats.homeless())
-    if thorough or any(seats.fine[i] >= URGENT for i in seats.homeless()):
-        _widen(seats)
+    _widen(seats)
     seats.settle(seats.sorry(0.2))
     return [_spot(offers, i, place) for i, place in enumerate(seats.pick)]
+
+
+def _fine(wish: Wish) -> float:
+    """Return what a label pays, in mm, as long as it has no place."""
+    return (OPTIONAL if wish.optional else UNPLACED) * 1.2**wish.priority
 
 
 def _subjects(wishes: Sequence[Wish]) -> Subjects:
@@ -102,32 +104,32 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
 def _widen(seats: Seats) -> None:
     """Let labels without a place, or with a dear one, look further, and those around them too."""
     offers = seats.offers
-    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR]
+    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR and seats.fine[i] >= LEAST]
     more = dict.fromkeys(dear, CLOSE) | _round_about(seats, Level(32, 12), Level(64, 20))
     if offers.widen(more):
         seats.settle(i for i in seats.order() if i in more)
         seats.chase(seats.sorry(BAD), SHORT)
-    seats.shift(seats.homeless())
-    seats.chase(seats.homeless(), LONG)
+    seats.shift(seats.seeking())
+    seats.chase(seats.seeking(), LONG)
     for levels in LAST_RESORT:
         if offers.widen(_round_about(seats, *levels)):
-            seats.shift(seats.homeless())
-            seats.chase(seats.homeless(), LONGEST)
+            seats.shift(seats.seeking())
+            seats.chase(seats.seeking(), LONGEST)
     seats.chase(seats.sorry(BAD), SHORT)
 
 
-def _round_about(seats: Seats, crowded: Level, homeless: Level) -> dict[int, Level]:
+def _round_about(seats: Seats, crowded: Level, seeking: Level) -> dict[int, Level]:
     """Return what is to be offered to labels without a place, and to those around them."""
-    return dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.homeless(), homeless)
+    return dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.seeking(), seeking)
 
 
 def _crowds(seats: Seats) -> list[int]:
     """Return the labels around each one without a place that has a place in sight."""
-    offers, homeless = seats.offers, seats.homeless()
+    offers, seeking = seats.offers, seats.seeking()
     found: list[int] = []
     ends = offers.page.subjects.ends
     middle = (ends[:, :2] + ends[:, 2:]) / 2
-    for i in homeless:
+    for i in seeking:
         if offers.menus[i]:
             apart = np.abs(middle - middle[i]).max(axis=1)
             near = np.argsort(apart, kind="stable")[:CROWD].tolist()

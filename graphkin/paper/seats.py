@@ -12,6 +12,7 @@ PUSH = 4.0  # what it is reckoned to cost, in mm, to push a label aside
 GAIN = 0.01  # mm that a chase must save in all to be kept
 WEAR = 4.0  # mm that a place costs more each time that it is taken in a chase
 
+LEAST = 500.0  # the least fine of labels that must have a place
 URGENT = 2500.0  # the least fine, in mm, of labels that choose first
 
 Moves = tuple[tuple[int, int], ...]
@@ -42,6 +43,10 @@ class Seats:
     def homeless(self) -> list[int]:
         """Return the labels without a place."""
         return [i for i, k in enumerate(self.pick) if k < 0]
+
+    def seeking(self) -> list[int]:
+        """Return the labels without a place that must have one."""
+        return [i for i in self.homeless() if self.fine[i] >= LEAST]
 
     def settle(self, which: Iterable[int]) -> None:
         """Give each of the labels the cheapest place that is left, if there is one."""
