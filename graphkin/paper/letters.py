@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.paper.desk import TINY
-from graphkin.paper.drawing import Drawing
+from graphkin.paper.drawing import Drawing, triangle_of
 from graphkin.steps.program import Part, Plane, Step
 
 SIDES = ("set-velocity", "turn-over")
@@ -48,9 +48,8 @@ def ends_of(drawing: Drawing, step: Step) -> list[int]:
     """The tips of the velocity and of the component of the right triangle that a step is of."""
     return [
         number
-        for number, other in drawing.normals
-        if other.action is not None and other.action.key in SIDES
-        if all(other.says.get(key) == step.says[key] for key in "pqi") and not is_coriolis(other)
+        for number, other in drawing.triangles[triangle_of(step)]
+        if other.action is not None and other.action.key in SIDES and not is_coriolis(other)
     ]
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from graphkin.paper.candidates import Subjects
 from graphkin.paper.clearance import Page
 from graphkin.paper.offers import CLOSE, Level, Offers
-from graphkin.paper.seats import LEAST, Seats
+from graphkin.paper.seats import Seats
 from graphkin.paper.shapes import NOWHERE, Box
 
 Point = tuple[float, float]
@@ -73,7 +73,6 @@ def place(
     if not wishes:
         return []
     offers = Offers(Page(_subjects(wishes), lines, boxes, field, clearance))
-    offers.widen({i: CLOSE for i, best in enumerate(offers.best) if best > DEAR})
     seats = Seats(offers, [_fine(wish) for wish in wishes])
     seats.settle(seats.order())
     seats.chase(seats.sorry(BAD), SHORT)
@@ -104,7 +103,7 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
 def _widen(seats: Seats) -> None:
     """Let labels without a place, or with a dear one, look further, and those around them too."""
     offers = seats.offers
-    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR and seats.fine[i] >= LEAST]
+    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR]
     more = dict.fromkeys(dear, CLOSE) | _round_about(seats, Level(32, 12), Level(64, 20))
     if offers.widen(more):
         seats.settle(i for i in seats.order() if i in more)
