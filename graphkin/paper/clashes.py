@@ -104,12 +104,23 @@ class Clashes:
         fresh = pairs_of(overlap(wide[:, old:], way))
         late = pairs_of(overlap(wide[:, :old], way[:, new:]))
         one = np.concatenate([fresh[0] + old, late[0]])
-        other = np.concatenate([fresh[1], late[1] + new])
+        nth = np.concatenate([fresh[1], late[1] + new])
+        one, nth = self._undecided(one, led, nth)
         x, y, hx, hy = (column.take(one) for column in self.places[1:5])
-        near = where(separation(x, y, hx, hy, path.take(other)) < PAD)
-        one, other = one.take(near), led.take(other.take(near))
+        near = where(separation(x, y, hx, hy, path.take(nth)) < PAD)
+        one, other = one.take(near), led.take(nth.take(near))
         self.table[np.maximum(one, other), np.minimum(one, other)] = True
-        one, other = pairs_of(overlap(way[:, new:, None] + HAIR, way))
-        one, other = led.take(one + new), led.take(other)
+        both = overlap(way[:, new:, None] + HAIR, way)
+        both &= led[new:, None] > led
+        one, nth = pairs_of(both)
+        one, nth = self._undecided(led.take(one + new), led, nth)
+        other = led.take(nth)
         crossed = crossings(leader.take(one, axis=0), leader.take(other, axis=0))
         self.table[one, other] |= crossed
+
+    def _undecided(self, one: Index, led: Index, nth: Index) -> tuple[Index, Index]:
+        """Return those pairs of places with ones with leaders that are not known to clash."""
+        other, label = led.take(nth), self.places.label
+        known = self.table[np.maximum(one, other), np.minimum(one, other)]
+        rest = where(~known & (label.take(one) != label.take(other)))
+        return one.take(rest), nth.take(rest)
