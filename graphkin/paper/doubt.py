@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from graphkin.paper.field import XY, clipped
-from graphkin.paper.marks import Line, Mark, Polyline, reach
+from graphkin.paper.marks import Line, Mark, Polyline
 from graphkin.paper.place import CLEAR, Spot
 from graphkin.paper.symbols import VECTORS
 
@@ -27,8 +27,7 @@ def with_leaders(
     found = list(spots)
     doubtful = doubtful_ones(labels, spots, marks)
     if doubtful:
-        texts = [label.text(spot) for label, spot in zip(labels, spots, strict=True)]
-        areas = [reach(text) for text in texts]
+        areas = [label.area(spot) for label, spot in zip(labels, spots, strict=True)]
     for i in doubtful:
         ends = segment_of(labels[i])
         leader = leader_to(labels[i], spots[i], ends) if ends else None
@@ -59,7 +58,7 @@ def doubtful_ones(
         which = [i for i in bare if labels[i].name in place]
         if not which or len(shapes) < 2:
             continue
-        areas = shapely.box(*np.array([reach(labels[i].text(spots[i])) for i in which]).T)
+        areas = shapely.box(*np.array([labels[i].area(spots[i]) for i in which]).T)
         drawn, mine = np.array([*shapes.values()]), np.array([place[labels[i].name] for i in which])
         own = shapely.distance(areas, drawn[mine])
         far = (own > LEAST).nonzero()[0]

@@ -106,6 +106,12 @@ class Label:
         style = f"label {self.cls}".strip()
         return Text(x, y, self.markup, style, self.height, "start", self.name, self.step)
 
+    def area(self, spot: Spot) -> Rect:
+        """The box that the text's ink takes up at a place."""
+        width, top, bottom = extent(self.markup, self.height)
+        high = (bottom - top) / 2
+        return spot.x - width / 2, spot.y - high, spot.x + width / 2, spot.y + high
+
     def short_leader(self, spot: Spot) -> tuple[XY, XY]:
         """From the nearest side of the label's box to the point it names."""
         x, y = self.subject
@@ -182,8 +188,8 @@ class Board:
         """Bring labels nearer whose leaders would cross others; true when there were any."""
         both = [*zip(self.labels, spots, strict=True)]
         led = [i for i, (label, spot) in enumerate(both) if label.led and not spot.leader]
-        texts = [label.text(spot) for label, spot in both] if led else []
-        blocked = [i for i in led if not is_clear(*both[i], texts)]
+        areas = [(label.name, label.area(spot)) for label, spot in both] if led else []
+        blocked = [i for i in led if not is_clear(*both[i], areas)]
         for i in blocked:
             self.labels[i] = replace(self.labels[i], led=False)
         return bool(blocked)
@@ -282,11 +288,11 @@ def marks_of(labels: Sequence[Label], spots: Sequence[Spot]) -> list[Mark]:
     return [mark for label, spot in zip(labels, spots, strict=True) for mark in label.marks(spot)]
 
 
-def is_clear(label: Label, spot: Spot, texts: Sequence[Text]) -> bool:
-    """True when a leader from a label's box to its point crosses no other label."""
+def is_clear(label: Label, spot: Spot, areas: Sequence[tuple[str, Rect]]) -> bool:
+    """True when a leader from a label's box to its point crosses no label of another name."""
     start, end = label.short_leader(spot)
-    others = [reach(text) for text in texts if text.name != label.name]
-    return not any(clipped(start, end, box) for box in others if near(box, *start))
+    others = [box for name, box in areas if name != label.name and near(box, *start)]
+    return not any(clipped(start, end, box) for box in others)
 
 
 def near(box: Rect, x: float, y: float) -> bool:
