@@ -10,7 +10,7 @@ from graphkin.paper.areas import Rect
 from graphkin.paper.crowd import HELPERS
 from graphkin.paper.doubt import segment_of
 from graphkin.paper.field import XY
-from graphkin.paper.free import Disc, free_disc
+from graphkin.paper.free import Disc, Space
 from graphkin.paper.labels import SMALL, Board, Label, free_ones
 from graphkin.paper.layout import centre
 from graphkin.paper.marks import Circle, Line, Mark, Text, moved
@@ -100,7 +100,7 @@ def put_in_disc(
     rect: Rect, marks: list[Mark], detail: Detail, spots: Sequence[Spot]
 ) -> tuple[list[Mark], list[Mark]]:
     """The marks of a field and its detail, where there is room for it; else no small circle."""
-    disc = free_disc(marks, rect, detail.source.at, RADIUS + 4)
+    disc = Space(marks, rect).disc(detail.source.at, RADIUS + 4)
     if disc is None:
         return [mark for mark in marks if mark != detail.source.circle()], []
     x, y = centre(detail.board.rect)

@@ -13,7 +13,15 @@ from graphkin.paper.candidates import Blots
 from graphkin.paper.chords import pieces_of
 from graphkin.paper.field import XY
 from graphkin.paper.marks import Mark, Text, reach
-from graphkin.paper.shapes import distance, joined, rectangles, segments, separation, where
+from graphkin.paper.shapes import (
+    Array,
+    distance,
+    joined,
+    rectangles,
+    segments,
+    separation,
+    where,
+)
 
 GRID = 5.0
 """Distance of the places tried, in mm."""
@@ -36,40 +44,57 @@ class Disc(NamedTuple):
     in_sight: bool
 
 
-def free_disc(marks: Sequence[Mark], rect: Rect, near: XY, room: float) -> Disc | None:
-    """The free disc of radius ``room`` as near as possible to a place; None when there is none.
+class Space:
+    """What stands in a field, made ready for looking for free discs."""
 
-    One in sight of the place goes before others.
-    """
-    xs = np.arange(rect[0] + room, rect[2] - room, GRID)
-    ys = np.arange(rect[1] + room, rect[3] - room, GRID)
-    x, y = (row.reshape(-1) for row in np.meshgrid(xs, ys))
-    order = np.argsort(np.hypot(x - near[0], y - near[1]), kind="stable")
-    x, y = x.take(order), y.take(order)
-    lines = pieces_of(marks)
-    texts = rectangles([reach(mark) for mark in marks if is_lettering(mark)])
-    blots = Blots(lines, rect, 0.0, BLOT)
-    for wide, high in INNER:
-        likely = where(~blots.hit(x, y, wide * room, high * room))
-        x, y = x.take(likely), y.take(likely)
-    drawn, boxes, zero = joined(segments(lines), texts).upright(), texts.upright(), np.zeros(1)
-    hidden: Disc | None = None
-    for start in range(0, len(x), TOGETHER):
-        u, v = x[start : start + TOGETHER], y[start : start + TOGETHER]
-        free = where(distance(u, v, zero, zero, drawn).min(axis=0, initial=inf) > room)
-        places = [*zip(u.take(free).tolist(), v.take(free).tolist(), strict=True)]
-        if places:
-            ways = segments([(*near, *at) for at in places])
-            apart = separation(boxes.x, boxes.y, boxes.ex, boxes.ey, ways).min(
-                axis=0, initial=CLEAR
-            )
-            for at, in_sight in zip(places, (apart >= CLEAR).tolist(), strict=True):
-                if in_sight:
-                    return Disc(at, True)
-            hidden = hidden or Disc(places[0], False)
-        if hidden and start >= MOST:
-            break
-    return hidden
+    def __init__(self, marks: Sequence[Mark], rect: Rect) -> None:
+        self.rect = rect
+        lines = pieces_of(marks)
+        self.lines, self.blots = segments(lines), Blots(lines, rect, 0.0, BLOT)
+        self.texts = rectangles([reach(mark) for mark in marks if is_lettering(mark)])
+
+    def take(self, box: Rect) -> None:
+        """Keep a rectangle free of discs from now on."""
+        self.texts = joined(self.texts, rectangles([box]))
+
+    def disc(self, near: XY, room: float) -> Disc | None:
+        """The free disc of radius ``room`` as near as possible to a place; None if there is none.
+
+        One in sight of the place goes before others.
+        """
+        x, y = self._likely(near, room)
+        texts, zero = self.texts.upright(), np.zeros(1)
+        drawn = joined(self.lines, self.texts).upright()
+        hidden: Disc | None = None
+        for start in range(0, len(x), TOGETHER):
+            u, v = x[start : start + TOGETHER], y[start : start + TOGETHER]
+            free = where(distance(u, v, zero, zero, drawn).min(axis=0, initial=inf) > room)
+            places = [*zip(u.take(free).tolist(), v.take(free).tolist(), strict=True)]
+            if places:
+                ways = segments([(*near, *at) for at in places])
+                apart = separation(texts.x, texts.y, texts.ex, texts.ey, ways)
+                in_sight = apart.min(axis=0, initial=CLEAR) >= CLEAR
+                for at, seen in zip(places, in_sight.tolist(), strict=True):
+                    if seen:
+                        return Disc(at, True)
+                hidden = hidden or Disc(places[0], False)
+            if hidden and start >= MOST:
+                break
+        return hidden
+
+    def _likely(self, near: XY, room: float) -> tuple[Array, Array]:
+        """The places of a grid where the middle of a free disc may be, nearest first."""
+        xs, ys = (
+            np.arange(self.rect[i] + room, self.rect[i + 2] - room, GRID, dtype=np.float64)
+            for i in (0, 1)
+        )
+        x, y = (row.reshape(-1) for row in np.meshgrid(xs, ys))
+        order = np.argsort(np.hypot(x - near[0], y - near[1]), kind="stable")
+        x, y = x.take(order), y.take(order)
+        for wide, high in INNER:
+            likely = where(~self.blots.hit(x, y, wide * room, high * room))
+            x, y = x.take(likely), y.take(likely)
+        return x, y
 
 
 def is_lettering(mark: Mark) -> bool:

@@ -11,14 +11,15 @@ from graphkin.paper.centre_words import same_centre
 from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import Field
-from graphkin.paper.free import free_disc
-from graphkin.paper.labels import Board, Label
+from graphkin.paper.free import Space
+from graphkin.paper.labels import Board, Label, free_ones
 from graphkin.paper.marks import Circle, Line, Mark, Text, box
 from graphkin.paper.paths import ring
 from graphkin.paper.plates import corners_of, farthest
 from graphkin.paper.scale import Scales, extent_of, preferred
 from graphkin.paper.slides import places_of
 from graphkin.paper.symbolic import symbol
+from graphkin.paper.together import spots_on
 from graphkin.plane import Ratio
 from graphkin.steps.program import Part, Step
 
@@ -32,7 +33,21 @@ FARTHEST = 200.0
 
 def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
     """The insets of a mechanism's field, one for each far place, where there is room for it."""
-    found: list[Mark] = []
+    found: list[Board] = []
+    space: Space | None = None
+    for step, centre in far_places(drawing, field):
+        space = space or Space(marks, field.rect)
+        board = inset(drawing, step, centre, field, space)
+        if board:
+            space.take(board.rect)
+            found.append(board)
+    spots = spots_on(found, [()] * len(found)) if found else []
+    drawn = zip(found, spots, strict=True)
+    return [mark for board, at in drawn for mark in (*board.marks, *free_ones(board, at))]
+
+
+def far_places(drawing: Drawing, field: Field) -> Iterator[tuple[Step, complex]]:
+    """The centres and poles that lie off a field, but not too far to be shown, each place once."""
     shown: list[complex] = []
     for _, step, value in drawing.mechanism_steps():
         if step.part not in (Part.CENTRE, Part.POLE) or not isinstance(value, Ratio):
@@ -44,13 +59,12 @@ def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
             continue
         if all(abs(point - other) * field.mm > TINY for other in shown):
             shown.append(point)
-            found += inset(drawing, step, point, field, [*marks, *found])
-    return found
+            yield step, point
 
 
 def inset(
-    drawing: Drawing, step: Step, centre: complex, field: Field, marks: Sequence[Mark]
-) -> Sequence[Mark]:
+    drawing: Drawing, step: Step, centre: complex, field: Field, space: Space
+) -> Board | None:
     """The mechanism and the lines that find a far centre, as large as there is room for."""
     around = ring(circle) if (circle := circle_on(drawing, step)) else []
     extent = extent_of([*drawing.positions.values(), *spots_of(drawing, step), centre, *around])
@@ -59,15 +73,15 @@ def inset(
     least = 1000 * max(extent.width, extent.height) / (SMALLEST - 2 * EDGE)
     for kL in takewhile(lambda kL: kL <= least, scales):
         width, height = (1000 * size / kL + 2 * EDGE for size in (extent.width, extent.height))
-        disc = free_disc(marks, field.rect, field.at, hypot(width, height) / 2 + 2)
+        disc = space.disc(field.at, hypot(width, height) / 2 + 2)
         if disc is not None:
             x, y = disc.at[0] - width / 2, disc.at[1] - height / 2
             rect = (x, y, x + width, y + height)
             return pictured(drawing, step, centre, Field(rect, 1000 / kL, extent.middle, disc.at))
-    return ()
+    return None
 
 
-def pictured(drawing: Drawing, step: Step, centre: complex, field: Field) -> Sequence[Mark]:
+def pictured(drawing: Drawing, step: Step, centre: complex, field: Field) -> Board:
     """What an inset shows: its frame and scale, bars, rays, the centre, and their names."""
     left, top, right, bottom = field.rect
     lines, far = lines_to(drawing, step), field(centre)
@@ -87,7 +101,7 @@ def pictured(drawing: Drawing, step: Step, centre: complex, field: Field) -> Seq
     board.labels = [Label(symbol(name), "", field(end), 2.5) for name, end in names.items()]
     name = " = ".join(symbol(each) for each in names_of(drawing, step))
     board.labels.append(Label(name, drawing.kind, far, 2.5, radius=0.9))
-    return [*board.marks, *board.placed()]
+    return board
 
 
 def names_of(drawing: Drawing, step: Step) -> list[str]:

@@ -250,10 +250,6 @@ class Board:
         crossed = shapes.met(boxes, shapes.segments(pieces_of(self.marks)))
         return [*tried[int(crossed.reshape(len(tried), -1).sum(axis=1).argmin())]]
 
-    def placed(self) -> list[Mark]:
-        """Only the labels that find a free place, without the other marks."""
-        return free_ones(self, self.spots())
-
     def spots(self, more: Sequence[Mark] = (), some: Sequence[Label] | None = None) -> list[Spot]:
         """The places of all labels, or of some, clear of marks, taken boxes and each other."""
         lines, boxes = self.obstacles(more)

@@ -14,7 +14,7 @@ from shapely import LineString, MultiLineString, Point, box
 from graphkin.paper.chords import SAGITTA, pieces_of, segments
 from graphkin.paper.clashes import BESIDE, PAD, Clashes, Places
 from graphkin.paper.detail import within
-from graphkin.paper.free import free_disc
+from graphkin.paper.free import Space
 from graphkin.paper.marks import Arc, Circle, Line, Text, reach
 from graphkin.paper.shapes import NOWHERE, meeting, met
 from graphkin.paper.shapes import segments as shapes_of
@@ -111,7 +111,7 @@ def test_places_rule_out_those_too_near_and_those_across_their_leader(found, cut
 def test_a_free_disc_is_free(ends, near, room):
     marks = [Line(*a, *b, "link") for a, b in ends]
     marks.append(Text(40, 30, "note", "caption", 2.5))
-    disc = free_disc(marks, (0.0, 0.0, 80.0, 60.0), near, room)
+    disc = Space(marks, (0.0, 0.0, 80.0, 60.0)).disc(near, room)
     if disc is not None:
         place = disc.at
         assert room <= place[0] <= 80 - room
@@ -130,26 +130,41 @@ def test_how_many_lines_run_into_each_box():
 def test_the_nearest_free_disc_is_taken_and_one_in_sight_before_it():
     rect, near = (0.0, 0.0, 100.0, 40.0), (50.0, 20.0)
     blocks = [Line(50, 5, 50, 35, "link")]
-    right = free_disc(blocks, rect, near, 10.0)
+    right = Space(blocks, rect).disc(near, 10.0)
     assert right is not None
     assert right.in_sight
     assert math.dist(right.at, near) <= 15
     x, y = (right.at[0] + near[0]) / 2, (right.at[1] + near[1]) / 2
     hidden = Text(x - 1.5, y + 1, "W", "caption", 2.5)
-    other = free_disc([*blocks, hidden], rect, near, 10.0)
+    other = Space([*blocks, hidden], rect).disc(near, 10.0)
     assert other is not None
     assert other.in_sight
     way = LineString([near, other.at])
     assert way.distance(box(*reach(hidden))) >= 0.5
     grid = [Line(x, 0, x, 40, "link") for x in range(0, 101, 15)]
-    assert free_disc(grid, rect, near, 10.0) is None
+    assert Space(grid, rect).disc(near, 10.0) is None
+
+
+def test_a_rectangle_that_is_taken_is_kept_free():
+    rect, near = (0.0, 0.0, 100.0, 40.0), (50.0, 20.0)
+    space = Space([], rect)
+    first = space.disc(near, 10.0)
+    assert first is not None
+    assert math.dist(first.at, near) <= 5
+    taken = (first.at[0] - 8, first.at[1] - 8, first.at[0] + 8, first.at[1] + 8)
+    space.take(taken)
+    second = space.disc(near, 10.0)
+    assert second is not None
+    assert box(*taken).distance(Point(second.at)) >= 10
+    space.take(rect)
+    assert space.disc(near, 10.0) is None
 
 
 def test_a_disc_behind_lettering_is_taken_where_there_is_no_other():
     rect, near = (0.0, 0.0, 60.0, 20.0), (5.0, 10.0)
     wall = [Text(20, y, "W", "caption", 2.5) for y in range(3, 20, 3)]
     marks = [Line(9, 0, 9, 20, "link"), *wall]
-    disc = free_disc(marks, rect, near, 9.0)
+    disc = Space(marks, rect).disc(near, 9.0)
     assert disc is not None
     assert not disc.in_sight
 
