@@ -23,7 +23,7 @@ UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may 
 DEAR = 7.4  # what a label may pay before places with a leader are looked for
 BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
-SHORT, LONG, LONGEST = 8, 40, 150  # how many labels are pushed about in a chase
+SHORT, LONG, LONGEST = 8, 16, 100  # how many labels are pushed about in a chase
 LAST_RESORT = (
     (Level(48, 16), Level(128, 32)),
     (Level(128, 32), Level(999, 64)),
@@ -108,13 +108,15 @@ def _widen(seats: Seats) -> None:
     if offers.widen(more):
         seats.settle(i for i in seats.order() if i in more)
         seats.chase(seats.sorry(BAD), SHORT)
+    before = [*seats.pick]
     seats.shift(seats.seeking())
     seats.chase(seats.seeking(), LONG)
     for levels in LAST_RESORT:
         if offers.widen(_round_about(seats, *levels)):
             seats.shift(seats.seeking())
             seats.chase(seats.seeking(), LONGEST)
-    seats.chase(seats.sorry(BAD), SHORT)
+    if seats.pick != before:
+        seats.chase(seats.sorry(BAD), SHORT)
 
 
 def _round_about(seats: Seats, crowded: Level, seeking: Level) -> dict[int, Level]:
