@@ -107,7 +107,7 @@ class Page:
         core = np.concatenate([start + (end - start) / 6, end - (end - start) / 6], axis=1)
         self.subjects = subjects
         self.field = np.broadcast_to(np.asarray(field, dtype=np.float64), (len(start), 4))
-        self.ends = np.concatenate([drawn, taken, core])
+        self.sides = np.concatenate([drawn, taken, core]).T.copy()
         self.shapes = joined(segments(drawn), rectangles(taken), segments(core))
         kinds = [np.full(len(drawn), LINE), np.full(len(taken), BOX)]
         self.kind = np.concatenate([*kinds, np.where(subjects.line, CORE, DOT)])
@@ -190,7 +190,7 @@ class Page:
         label, shape = meeting(np.concatenate([low - wide, high + wide]), self.shapes.boxes(0.0))
         zero = np.zeros(len(label))
         near, mine = self.shapes.take(shape), segments(ends).take(label)
-        tips, ends = ends[label].T, self.ends[shape].T
+        tips, ends = ends[label].T, self.sides.take(shape, axis=1)
         through = [separation(tips[k], tips[k + 1], zero, zero, near) for k in (0, 2)]
         part = [separation(ends[k], ends[k + 1], zero, zero, mine) for k in (0, 2)]
         own = (np.maximum(*part) <= OWN) & (self.kind[shape] != BOX)
@@ -225,47 +225,54 @@ class Page:
 
     def _toll(self, some: Open, leader: Array) -> Array:
         """Return what leaders cost: lines crossed or skirted; infinite across a box or a point."""
-        x0, y0, x1, y1 = leader.T
+        columns = leader.T.copy()
+        x0, y0, x1, y1 = columns
         ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)
         wide = np.maximum(self.clear - PAD / 2, 2 * OWN)
         place, shape = meeting(np.array(ways), self.shapes.boxes(wide))
-        off = self._off(leader.take(place, axis=0), shape)
+        path = columns.take(place, axis=1)
+        off = self._off(path, shape)
         near = (off[0] * off[1] <= 0) | (np.abs(off).min(axis=0) <= wide.take(shape))
         near = where(near)
-        place, shape, off = place.take(near), shape.take(near), off.take(near, axis=1)
+        place, shape = place.take(near), shape.take(near)
+        path, off = path.take(near, axis=1), off.take(near, axis=1)
         own, kind = self._is_own(some.label.take(place), shape), self.kind.take(shape)
-        path = leader.take(place, axis=0)
         line = (kind == LINE) | (kind == CORE)
         toll = np.where(line, self._brush(path, shape, off, own), 0.0)
-        limit = self.clear[shape] - PAD / 2
+        limit = self.clear.take(shape) - PAD / 2
         which = where((kind != LINE) & ~own & (limit > 0))
-        path, zero, solid = path[which], np.zeros(1), self.shapes.take(shape[which])
-        limit = limit[which]
-        hit = separation(solid.x, solid.y, solid.ex, solid.ey, segments(path)) < limit
-        hit &= separation(path[:, 2], path[:, 3], zero, zero, solid) > limit
-        toll[which[hit]] = np.inf
+        path, solid = path.take(which, axis=1), self.shapes.take(shape.take(which))
+        limit, zero = limit.take(which), np.zeros(1)
+        hit = separation(solid.x, solid.y, solid.ex, solid.ey, segments(path.T)) < limit
+        hit &= separation(path[2], path[3], zero, zero, solid) > limit
+        toll[which.take(where(hit))] = np.inf
         return np.asarray(np.bincount(place, toll, len(leader)), dtype=np.float64)
 
     def _off(self, path: Array, shape: Index) -> Array:
-        """Return on which side of shapes, and how far off in mm, both ends of leaders lie."""
+        """Return on which side of shapes, and how far off in mm, both ends of leaders lie.
+
+        ``path`` has the leaders' x0, y0, x1, y1 as rows.
+        """
         near = self.shapes
         x, y, nx, ny = (column.take(shape) for column in (near.x, near.y, near.nx, near.ny))
-        x0, y0, x1, y1 = path.T
+        x0, y0, x1, y1 = path
         return np.array([nx * (x0 - x) + ny * (y0 - y), nx * (x1 - x) + ny * (y1 - y)])
 
     def _brush(self, path: Array, shape: Index, off: Array, own: Mask) -> Array:
         """Return what it costs that leaders cross or run along these lines, a line for each."""
-        x0, y0, x1, y1 = path.T
+        x0, y0, x1, y1 = path
         length = np.maximum(np.sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2), TINY)
         sine = (off[1] - off[0]) / length
         toll = np.zeros(len(shape))
         cross = where((off[0] * off[1] <= 0) & ~own)
-        cross = cross[crossings(path[cross], self.ends[shape[cross]])]
-        toll[cross] = CROSSING * (3.0 - 2.0 * sine[cross] * sine[cross])
-        beside = (np.abs(sine) < SLANT) & (self.shapes.slack[shape] == 0)
+        ends = self.sides.take(shape.take(cross), axis=1)
+        cross = cross.take(where(crossings(path.take(cross, axis=1).T, ends.T)))
+        across = sine.take(cross)
+        toll[cross] = CROSSING * (3.0 - 2.0 * across * across)
+        beside = (np.abs(sine) < SLANT) & (self.shapes.slack.take(shape) == 0)
         along = where(beside & (own | (np.abs(off[0] + off[1]) < 4 * OWN)))
-        near, zero = self.shapes.take(shape[along]), np.zeros(1)
-        x, y = (x0[along] + x1[along]) / 2, (y0[along] + y1[along]) / 2
-        along = along[own[along] | (separation(x, y, zero, zero, near) < 2 * OWN)]
-        toll[along] += SKIRT
+        near, zero = self.shapes.take(shape.take(along)), np.zeros(1)
+        x, y = (x0 + x1).take(along) / 2, (y0 + y1).take(along) / 2
+        skirts = own.take(along) | (separation(x, y, zero, zero, near) < 2 * OWN)
+        toll[along.take(where(skirts))] += SKIRT
         return np.asarray(toll)

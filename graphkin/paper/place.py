@@ -23,7 +23,7 @@ UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may 
 DEAR = 7.4  # what a label may pay before places with a leader are looked for
 BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
-SHORT, LONG, LONGEST = 8, 16, 100  # how many labels are pushed about in a chase
+SHORT, LONG, LONGEST = 8, 16, 150  # how many labels are pushed about in a chase
 LAST_RESORT = (
     (Level(48, 16), Level(128, 32)),
     (Level(128, 32), Level(999, 64)),
@@ -104,7 +104,7 @@ def _widen(seats: Seats) -> None:
     """Let labels without a place, or with a dear one, look further, and those around them too."""
     offers = seats.offers
     dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR]
-    more = dict.fromkeys(dear, CLOSE) | _round_about(seats, Level(32, 12), Level(64, 20))
+    more = dict.fromkeys(dear, CLOSE) | _round_about(seats, CLOSE, Level(32, 12))
     if offers.widen(more):
         seats.settle(i for i in seats.order() if i in more)
         seats.chase(seats.sorry(BAD), SHORT)

@@ -178,7 +178,7 @@ def drawings_for(mechanism: Mechanism) -> list[Drawing]:
     return drawings_of(mechanism, proved(mechanism, shown(mechanism)), words("ro"))
 
 
-def in_turn(works: list[Callable[[], object]], rounds: int = 12) -> list[float]:
+def in_turn(works: list[Callable[[], object]], rounds: int = 24) -> list[float]:
     """Shortest seconds of each of some works, done one after another so that none comes twice."""
     every = [[timeit.timeit(work, number=1) for work in works] for _ in range(rounds)]
     return [min(times) for times in zip(*every[1:], strict=True)]
