@@ -41,6 +41,10 @@ LIMIT = 0.025
 """Seconds that a page of up to 60 labels may take, for layout and SVG and again for PDF."""
 
 
+USUAL = 1.2
+"""How many times its shortest time a plain loop may take on a machine that is not disturbed."""
+
+
 def best(work: Callable[[], object], repeat: int = 7) -> float:
     """Shortest time of one call in seconds, among some repetitions of many calls."""
     timer = timeit.Timer(work)
@@ -150,7 +154,7 @@ def pages_of(name: str, drawings: list[Drawing]) -> list[tuple[str, float, float
     """Median and slowest of some pages, beside matplotlib's time for the one in the middle."""
     made = sorted((sheet(drawing, "key", "1/2") for drawing in drawings), key=labels)
     middle = made[len(made) // 2]
-    plain = best(partial(both_files, middle), repeat=3)
+    plain = in_turn([partial(both_files, middle)], enough=1, most=6)[0]
     svg = in_turn([partial(laid_out, drawing) for drawing in drawings])
     pdf = in_turn([partial(write_pdf, (one,)) for one in made])
     return [
@@ -178,10 +182,26 @@ def drawings_for(mechanism: Mechanism) -> list[Drawing]:
     return drawings_of(mechanism, proved(mechanism, shown(mechanism)), words("ro"))
 
 
-def in_turn(works: list[Callable[[], object]], rounds: int = 24) -> list[float]:
-    """Shortest seconds of each of some works, done one after another so that none comes twice."""
-    every = [[timeit.timeit(work, number=1) for work in works] for _ in range(rounds)]
-    return [min(times) for times in zip(*every[1:], strict=True)]
+def in_turn(works: list[Callable[[], object]], enough: int = 2, most: int = 24) -> list[float]:
+    """Shortest seconds of each of some works, done one after another so that none comes twice.
+
+    Machines that are shared run at half their speed at times: rounds go on until each work was
+    done so often with a plain loop before and after it that took no longer than usual, and only
+    such times count. Where there are too few, all of them count.
+    """
+    loop = partial(sum, range(40_000))
+    found: list[list[tuple[float, float]]] = [[] for _ in works]
+    for _ in range(most):
+        for work, taken in zip(works, found, strict=True):
+            work()
+            before, time, after = (timeit.timeit(each, number=1) for each in (loop, work, loop))
+            taken.append((max(before, after), time))
+        usual = USUAL * min(beside for taken in found for beside, _ in taken)
+        calm = [[time for beside, time in taken if beside < usual] for taken in found]
+        if all(len(times) >= enough for times in calm):
+            break
+    both = zip(calm, found, strict=True)
+    return [min(times or [time for _, time in taken]) for times, taken in both]
 
 
 def in_words(seconds: float) -> str:
