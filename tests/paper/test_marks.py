@@ -3,7 +3,7 @@ import math
 import pytest
 
 from graphkin.errors import PageError
-from graphkin.paper.marks import Arc, Circle, Line, Page, Polyline, Text, box, polygon, reach
+from graphkin.paper.marks import Arc, Circle, Line, Page, Polyline, Text, box, moved, polygon, reach
 
 
 def page(*marks):
@@ -57,6 +57,26 @@ def test_a_text_is_checked_with_its_real_extent():
 def test_marks_that_cannot_be_drawn_are_refused(mark):
     with pytest.raises(PageError):
         page(mark).check()
+
+
+@pytest.mark.parametrize(
+    "mark",
+    [
+        Line(1, 2, 30, 4, "link", "oa", 3),
+        polygon(((1, 1), (20, 2), (7, 30)), "plate", "crank"),
+        Circle(10, 12, 5, "pin", "A"),
+        Arc(50, 40, 10, 45, 135, "angle"),
+        Text(30, 20, "ABC", "label", 2.5, "middle", "A", 2, rotate=30),
+    ],
+)
+def test_a_mark_that_is_moved_reaches_as_far_from_its_new_place(mark):
+    found = moved(mark, 7.5, -3.25)
+    box_before, box_after = reach(mark), reach(found)
+    assert box_after == pytest.approx(
+        tuple(side + shift for side, shift in zip(box_before, (7.5, -3.25) * 2, strict=True))
+    )
+    assert (found.cls, found.name, found.step) == (mark.cls, mark.name, mark.step)
+    assert moved(found, -7.5, 3.25) == mark
 
 
 def test_the_reach_of_an_arc_counts_the_quarter_points_it_passes():

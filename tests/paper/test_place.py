@@ -207,6 +207,14 @@ def test_the_higher_priority_gets_the_only_place():
     assert [s.free for s in place([high, low], NONE, NONE, field)] == [True, False]
 
 
+def test_an_optional_label_leaves_the_only_place_to_one_that_must_have_it():
+    must, may = Wish(9, 4, (5.0, 6.0)), Wish(9, 4, (7.0, 6.0), priority=6, optional=True)
+    field = (0.0, 0.0, 10.0, 6.5)
+    assert place([may], NONE, NONE, field)[0].free
+    assert [s.free for s in place([must, may], NONE, NONE, field)] == [True, False]
+    assert [s.free for s in place([may, must], NONE, NONE, field)] == [False, True]
+
+
 def test_each_line_may_keep_labels_further_off():
     wish = Wish(6, 3, (40.0, 30.0))
     lines = [(0, 28, 80, 28), (0, 31, 80, 31)]
@@ -272,9 +280,12 @@ def test_what_is_ruled_out_at_a_glance_is_too_near_a_line(ends, at, size):
 
 def test_a_label_walled_in_far_around_still_finds_a_place():
     walls = [(k, 12.0, k, 48.0) for k in np.arange(20, 61, 2.0)]
-    (spot,) = place([Wish(6, 3, (40, 30))], walls, NONE, FIELD)
+    wish = Wish(6, 3, (40, 30))
+    (spot,) = place([wish], walls, NONE, FIELD)
     assert spot.free
     assert spot.leader
+    (spot,) = place([replace(wish, optional=True)], walls, NONE, FIELD)
+    assert not spot.free  # so far no place is looked for
 
 
 def test_a_line_drawn_there_and_back_is_not_merged_away():
