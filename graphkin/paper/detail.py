@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import dist, hypot, sqrt
 from typing import NamedTuple, TypeGuard
 
@@ -186,35 +187,21 @@ def named(board: Board, source: Source, at: XY) -> Iterator[Label]:
     drawn = {m.name: ((m.x1, m.y1), (m.x2, m.y2)) for m in board.marks if is_vector(m)}
     for label in board.labels:
         ends = segment_of(label) or drawn.get(label.name)
+        bare = replace(label, height=SMALL, name="", step=None)
         if ends is None:
             x, y = label.subject
             assert isinstance(x, float) and isinstance(y, float)
             if label.cls not in HELPERS and dist((x, y), source.at) <= small:
-                yield Label(
-                    label.markup,
-                    label.cls,
-                    larger((x, y), source, at),
-                    SMALL,
-                    away=label.away,
-                    priority=label.priority,
-                    radius=DOT,
-                    optional=True,
-                )
+                subject = larger((x, y), source, at)
+                yield replace(bare, subject=subject, radius=DOT, optional=True)
         elif label.cls in VECTORS:
             part = within(Line(*ends[0], *ends[1], ""), source.at, small)
-            if part:
-                first, last = (larger(end, source, at) for end in part)
-                whole = part == ends
-                if whole or dist(first, last) >= SEEN:
-                    rank = WHOLE if whole else 0
-                    yield Label(
-                        label.markup,
-                        label.cls,
-                        (first, last),
-                        SMALL,
-                        priority=rank,
-                        optional=not whole,
-                    )
+            if part is None:
+                continue
+            whole, (first, last) = part == ends, (larger(end, source, at) for end in part)
+            if whole or dist(first, last) >= SEEN:
+                bare = replace(bare, subject=(first, last), radius=0.0, led=False)
+                yield replace(bare, priority=WHOLE if whole else 0, optional=not whole)
 
 
 def dots(labels: Sequence[Label]) -> Iterator[Mark]:
