@@ -187,13 +187,14 @@ def in_turn(works: list[Callable[[], object]], enough: int = 2, most: int = 24) 
 
     Machines that are shared run at half their speed at times: rounds go on until each work was
     done so often with a plain loop before and after it that took no longer than usual, and only
-    such times count. Where there are too few, all of them count.
+    such times count. Where there are none, all of them count.
     """
     loop = partial(sum, range(40_000))
     found: list[list[tuple[float, float]]] = [[] for _ in works]
+    for work in works:
+        work()
     for _ in range(most):
         for work, taken in zip(works, found, strict=True):
-            work()
             before, time, after = (timeit.timeit(each, number=1) for each in (loop, work, loop))
             taken.append((max(before, after), time))
         usual = USUAL * min(beside for taken in found for beside, _ in taken)
