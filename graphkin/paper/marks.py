@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from math import cos, isfinite, radians, sin
 from typing import Literal
 
@@ -178,7 +177,13 @@ def numbers(mark: Mark) -> Iterator[float]:
 
 
 def fits(mark: Mark, width: float, height: float) -> bool:
-    """Tell at a glance that a mark lies on a page; of those near its edge and of texts nothing."""
+    """Tell at a glance that a mark lies on a page; of arcs and turned texts it tells nothing."""
+    if isinstance(mark, Text):
+        if mark.rotate or not mark.height > 0:
+            return False
+        left, (long, top, bottom) = mark.x + mark.left(), extent(mark.markup, mark.height)
+        across = left >= 0 and left + long <= width
+        return across and mark.y + top >= 0 and mark.y + bottom <= height
     if isinstance(mark, Line):
         across = 0 <= mark.x1 <= width and 0 <= mark.x2 <= width
         return across and 0 <= mark.y1 <= height and 0 <= mark.y2 <= height
@@ -191,7 +196,6 @@ def fits(mark: Mark, width: float, height: float) -> bool:
     return False
 
 
-@lru_cache(maxsize=4096)
 def fault(mark: Mark, width: float, height: float) -> tuple[str, str] | None:
     """Tell (found, expected) when a mark cannot be drawn on a page of this size in mm."""
     if not all(map(isfinite, numbers(mark))):

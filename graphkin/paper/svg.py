@@ -49,11 +49,19 @@ def arc_path(arc: Arc) -> str:
     return f"M{number(x1)} {number(y1)}A{r} {r} 0 {flags} {number(x2)} {number(y2)}"
 
 
-def run_place(run: Run, left: float, base: float) -> str:
-    """Write where and how large one run stands in a text that starts at (left, base)."""
+@lru_cache(maxsize=4096)
+def said(markup: str, height: float) -> tuple[tuple[float, float, str, str], ...]:
+    """Give the offsets of a markup's runs in mm, how each is lettered and what it says."""
+    return tuple(
+        (run.x, run.y, lettering(run), escape(run.text, quote=False))
+        for run in spaced_runs(markup, height)
+    )
+
+
+def lettering(run: Run) -> str:
+    """Write how large one run is, and that it is slanted where it is."""
     slant = ' font-style="italic"' if run.italic else ""
-    place = f'x="{number(left + run.x)}" y="{number(base + run.y)}"'
-    return f'{place} font-size="{number(run.size)}"{slant}'
+    return f'font-size="{number(run.size)}"{slant}'
 
 
 def text_element(text: Text) -> str:
@@ -62,9 +70,11 @@ def text_element(text: Text) -> str:
     if text.rotate:
         turn = f"{number(-text.rotate)} {number(text.x)} {number(text.y)}"
         head += f' transform="rotate({turn})"'
-    left = text.x + text.left()
-    runs = spaced_runs(text.markup, text.height)
-    parts = [(run_place(run, left, text.y), escape(run.text, quote=False)) for run in runs]
+    left, base = text.x + text.left(), text.y
+    parts = [
+        (f'x="{number(left + x)}" y="{number(base + y)}" {letters}', words)
+        for x, y, letters, words in said(text.markup, text.height)
+    ]
     if len(parts) == 1:
         return f"<text {head} {parts[0][0]}>{parts[0][1]}</text>"
     spans = "".join(f"<tspan {place}>{words}</tspan>" for place, words in parts)

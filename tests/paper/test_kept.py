@@ -14,11 +14,11 @@ from graphkin.paper.svg import write_svg
 
 KEPT = (
     chords.arc_chords,
-    marks.fault,
     pdf.lettering,
     pdf.outline,
     svg.called,
     svg.element,
+    svg.said,
     *(richtext.laid, richtext.spaced_runs, richtext.runs, richtext.extent),
 )
 SHAPES = (

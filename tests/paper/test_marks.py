@@ -1,9 +1,23 @@
 import math
+import random
 
 import pytest
 
 from graphkin.errors import PageError
-from graphkin.paper.marks import Arc, Circle, Line, Page, Polyline, Text, box, moved, polygon, reach
+from graphkin.paper.marks import (
+    Arc,
+    Circle,
+    Line,
+    Page,
+    Polyline,
+    Text,
+    box,
+    fault,
+    fits,
+    moved,
+    polygon,
+    reach,
+)
 
 
 def page(*marks):
@@ -57,6 +71,33 @@ def test_a_text_is_checked_with_its_real_extent():
 def test_marks_that_cannot_be_drawn_are_refused(mark):
     with pytest.raises(PageError):
         page(mark).check()
+
+
+def scattered(draw):
+    """One mark of each kind, as far from edges as eight decades reach, or not finite at all."""
+
+    def some():
+        return draw.choice((0, 0, 297, 420)) + draw.choice((-1, 1)) * 10 ** draw.uniform(-4, 4)
+
+    def any_number():
+        return draw.choice((math.nan, math.inf, -math.inf)) if draw.random() < 0.05 else some()
+
+    anchor, lean = draw.choice(("start", "middle", "end")), draw.choice((0.0, 30.0))
+    yield Line(*(any_number() for _ in range(4)), "link")
+    yield Circle(*(any_number() for _ in range(3)), "pin")
+    yield Arc(*(any_number() for _ in range(5)), "angle")
+    points = tuple((any_number(), any_number()) for _ in range(draw.randint(0, 4)))
+    yield Polyline(points, "link")
+    place = any_number(), any_number()
+    yield Text(*place, "*v*_A ⊥ OA", "label", any_number(), anchor, rotate=lean)
+
+
+def test_what_fits_at_a_glance_has_no_fault():
+    draw = random.Random(5)
+    marks = [mark for _ in range(3000) for mark in scattered(draw)]
+    seen = [mark for mark in marks if fits(mark, 420, 297)]
+    assert {type(mark) for mark in seen} == {Line, Circle, Polyline, Text}
+    assert [mark for mark in seen if fault(mark, 420, 297)] == []
 
 
 @pytest.mark.parametrize(
