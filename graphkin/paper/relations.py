@@ -18,6 +18,7 @@ from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.scale import digits
 from graphkin.paper.sliding import of_coriolis, of_rolling, of_slides
 from graphkin.paper.symbolic import TAGS, bar, symbol
+from graphkin.paper.trial_lengths import of_trial_lengths
 from graphkin.plane import Ratio, Vector
 from graphkin.steps.program import Part, Plane, Step
 
@@ -130,8 +131,10 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
 
 
 def of_trials(drawing: Drawing) -> Iterator[Relation]:
-    """Where between two trial plans the right one lies: what they miss grows in proportion."""
+    """What two trial plans lay off, and where between them the right one lies: what they miss
+    grows in proportion."""
     part = Part.VELOCITY if drawing.kind == "velocity" else Part.ACCELERATION
+    yield from of_trial_lengths(drawing)
     for number, step, value in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "share" or step.part is not part:
             continue

@@ -17,10 +17,12 @@ from graphkin.paper.drawing import TAGS, Drawing
 from graphkin.paper.flattest import crossings_on
 from graphkin.paper.marks import Circle, Line, Page
 from graphkin.paper.naming import drawn_between
+from graphkin.paper.relations import relations
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import sentences
 from graphkin.paper.sheet import sheet
 from graphkin.paper.stages import stages
+from graphkin.paper.symbolic import TAGS as TAG_WORDS
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.trials import RATE_AT
 from graphkin.text import words
@@ -83,6 +85,29 @@ def test_every_length_that_a_trial_tries_is_told(higher):
                     assert (amount in told) is (size > 0), (step.name, amount)
                     count += 1
             assert count, higher
+
+
+def test_the_calculation_tells_what_a_trial_lays_off_and_how_long_it_is_drawn(higher):
+    """The same length as the sentence on the sheet says, from the amount that it stands for."""
+    sections = dict(relations([drawing for drawing, _, _ in drawn(higher)]))
+    for drawing, _, _ in drawn(higher):
+        plan = "velocities" if drawing.kind == "velocity" else "accelerations"
+        told = [each for each in sections[plan] if "drawn" in each.remark and each.unit]
+        laid_off = []
+        for number in (n for tag in TAGS for n in sorted(points_of(drawing, tag))):
+            step = drawing.trace.program.steps[number]
+            if step.action is not None and step.action.key in RATE_AT:
+                size = drawn_between(drawing, step.args[0], number, step.plane)
+                laid_off += [(TAG_WORDS[drawing.tags[number]], size)] if size else []
+        tried = [each for each in told if each.left.endswith(("I}", "I}^{τ}"))]
+        assert len(tried) == len(laid_off) > 0, higher
+        scale = (drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka) / 1000
+        for each, (tag, size) in zip(tried, laid_off, strict=True):
+            assert each.left.partition("}")[0].endswith(f",{tag}"), each
+            assert f"drawn {size:.2f} mm" in each.remark, each
+            assert float(each.result) == pytest.approx(scale * size, rel=2e-3), each
+            assert each.remark.startswith("⊥ ") is bool(each.symbols), each
+            assert (f",{tag}}}·" in each.symbols) is bool(each.symbols), each
 
 
 def test_the_words_of_a_trial_name_each_of_its_points(higher):
