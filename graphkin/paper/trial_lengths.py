@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.misses import tried_link
+from graphkin.paper.misses import on_paper, tried_link
 from graphkin.paper.naming import index_of
 from graphkin.paper.phrases import has_no_length
 from graphkin.paper.relation import Relation, answer, figure, length_of
@@ -33,14 +33,14 @@ def turned(drawing: Drawing, step: Step, tag: str, link: str, rate: float) -> Re
     p, q, index = step.says["p"], step.says["q"], index_of(drawing, step.says)
     velocity, length = drawing.kind == "velocity", length_of(drawing, p, q)
     name, letter = (f"v_{index}{tag}", "ω") if velocity else (f"a_{index}{tag}^τ", "ε")
-    fields = {"bar": bar(p, q), "drawn": on_plan(drawing, rate * length)}
+    drawn = drawing.words.fixed(rate * length * on_paper(drawing), 2)
     return Relation(
         symbol(name),
         f"{symbol(f'{letter}_{link}{tag}')}·{bar(p, q)}",
         f"{figure(drawing, rate)}·{figure(drawing, length)}",
         answer(drawing, rate * length),
         "m/s" if velocity else "m/s^2",
-        drawing.words("calculation.square_drawn", **fields),
+        drawing.words("calculation.square_drawn", bar=bar(p, q), drawn=drawn),
         over=(p, q),
     )
 
@@ -48,13 +48,8 @@ def turned(drawing: Drawing, step: Step, tag: str, link: str, rate: float) -> Re
 def slid(drawing: Drawing, step: Step, tag: str, rate: float) -> Relation:
     """What is tried of a slider along its guide, chosen as it is."""
     letter, unit = ("v", "m/s") if drawing.kind == "velocity" else ("a", "m/s^2")
-    remark = drawing.words("calculation.chosen_drawn", drawn=on_plan(drawing, rate))
+    drawn = drawing.words.fixed(rate * on_paper(drawing), 2)
+    remark = drawing.words("calculation.chosen_drawn", drawn=drawn)
     return Relation(
         symbol(f"{letter}_{step.says['q']}{tag}"), "", "", figure(drawing, rate), unit, remark
     )
-
-
-def on_plan(drawing: Drawing, size: float) -> str:
-    """How long a vector is drawn in the plan, in mm."""
-    scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
-    return drawing.words.fixed(1000 * size / scale, 2)

@@ -11,8 +11,8 @@ from itertools import chain
 
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import Rect
-from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Mark
+from graphkin.paper.naming import scale_of
 from graphkin.paper.sheet import title_of
 from graphkin.paper.style import Ink
 from graphkin.paper.svg import number
@@ -242,10 +242,8 @@ def record(sheets: Sequence[ScreenSheet], told: Telling) -> dict[str, object]:
         "mark": words("decimal_mark"),
         "sense": [words("page.anticlockwise"), words("page.clockwise")],
         "slides": facts.senses(sheets[0].drawing),
-        "scales": {sheet.drawing.kind: scale_of(sheet.drawing) for sheet in sheets},
+        "scales": {
+            sheet.drawing.kind: scale_of(sheet.drawing, sheet.drawing.plane) / 1000
+            for sheet in sheets
+        },
     }
-
-
-def scale_of(drawing: Drawing) -> float:
-    """What a millimetre of a plan stands for."""
-    return (drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka) / 1000
