@@ -52,7 +52,7 @@ LONG = 100.0
 """A longest vector in mm that is long enough."""
 LITTLE = 45.0
 """Breadth of a mechanism in mm below which its crank does not say how its plans are drawn."""
-LARGER = (1.3, 5.0)
+LARGER = (1.4, 5.0)
 """How many times larger it is then drawn: at least, at most."""
 TIMES = (4.0, 3.0, 2.5, 2.0, 1.5)
 """How many times larger than the crank says where no round kv fits."""

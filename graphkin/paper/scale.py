@@ -14,7 +14,7 @@ from graphkin.errors import PageError, Problem
 
 STEPS = (1.0, 2.0, 5.0)
 """First digits of preferred scales."""
-FINE = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
+FINE = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 """First digits of scale factors that are round enough where the preferred ones lie far apart."""
 
 

@@ -1,5 +1,7 @@
 """Scale factors: as large as the page takes, ka = kv²/kL, or as the scene says instead."""
 
+from itertools import pairwise
+
 import pytest
 
 from graphkin.errors import PageError, SceneError
@@ -7,7 +9,7 @@ from graphkin.handout import hand_out
 from graphkin.mechanism import Mechanism
 from graphkin.paper.marks import Text
 from graphkin.paper.richtext import plain
-from graphkin.paper.scale import Scales, digits
+from graphkin.paper.scale import FINE, Scales, digits
 from graphkin.scaling import scales
 from graphkin.scene.read import read_text
 from tests.paper.sheet_tools import HEAD, OTHERS, SCENES, mechanism_named
@@ -97,6 +99,11 @@ def test_a_plan_that_its_crank_draws_small_is_enlarged_where_it_fits(name, m):
     assert found.times == m
     speed = abs(mechanism.scene.drivers[0].speed.si(mechanism.scene.values))
     assert found.kv == pytest.approx(speed * found.kL / m, rel=1e-12)
+
+
+def test_round_scale_factors_lie_so_near_that_plans_are_three_quarters_as_large_as_they_can_be():
+    both = pairwise([*FINE, 10 * FINE[0]])
+    assert all(other / one <= 4 / 3 + 1e-12 for one, other in both)
 
 
 # --- enlarge -------------------------------------------------------------------------------------
