@@ -34,6 +34,7 @@ CROSSING = 0.9  # a line that a leader crosses
 SKIRT = 2.5  # a line that a leader runs along
 ASTRAY = 4.0  # a label further than FAR_OFF from its segment and nearer to another of length LONG
 FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
+BEYOND = 8.0  # another line between a label and its segment
 SLANT = 0.34  # sine of the angle to a line below which a leader runs along it
 AIR = 0.7  # each mm of air that is missing
 FEW = 8  # labels, whose candidates are compared with all that is drawn at once
@@ -42,7 +43,7 @@ FEW = 8  # labels, whose candidates are compared with all that is drawn at once
 # mm that is missing, for the labels of points and of segments.
 LINE, BOX, DOT, CORE = range(4)
 MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
-WEIGHT = np.array([[0.4, 0.0, 1.5, 0.5], [1.1, 0.0, 0.7, 1.5]])
+WEIGHT = np.array([[0.4, 0.0, 2.5, 0.5], [2.0, 0.0, 0.7, 1.5]])
 
 KEPT = 2**24  # bytes
 """Once so large a block was freed, the C library of Linux hands out memory for arrays anew
@@ -218,10 +219,23 @@ class Page:
         doubt, air = np.zeros(len(some.own)), np.full(len(some.own), ROOM)
         np.maximum.at(doubt, place, (own + MARGIN.take(kind) - apart) * WEIGHT.take(kind))
         np.minimum.at(air, place, np.maximum(apart, 0.0))
-        astray = np.zeros(len(some.own), dtype=np.bool_)
-        astray[place.take(where((apart < own) & line & self.long.take(shape)))] = True
+        nearer = where((apart < own) & line)
+        place, shape = place.take(nearer), shape.take(nearer)
+        astray, beyond = np.zeros((2, len(some.own)), dtype=np.bool_)
+        astray[place.take(where(self.long.take(shape)))] = True
         astray &= some.own > self.subjects.gap.take(some.label) + FAR_OFF
-        return np.asarray(doubt * (1.0 + doubt / 5.0) + AIR * (ROOM - air) + ASTRAY * astray)
+        beyond[place.take(where(self._between(some, place, shape)))] = True
+        doubt += doubt * doubt / 5.0
+        return np.asarray(doubt + AIR * (ROOM - air) + ASTRAY * astray + BEYOND * beyond)
+
+    def _between(self, some: Open, place: Index, shape: Index) -> Mask:
+        """Return which lines run between a label and what it names, a pair in each row."""
+        x, y, root_x, root_y = (
+            column.take(place) for column in (some.x, some.y, some.root_x, some.root_y)
+        )
+        ways = np.array([x, y, root_x, root_y]).T
+        crossed = crossings(ways, self.sides.take(shape, axis=1).T)
+        return np.asarray(crossed & (self.kind.take(shape) != BOX))
 
     def _toll(self, some: Open, leader: Array) -> Array:
         """Return what leaders cost: lines crossed or skirted; infinite across a box or a point."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import dist
 from typing import TYPE_CHECKING, Any
 
 from graphkin.paper.field import XY, clipped
@@ -14,6 +15,8 @@ from graphkin.paper.symbols import VECTORS
 if TYPE_CHECKING:
     from graphkin.paper.labels import Label
 
+BARS, DIRECTIONS = ("link",), ("construction", "trial")
+"""Classes of the bars of a mechanism, and of the lines that a plan is constructed by."""
 MARGIN = 0.3
 """How much nearer a neighbour may be, in mm, before a label gets a leader."""
 LEAST = MARGIN + CLEAR - 0.1
@@ -25,35 +28,52 @@ def with_leaders(
 ) -> list[Spot]:
     """The places of labels, with a leader for each doubtful one that can have one."""
     found = list(spots)
-    doubtful = doubtful_ones(labels, spots, marks)
+    doubtful = [*doubtful_ones(labels, spots, marks), *doubtful_letters(labels, spots)]
     if doubtful:
         areas = [label.area(spot) for label, spot in zip(labels, spots, strict=True)]
     for i in doubtful:
-        ends = segment_of(labels[i])
-        leader = leader_to(labels[i], spots[i], ends) if ends else None
-        if leader and not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
+        leader = leader_to(labels[i], spots[i])
+        if not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
             found[i] = replace(spots[i], leader=leader)
     return found
+
+
+def doubtful_letters(labels: Sequence[Label], spots: Sequence[Spot]) -> list[int]:
+    """The letters of points without a leader that are nearer to another letter's point."""
+    import numpy as np
+
+    both = enumerate(zip(labels, spots, strict=True))
+    letters = [i for i, (label, _) in both if label.radius and not segment_of(label)]
+    bare = [i for i in letters if not (spots[i].leader or labels[i].led)]
+    if not bare or len(letters) < 2:
+        return []
+    points = np.array([labels[i].subject for i in letters])
+    sides = np.array([labels[i].area(spots[i]) for i in bare])[:, None]
+    off = np.maximum(np.maximum(sides[..., :2] - points, points - sides[..., 2:]), 0.0)
+    apart = np.hypot(off[..., 0], off[..., 1])
+    own = apart[np.arange(len(bare)), [letters.index(i) for i in bare]]
+    return [bare[k] for k in (apart.min(axis=1) < own - MARGIN).nonzero()[0].tolist()]
 
 
 def doubtful_ones(
     labels: Sequence[Label], spots: Sequence[Spot], marks: Sequence[Mark]
 ) -> list[int]:
-    """The labels without a leader that are nearer to another bar or vector than to their own.
+    """The labels without a leader that are nearer to another line than to their own.
 
-    Numbers of links are held against bars and plates, other names against vectors.
+    Numbers of links are held against bars and plates, directions against the construction's lines,
+    other names against vectors.
     """
     import numpy as np
     import shapely
 
     found: list[int] = []
-    for bars in (True, False):
+    for kinds in (BARS, VECTORS, DIRECTIONS):
         bare = [
             i
             for i, (label, spot) in enumerate(zip(labels, spots, strict=True))
-            if label.ring is bars and segment_of(label) and not spot.leader
+            if kinds_of(label) is kinds and segment_of(label) and not spot.leader
         ]
-        shapes = rivals(marks, bars=bars) if bare else {}
+        shapes = rivals(marks, kinds) if bare else {}
         place = {name: j for j, name in enumerate(shapes)}
         which = [i for i in bare if labels[i].name in place]
         if not which or len(shapes) < 2:
@@ -69,20 +89,28 @@ def doubtful_ones(
     return sorted(found)
 
 
-def rivals(marks: Sequence[Mark], *, bars: bool) -> dict[str, Any]:
-    """The bars and plates, or the vectors, of a drawing by name."""
+def kinds_of(label: Label) -> tuple[str, ...]:
+    """What a label could seem to name: the first class of such marks."""
+    if label.ring:
+        return BARS
+    return DIRECTIONS if label.cls in DIRECTIONS else VECTORS
+
+
+def rivals(marks: Sequence[Mark], kinds: tuple[str, ...]) -> dict[str, Any]:
+    """The lines of some kinds, and plates beside bars, of a drawing by name."""
+    import numpy as np
     import shapely
 
-    kinds = ("link",) if bars else VECTORS
-    lines = {
-        mark.name: ((mark.x1, mark.y1), (mark.x2, mark.y2))
-        for mark in marks
-        if isinstance(mark, Line) and mark.name and mark.cls.split()[0] in kinds
-    }
+    lines: dict[str, list[tuple[XY, XY]]] = {}
+    for mark in marks:
+        if isinstance(mark, Line) and mark.name and mark.cls.split()[0] in kinds:
+            lines.setdefault(mark.name, []).append(((mark.x1, mark.y1), (mark.x2, mark.y2)))
     found: dict[str, Any] = {}
     if lines:
-        found |= zip(lines, shapely.linestrings([*lines.values()]), strict=True)
-    for mark in marks if bars else ():
+        parts = shapely.linestrings([ends for some in lines.values() for ends in some])
+        which = [i for i, some in enumerate(lines.values()) for _ in some]
+        found |= zip(lines, np.asarray(shapely.multilinestrings(parts, indices=which)), strict=True)
+    for mark in marks if kinds is BARS else ():
         if isinstance(mark, Polyline) and mark.cls.split()[0] == "plate":
             found[mark.name] = shapely.Polygon(mark.points)
     return found
@@ -96,8 +124,15 @@ def segment_of(label: Label) -> tuple[XY, XY] | None:
     return None
 
 
-def leader_to(label: Label, spot: Spot, ends: tuple[XY, XY]) -> tuple[XY, XY]:
-    """From the side of a label's box to the nearest point in the middle part of its segment."""
+def leader_to(label: Label, spot: Spot) -> tuple[XY, XY]:
+    """From the side of a label's box to the nearest point in the middle part of its segment, or to
+    the circle that its point is drawn as."""
+    ends = segment_of(label)
+    if ends is None:
+        start, (x, y) = label.short_leader(spot)
+        far = dist(start, (x, y))
+        share = max(0.0, 1 - label.radius / far) if far else 0.0
+        return start, (start[0] + share * (x - start[0]), start[1] + share * (y - start[1]))
     (x0, y0), (x1, y1) = ends
     dx, dy = x1 - x0, y1 - y0
     share = ((spot.x - x0) * dx + (spot.y - y0) * dy) / (dx * dx + dy * dy)

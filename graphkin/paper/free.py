@@ -32,13 +32,13 @@ INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
 BLOT = 2.0
 """Size of the cells in which marks are counted to rule places out at a glance, in mm."""
 CLEAR = 0.5
-"""How far the line to a disc stays from lettering and from links' numbers, in mm."""
+"""How far the line to a disc stays from lettering, links' numbers and centres, in mm."""
 MOST = 240
-"""Places, nearest first, among which one is sought to which a line crosses no text."""
+"""Places, nearest first, among which one is sought to which a line crosses no text or centre."""
 
 
 class Disc(NamedTuple):
-    """The middle of a free disc, and whether the line to it crosses no text."""
+    """The middle of a free disc, and whether the line to it crosses no text or centre."""
 
     at: XY
     in_sight: bool
@@ -51,7 +51,7 @@ class Space:
         self.rect = rect
         lines = pieces_of(marks)
         self.lines, self.blots = segments(lines), Blots(lines, rect, 0.0, BLOT)
-        self.texts = rectangles([reach(mark) for mark in marks if is_lettering(mark)])
+        self.texts = rectangles([reach(mark) for mark in marks if is_shown(mark)])
 
     def take(self, box: Rect) -> None:
         """Keep a rectangle free of discs from now on."""
@@ -97,6 +97,7 @@ class Space:
         return x, y
 
 
-def is_lettering(mark: Mark) -> bool:
-    """True for a text, and for the circle or the frame around a link's number or name."""
-    return isinstance(mark, Text) or mark.cls.startswith("number")
+def is_shown(mark: Mark) -> bool:
+    """True for a text, for the circle or the frame around a link's number or name, and for the
+    circle of a centre or a pole."""
+    return isinstance(mark, Text) or mark.cls.startswith(("number", "centre"))

@@ -14,7 +14,7 @@ from shapely import LineString, MultiLineString, Point, box
 
 from graphkin.paper.candidates import Blots
 from graphkin.paper.clashes import PAD
-from graphkin.paper.place import CLEAR, Spot, Wish, place
+from graphkin.paper.place import CLEAR, Segment, Spot, Wish, place
 from graphkin.paper.shapes import LOOSE, merged, segments, separation
 
 FIELD = (0.0, 0.0, 80.0, 60.0)
@@ -303,3 +303,20 @@ def test_labels_keep_to_a_field_of_their_own_each():
     for spot, field in zip(found, fields, strict=True):
         assert spot.free
         assert field[0] <= spot.x - 6.0 and spot.x + 6.0 <= field[2]
+
+
+@pytest.mark.parametrize("turn", [2, 3, 4, 5, 6])
+@pytest.mark.parametrize("length", [14, 20, 30, 40])
+def test_no_label_sits_beyond_another_line_without_a_leader(turn, length):
+    """One line between two longer ones that all begin at one place, in degrees and mm."""
+
+    def ray(degrees: float, far: float) -> Segment:
+        way = math.radians(degrees)
+        return (20.0, 40.0), (20.0 + far * math.cos(way), 40.0 - far * math.sin(way))
+
+    rays = [ray(0, 60), ray(turn, length), ray(2 * turn, 60)]
+    wishes = [Wish(5, 3, ends, gap=0.9) for ends in rays]
+    spots = place(wishes, [(*a, *b) for a, b in rays], NONE, (0.0, 0.0, 120.0, 90.0))
+    own, bare = LineString(rays[1]), spots[1].leader is None
+    way = LineString([(spots[1].x, spots[1].y), own.interpolate(own.length / 2)])
+    assert not bare or not any(way.crosses(LineString(rays[k])) for k in (0, 2))

@@ -127,7 +127,9 @@ def test_how_many_lines_run_into_each_box():
     assert met([(2, 2, 8, 8)], shapes_of(pieces_of([]))).tolist() == [0]
 
 
-def test_the_nearest_free_disc_is_taken_and_one_in_sight_before_it():
+@pytest.mark.parametrize("centre", [False, True])
+def test_the_nearest_free_disc_is_taken_and_one_in_sight_before_it(centre):
+    """Neither lettering nor the circle of a centre is to be crossed by the line to it."""
     rect, near = (0.0, 0.0, 100.0, 40.0), (50.0, 20.0)
     blocks = [Line(50, 5, 50, 35, "link")]
     right = Space(blocks, rect).disc(near, 10.0)
@@ -135,7 +137,8 @@ def test_the_nearest_free_disc_is_taken_and_one_in_sight_before_it():
     assert right.in_sight
     assert math.dist(right.at, near) <= 15
     x, y = (right.at[0] + near[0]) / 2, (right.at[1] + near[1]) / 2
-    hidden = Text(x - 1.5, y + 1, "W", "caption", 2.5)
+    text, circle = Text(x - 1.5, y + 1, "W", "caption", 2.5), Circle(x, y, 1, "centre velocity")
+    hidden = circle if centre else text
     other = Space([*blocks, hidden], rect).disc(near, 10.0)
     assert other is not None
     assert other.in_sight
