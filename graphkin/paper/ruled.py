@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.outset import driven_bars, plan_scales
@@ -18,7 +19,10 @@ def plan_at(drawing: Drawing) -> str:
 
 
 def rules(drawing: Drawing) -> Iterator[str]:
-    """The scale of a plan: how the crank says it, with what is as long as what, or its value."""
+    """The scale of a plan: how the crank says it, with what is as long as what, or its value.
+
+    A plan without the velocity of a pin of the crank has nothing that is as long as the crank.
+    """
     kL = drawing.words.decimal(digits(drawing.scales.kL))
     scales, first = drawing.scales, drawing.kind == "velocity"
     kv, ka = plan_scales(drawing, kL)
@@ -28,8 +32,8 @@ def rules(drawing: Drawing) -> Iterator[str]:
     parts += [f"{rule.result} {rule.unit}"] if stated else []
     yield " = ".join(filter(None, parts))
     if first and scales.as_crank(drawing.kind):
-        p, q = next(driven_bars(drawing, drawing.scene.drivers[0]))
-        yield f"{segment(drawing, q)} = {bar(p, q)}/*k*_L"
+        for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
+            yield f"{segment(drawing, q)} = {bar(p, q)}/*k*_L"
 
 
 def segment(drawing: Drawing, pin: str) -> str:

@@ -9,6 +9,8 @@ from graphkin.paper.members import members
 from graphkin.paper.richtext import plain
 from graphkin.paper.ruled import plan_at
 from graphkin.scaling import shown
+from tests.mechanisms import mechanism_of
+from tests.paper.centre_scenes import four_bar
 from tests.paper.sheet_tools import mechanism_named, texts
 
 LABS = ("pump", "slotted-lever")
@@ -41,6 +43,15 @@ def test_a_task_tells_at_which_scales_its_plans_are_meant(name, rules):
         lines = [plain(text.markup) for text in texts(handed.pages)]
         (said,) = (line for line in lines if line.startswith("The plan is drawn at"))
         assert rule in said
+
+
+@pytest.mark.parametrize("ask", ['curves = ["B"]', 'velocity = ["O1"]', 'centres = ["1-2"]'])
+def test_a_task_without_a_velocity_of_the_crank_tells_the_scale_alone(ask):
+    """No segment of such a plan is as long as the crank."""
+    mechanism = mechanism_of(four_bar(ask))
+    (velocity, *_) = hand_out(mechanism, "task", "en")
+    (said,) = (t.markup for t in texts(velocity.pages) if t.markup.startswith("The plan"))
+    assert plain(said).startswith("The plan is drawn at kv = ω1·kL. Lengths")
 
 
 def test_a_plans_scale_is_told_in_every_language():
