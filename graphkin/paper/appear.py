@@ -42,7 +42,7 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     found: dict[str, int] = {}
     for number, step in enumerate(drawing.trace.program.steps):
         if number in staged:
-            vector = symbol(step.says["symbol"]) if step.arrow else symbol(step.name)
+            vector = symbol(step.says.get("symbol", step.name))
             found.setdefault(vector, staged[number])
             if step.plane is drawing.plane or step.part in (Part.CENTRE, Part.POLE):
                 found[step.name] = staged[number]

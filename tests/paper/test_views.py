@@ -19,6 +19,8 @@ from graphkin.paper.sentences import sentences
 from graphkin.paper.style import NOW, TINTS, style_of
 from graphkin.steps.solution import Verdict
 from graphkin.text import words as words_of
+from tests.mechanisms import mechanism_of
+from tests.paper.centre_scenes import four_bar
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 SOME = ["pump", *(str(SCENES / f"{name}.toml") for name in ("rapid-return", "gears-planet"))]
@@ -173,6 +175,15 @@ def test_what_belongs_to_no_step_appears_with_the_sentence_that_speaks_of_it(
     (number,) = (i for i, words in enumerate(told) if sentence in words)
     assert drawn_then <= new_on(steps[number])
     assert not drawn_then & {mark.name for page in steps[:number] for mark in page.marks}
+
+
+def test_an_inflection_circle_comes_with_the_sentence_that_finds_its_pole():
+    mechanism = mechanism_of(four_bar("inflection = [2]"))
+    (steps,) = (sheet.pages for sheet in hand_out(mechanism, view="steps", language="en"))
+    told = [" ".join(m.markup for m in page.marks if m.name == "sentence") for page in steps]
+    (number,) = (i for i, words in enumerate(told) if "*W*_{2}" in words)
+    assert "inflection 2" in new_on(steps[number])
+    assert "inflection 2" not in {mark.name for mark in steps[number - 1].marks}
 
 
 def test_the_frames_around_the_names_of_links_come_with_the_names():
