@@ -8,6 +8,7 @@ from math import hypot, pi
 from typing import Any
 
 from graphkin.arithmetic import larger, pick, smaller
+from graphkin.paper.centre import FAR as ENDLESS
 from graphkin.paper.centre import STRAIGHT
 from graphkin.paper.desk import TINY, above_foot
 from graphkin.paper.images import undrawn_sides
@@ -169,6 +170,8 @@ class Steps(Seen):
             return self.circle(number, Circle(0, 0, 1, ""))
         if self.key(number) == "instant-centre" and cls == "ray":
             return self.tips(number)
+        if self.key(number) == "guide-centre":
+            return self.endless(number)
         for start, end in self.legs(number):
             if self.is_at(mark, start, end):
                 is_leg = cls in ("trial", "trial-line") or self.key(number) == "similar-point"
@@ -177,6 +180,12 @@ class Steps(Seen):
         if isinstance(self.drawn(number), Carrier) and number in self.layout.spans:
             return self.part(number, self.which(number, mark))
         return None
+
+    def endless(self, number: int) -> Binding:
+        """The ray to the centre of a block and its guide, which lies at infinity."""
+        start, way, _ = map(self.bench.shelf.lifted, self.value(number))
+        end = start + unit(way) * (ENDLESS / self.bench.field.mm)
+        return self.bench.between(start, end, above_foot(self.bench.room))
 
     def tips(self, number: int) -> Binding | None:
         """The line through the tips of two velocities, while these are parallel."""

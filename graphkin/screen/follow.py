@@ -216,9 +216,10 @@ class Following:
         if isinstance(value, Carrier):
             return self.beside_line(number)
         if isinstance(value, Ratio):
-            is_on = self.near_mark(number)
+            if not self.near_mark(number):
+                return only_at_start
             place = value.start if steps.key(number) == "pin-centre" else place_of(value)
-            return bench.at(place, steps.within(place)) if is_on else only_at_start
+            return bench.at(place, steps.within(place))
         if isinstance(value, Vector) or not isinstance(bench.shelf.now(value), complex):
             return only_at_start
         return bench.at(value, steps.seen(number))

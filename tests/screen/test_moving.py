@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from itertools import combinations
 from math import acos, degrees, hypot, isclose
@@ -20,6 +21,7 @@ from graphkin.paper.areas import Rect
 from graphkin.paper.desk import above_foot
 from graphkin.paper.field import clipped
 from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text
+from graphkin.scene.model import FRAME
 from graphkin.screen.moving import Moving, moving, still
 from graphkin.screen.sheets import ScreenSheet, screen_sheets
 from graphkin.text import words
@@ -29,7 +31,10 @@ from tests.screen.laid import laid
 from tests.screen.redrawn import apart, kind_of, numbers, redrawn_near
 
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
-EVERY = (*LABS, *(name for name in SCENES if name not in LABS))
+CENTRES = ", all its centres"
+"""The end of the name of a mechanism of which the centres of all pairs of links are asked."""
+ENDLESS = tuple(f"{name}{CENTRES}" for name in ("slider-crank", "crank-fixed-slot", "trammel"))
+EVERY = (*LABS, *(name for name in SCENES if name not in LABS), *ENDLESS)
 LIMIT = 0.01
 """Millimetres within which a page draws as Python does."""
 SHIFTED = ("ground", "gear", "gear-disc", "fixed-pivot", "slot", "plate", "detail", "square-mark")
@@ -54,7 +59,11 @@ PLACES = (0.07, 0.21, 0.38, 0.55, 0.72, 0.94)
 
 @cache
 def named(name: str) -> Mechanism:
-    """A shipped mechanism or an example."""
+    """A shipped mechanism or an example, as it is or with all its centres."""
+    if name.endswith(CENTRES):
+        scene = named(name.removesuffix(CENTRES)).scene
+        pairs = tuple("-".join(pair) for pair in combinations((FRAME, *scene.links), 2))
+        return Mechanism(replace(scene, ask=scene.ask._replace(pairs=pairs)))
     return load(name) if name in LABS else mechanism_named(name)
 
 
