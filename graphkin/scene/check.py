@@ -24,7 +24,6 @@ def check_scene(scene: Scene, findings: Findings) -> None:
     check_blocks(scene, findings)
     check_drivers(scene, findings)
     check_branches(scene, findings)
-    check_ask(scene, findings)
     check_names(scene, findings)
     check_far(scene, findings)
 
@@ -205,26 +204,3 @@ def written(branch: Branch) -> str:
     if isinstance(branch, Way):
         return '"forward"' if branch.way > 0 else '"backward"'
     return f'"closure {branch.number}"'
-
-
-def check_ask(scene: Scene, findings: Findings) -> None:
-    """Only known points and links are asked for, and slides only of links that slide."""
-    points = all_points(scene)
-    for key in ("velocity", "acceleration"):
-        for index, asked in enumerate(getattr(scene.ask, key)):
-            place = f"ask.{key}[{index}]"
-            point, _, link = asked.partition("@")
-            known_point(point, points, "the mechanism", place, findings)
-            if link:
-                known_link(scene, link, place, findings)
-    for index, name in enumerate(scene.ask.curves):
-        known_point(name, points, "the mechanism", f"ask.curves[{index}]", findings)
-    for pair in scene.ask.pairs:
-        for name in pair.split("-"):
-            known_link(scene, name, "ask.centres", findings)
-    for key in ("omega", "epsilon", "poles", "centres", "centrodes", "slides", "inflection"):
-        for index, name in enumerate(getattr(scene.ask, key)):
-            place = f"ask.{key}[{index}]"
-            link_asked = known_link(scene, name, place, findings)
-            if key == "slides" and link_asked is not None and not link_asked.slides:
-                findings.add(place, f"link {name} does not slide", "a link with slides")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from graphkin.scene.findings import Findings, Table, listed, shown
 from graphkin.scene.joints import read_rolls, read_slides, read_wheels
 from graphkin.scene.limits import decoded, read_bytes, tables_of
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Link, Scene
+from graphkin.scene.model import FRAME, Ask, Link, Scene
 from graphkin.scene.names import read_names
 from graphkin.scene.parameters import read_parameters, set_values
 from graphkin.scene.profiles import normals
@@ -64,8 +65,10 @@ def read_text(
         raise SceneError(Problem("", found, f"a scene, its first line graphkin = {FORMAT}"))
     check_version(top, findings)
     scene = assembled(top, name, source, settings, findings)
+    asked = top.table("ask")
     top.finish()
     check_scene(scene, findings)
+    scene = replace(scene, ask=read_ask(asked, findings, scene))
     findings.stop()
     return scene
 
@@ -90,7 +93,7 @@ def assembled(
     settings: Mapping[str, object],
     findings: Findings,
 ) -> Scene:
-    """All parts of a scene; where one cannot be read a problem is noted and another stands in."""
+    """All parts but what is asked; where one cannot be read, a problem is noted, another put in."""
     units = read_units(top.table("units"), findings)
     parameters = read_parameters(top.table("parameters"), findings)
     values = set_values(parameters, settings, findings)
@@ -109,7 +112,7 @@ def assembled(
         links=links,
         drivers=read_drivers(top, measures),
         branches=read_branches(top.table("branches"), findings),
-        ask=read_ask(top.table("ask"), findings, tuple(links)),
+        ask=Ask(),
         sheet=read_sheet(top.table("sheet"), measures),
         time=time,
         titles=read_languages(top.table("titles"), findings),

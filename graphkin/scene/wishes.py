@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from datetime import date, datetime
 from fractions import Fraction
 from itertools import combinations
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
+from graphkin.scene.known import all_points, known_link, known_point
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Ask, Branch, Sheet
+from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.scene.words import asked_point, branch_hint, branch_words, link_name, point_name
 
@@ -17,6 +18,7 @@ LANGUAGES = ("en", "it", "ro")
 POINTS_ASKED = ("velocity", "acceleration")
 PATHS_ASKED = "curves"
 LINKS_ASKED = ("omega", "epsilon", "poles", "centrodes", "slides", "inflection")
+CENTRES_ASKED = "centres"
 ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
@@ -40,32 +42,46 @@ def read_branches(table: Table, findings: Findings) -> dict[str, Branch]:
     return branches
 
 
-def read_ask(table: Table, findings: Findings, links: Sequence[str] = ()) -> Ask:
-    """What is asked; each key holds a list of points or of links. ``links`` are all, as written."""
-    points = {key: names_asked(table, key, findings, asked_point) for key in POINTS_ASKED}
-    of_links = {key: names_asked(table, key, findings, moving_link) for key in LINKS_ASKED}
-    curves = names_asked(table, PATHS_ASKED, findings, point_name)
-    centres, pairs = centres_asked(table, findings, (FRAME, *links))
+def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
+    """What is asked of a scene; each key holds a list of its points or of its links."""
+    names = {
+        key: names_asked(table, key, findings, scene)
+        for key in (*POINTS_ASKED, PATHS_ASKED, *LINKS_ASKED)
+    }
+    centres, pairs = centres_asked(table, findings, scene)
     table.finish()
-    return Ask(**points, **of_links, centres=centres, pairs=pairs, curves=curves)
+    return Ask(**names, centres=centres, pairs=pairs)
 
 
-def names_asked(
-    table: Table, key: str, findings: Findings, read: Callable[[str, object, Findings], str | None]
-) -> tuple[str, ...]:
+def names_asked(table: Table, key: str, findings: Findings, scene: Scene) -> tuple[str, ...]:
     """The names in one list, each once."""
-    found = (read(place, each, findings) for place, each in items(table, key, findings, read))
+    found = (name_asked(place, key, raw, findings, scene) for place, raw in items(table, key))
     return tuple(dict.fromkeys(name for name in found if name is not None))
 
 
-def items(table: Table, key: str, findings: Findings, read: object) -> Iterator[tuple[str, object]]:
+def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Scene) -> str | None:
+    """The name of a point or a link; None, with a problem noted, for one that is not written."""
+    if key in LINKS_ASKED or key == CENTRES_ASKED:
+        name = moving_link(place, raw, findings)
+        link = None if name is None else known_link(scene, name, place, findings)
+        if key == "slides" and link is not None and not link.slides:
+            findings.add(place, f"link {name} does not slide", "a link with slides")
+        return name if link is not None else None
+    name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
+    point, _, of = (name or "").partition("@")
+    if name is None or not known_point(point, all_points(scene), "the mechanism", place, findings):
+        return None
+    return None if of and known_link(scene, of, place, findings) is None else name
+
+
+def items(table: Table, key: str) -> Iterator[tuple[str, object]]:
     """Each item of a list with its place; a problem is noted when there is no list."""
     raw = table.take(key)
     if isinstance(raw, list) and len(raw) <= MOST:
         yield from ((f"{table.at(key)}[{index}]", each) for index, each in enumerate(raw))
     elif raw is not None:
-        what = "[2, 3]" if read is moving_link else '["A", "B"]'
-        findings.add(table.at(key), shown(raw), f"a list, such as {what}")
+        what = '["A", "B"]' if key in (*POINTS_ASKED, PATHS_ASKED) else "[2, 3]"
+        table.findings.add(table.at(key), shown(raw), f"a list, such as {what}")
 
 
 def moving_link(place: str, raw: object, findings: Findings) -> str | None:
@@ -78,35 +94,41 @@ def moving_link(place: str, raw: object, findings: Findings) -> str | None:
 
 
 def centres_asked(
-    table: Table, findings: Findings, links: Sequence[str]
+    table: Table, findings: Findings, scene: Scene
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The links and the pairs of links whose centres are asked: 2, "2-4", or "all" pairs."""
-    if table.raw.get("centres") == ALL:
-        table.take("centres")
-        return (), tuple("-".join(pair) for pair in combinations(links, 2))
+    if table.raw.get(CENTRES_ASKED) == ALL:
+        table.take(CENTRES_ASKED)
+        return (), tuple(all_pairs(scene))
     centres: list[str] = []
     pairs: list[str] = []
-    for place, raw in items(table, "centres", findings, moving_link):
+    for place, raw in items(table, CENTRES_ASKED):
         if raw == ALL:
-            pairs += ["-".join(pair) for pair in combinations(links, 2)]
+            pairs += all_pairs(scene)
         elif isinstance(raw, str) and "-" in raw:
-            pairs += link_pair(place, raw, findings, links)
-        elif name := moving_link(place, raw, findings):
+            pairs += link_pair(place, raw, findings, scene)
+        elif name := name_asked(place, CENTRES_ASKED, raw, findings, scene):
             centres.append(name)
     return tuple(dict.fromkeys(centres)), tuple(dict.fromkeys(pairs))
 
 
-def link_pair(place: str, raw: str, findings: Findings, links: Sequence[str]) -> list[str]:
+def all_pairs(scene: Scene) -> Iterator[str]:
+    """Every two links, in the order of the scene with the frame first."""
+    return ("-".join(pair) for pair in combinations((FRAME, *scene.links), 2))
+
+
+def link_pair(place: str, raw: str, findings: Findings, scene: Scene) -> list[str]:
     """Two links with a dash, in the order of the scene; none, with a problem noted, if not so."""
     first, _, second = raw.replace(" ", "").partition("-")
-    names = [link_name(place, name, findings) for name in (first, second)]
-    if None in names:
+    names = [name for each in (first, second) if (name := link_name(place, each, findings))]
+    if len(names) < 2:
         return []
     if names[0] == names[1]:
         findings.add(place, f"{shown(raw)} is one link twice", 'two links, such as "2-4"')
         return []
-    rank = {name: number for number, name in enumerate(links)}
-    return ["-".join(sorted((str(name) for name in names), key=lambda n: rank.get(n, len(rank))))]
+    if None in [known_link(scene, name, place, findings) for name in names]:
+        return []
+    return ["-".join(sorted(names, key=(FRAME, *scene.links).index))]
 
 
 def read_sheet(table: Table, measures: Measures) -> Sheet:
