@@ -85,7 +85,12 @@ def put_inflection_circle(desk: Desk, number: int, step: Step, value: Any) -> No
 
 
 def put_far_centre(desk: Desk, number: int, step: Step, value: Any) -> None:
-    """A centre off the field: name, direction and distance where a ray to it leaves the field."""
+    """A centre off the field: name, direction and distance where a ray to it leaves the field.
+
+    Nothing where every point is one: the sentence of the link says so.
+    """
+    if desk.drawing.is_everywhere(value):
+        return
     endless = desk.drawing.place(value) is None
     if step.part is Part.POLE and endless:
         words = desk.drawing.words

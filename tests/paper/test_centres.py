@@ -219,6 +219,15 @@ def test_centres_that_fall_together_each_have_their_page():
 # --- the inflection circle -----------------------------------------------------------------------
 
 
+def test_a_link_without_any_acceleration_has_no_pole_at_infinity():
+    """Of a crank that stands: a pole that is every point is told by its sentence alone."""
+    text = HEAD + SCENES["four-bar"].replace("speed = 12", "speed = 0") + "[ask]\npoles = [2]\n"
+    mechanism = Mechanism(read_text(text, "four-bar", None, {}))
+    (drawing,) = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))
+    assert any("every point is its pole" in said.markup for said in sentences(drawing))
+    assert not [m for m in page_of(drawing).marks if "infinity" in getattr(m, "markup", "")]
+
+
 def test_the_inflection_circle_runs_through_both_ends_of_its_diameter():
     drawing = drawn("slider-crank", "inflection = [2]")[0]
     assert drawing.kind == "acceleration"
