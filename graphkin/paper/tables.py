@@ -3,38 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from graphkin.paper.areas import Rect
+from graphkin.paper.columns import SMALL, Row, Table, laid_out
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.marks import Line, Mark, Text, box
+from graphkin.paper.marks import Mark, Text
 from graphkin.paper.naming import scale_of, segment_of, way_of
-from graphkin.paper.richtext import escape, extent, flowed
+from graphkin.paper.richtext import escape, flowed
 from graphkin.paper.short import NEARLY_NOUGHT, hardly_turns, is_short
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Vector
 from graphkin.text import Words
 
-ROW, BASE = 4.7, 3.4
-"""Height of a row, and how far below its upper line the letters stand, in mm."""
-HEIGHT, SMALL = 2.5, 1.8
 VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
 LEADING = 2.9
 """Distance of the lines that say what is computed, in mm."""
-PAD = 1.4
-"""Least room beside the letters of a cell, both sides together, in mm."""
-BETWEEN, APART = 3, 0.6
-"""Room between tables beside one another, in mm, and below one another, in rows."""
-
-
-@dataclass(frozen=True, slots=True)
-class Row:
-    """A row of markup cells."""
-
-    cells: tuple[str, ...]
-    name: str = ""
 
 
 def vectors(drawing: Drawing) -> list[tuple[str, str, float, float]]:
@@ -126,107 +111,22 @@ def sense(words: Words, value: Any) -> str:
     return words("page.anticlockwise" if value > 0 else "page.clockwise")
 
 
-def table(
-    x: float,
-    y: float,
-    widths: Sequence[float],
-    head: Row,
-    rows: Sequence[Row],
-    among: Sequence[Row] = (),
-) -> list[Mark]:
-    """A ruled table with its top-left corner at (x, y); widths of columns in mm.
-
-    ``among`` are all rows of a table that stands in blocks, which look alike.
-    """
-    widths = shared(widths, head, among or rows)
-    letters = size_for(widths, among or rows)
-    marks: list[Mark] = []
-    total, height = sum(widths), ROW * (len(rows) + 1)
-    marks.append(box(x, y, total, ROW, "shade"))
-    for i in range(len(rows) + 2):
-        marks.append(Line(x, y + i * ROW, x + total, y + i * ROW, "panel"))
-    left = x
-    for width in (*widths, 0.0):
-        marks.append(Line(left, y, left, y + height, "panel"))
-        left += width
-    marks += cells(x, y + BASE, widths, head, SMALL)
-    for i, row in enumerate(rows, 1):
-        marks += cells(x, y + i * ROW + BASE, widths, row, letters)
-    return marks
-
-
-def shared(widths: Sequence[float], head: Row, rows: Sequence[Row]) -> tuple[float, ...]:
-    """Widths of columns with the same sum, in which the room beside the cells is shared evenly.
-
-    The given ones where every cell has room enough in them, or where not even all together have.
-    """
-    needs = [
-        max(extent(name, SMALL)[0], *(extent(row.cells[i], HEIGHT)[0] for row in rows))
-        for i, name in enumerate(head.cells)
-    ]
-    left = (sum(widths) - sum(needs)) / len(widths)
-    enough = all(need + PAD <= width for need, width in zip(needs, widths, strict=True))
-    return tuple(widths) if enough or left < PAD else tuple(need + left for need in needs)
-
-
-def size_for(widths: Sequence[float], rows: Sequence[Row]) -> float:
-    """The lettering in which every cell of some rows fits its column and its row."""
-    for row in rows:
-        for width, markup in zip(widths, row.cells, strict=True):
-            across, _, below = extent(markup, HEIGHT)
-            if across > width - PAD + 1e-9 or below > ROW - BASE - 0.1:
-                return SMALL
-    return HEIGHT
-
-
-def cells(
-    x: float, baseline: float, widths: Sequence[float], row: Row, height: float
-) -> list[Mark]:
-    """The texts of one row, each in the middle of its column."""
-    marks: list[Mark] = []
-    for width, markup in zip(widths, row.cells, strict=True):
-        if markup:
-            marks.append(Text(x + width / 2, baseline, markup, "table", height, "middle", row.name))
-        x += width
-    return marks
-
-
 def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
-    """The vectors in one or two blocks, then the angular values, then what slides."""
+    """The vectors in one or more blocks, then the angular values, then what slides."""
     words = drawing.words
     unit = words(f"table.{drawing.kind}")
     head = Row((words("table.symbol"), words("table.segment"), words("table.millimetres"), unit))
     spin = "omega" if drawing.kind == "velocity" else "epsilon"
     turn_head = Row((words("table.symbol"), words(f"table.{spin}"), words("table.sense")))
     slide_head = Row((words("table.symbol"), unit, words("table.sense")))
-    rows, turns = vector_rows(drawing, empty=empty), turning_rows(drawing, empty=empty)
-    sliding = slide_rows(drawing, empty=empty)
-    note = reasons(drawing, [*rows, *turns, *sliding], rect)
+    every = (
+        Table(VECTORS, head, tuple(vector_rows(drawing, empty=empty))),
+        Table(TURNS, turn_head, tuple(turning_rows(drawing, empty=empty)), beside=True),
+        Table(SLID, slide_head, tuple(slide_rows(drawing, empty=empty))),
+    )
+    note = reasons(drawing, [row for table in every for row in table.rows], rect)
     low = rect[3] - LEADING * len(note)
-    room = int((low - rect[1]) / ROW) - 1
-    blocks = [rows[i : i + room] for i in range(0, len(rows), room)]
-    marks: list[Mark] = [*note]
-    x = rect[0]
-    for block in blocks:
-        marks += table(x, rect[1], VECTORS, head, block, rows)
-        x += sum(VECTORS) + BETWEEN
-    used = float(len(blocks[-1]) + 1 if blocks else room + 1)
-    below = len(blocks) > 1 and room - used > len(turns)
-    if below or not turns:
-        x, used = x - sum(VECTORS) - BETWEEN, used + APART
-    else:
-        used = 0.0
-    if turns:
-        marks += table(x, rect[1] + used * ROW, TURNS, turn_head, turns)
-        used += len(turns) + 1 + APART
-    if not sliding:
-        return marks
-    if (used + len(sliding) + 1) * ROW > low - rect[1]:
-        if below:
-            x, used = x + sum(TURNS) + BETWEEN, 0.0
-        else:
-            x, used = x - sum(VECTORS) - BETWEEN, len(blocks[-1]) + 1 + APART
-    return [*marks, *table(x, rect[1] + used * ROW, SLID, slide_head, sliding)]
+    return [*note, *laid_out([table for table in every if table.rows], (*rect[:3], low))]
 
 
 def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
+from graphkin.paper.columns import Row
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.members import members
@@ -12,7 +13,7 @@ from graphkin.paper.ruled import plan_at
 from graphkin.paper.scale import digits
 from graphkin.paper.sheet import asked
 from graphkin.paper.standing import lettered
-from graphkin.paper.tables import Row, slide_rows, slide_sense, turning_rows, vector_rows
+from graphkin.paper.tables import slide_rows, slide_sense, turning_rows, vector_rows
 from graphkin.paper.tags import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}

@@ -8,10 +8,11 @@ from html import escape
 from itertools import chain
 from math import degrees
 
+from graphkin.paper.columns import Row
 from graphkin.paper.drawing import METRES, Drawing
 from graphkin.paper.flattest import crossings_on
 from graphkin.paper.symbolic import symbol
-from graphkin.paper.tables import Row, slide_rows, turning_rows, vector_rows
+from graphkin.paper.tables import slide_rows, turning_rows, vector_rows
 from graphkin.paper.tags import marked_up
 from graphkin.plane import Ratio
 from graphkin.report.centres import breadth_of, completed, place_of

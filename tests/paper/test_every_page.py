@@ -13,13 +13,14 @@ import shapely
 
 from graphkin.handout import drawn as pages_of
 from graphkin.labs import names
+from graphkin.paper.columns import SMALL
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Page, Text, reach
 from graphkin.paper.overlay import overlay
 from graphkin.paper.richtext import extent
 from graphkin.paper.sheet import sheet
 from graphkin.paper.style import BRIEF, NOW, SHAFT, STYLES, style_of
-from graphkin.paper.tables import SLID, SMALL, TURNS, VECTORS
+from graphkin.paper.tables import SLID, TURNS, VECTORS
 from graphkin.text import LANGUAGES, words
 from tests.mechanisms import SHIPPED
 from tests.paper.sheet_tools import (
