@@ -9,7 +9,7 @@ from graphkin.lab.extents import Sketch
 from graphkin.lab.model import Item
 from graphkin.paper.areas import AREA, HEIGHT, MARGIN, WIDTH
 from graphkin.paper.drawing import ENDLESS
-from graphkin.paper.layout import LEAST
+from graphkin.paper.layout import LEAST, LEAST_FIELD
 from graphkin.plane import Ratio
 from graphkin.steps.program import Part, Plane
 
@@ -49,7 +49,9 @@ def shared_width(sheet: Sketch, mm: Array) -> Array:
 
     mechanism, plan = sheet.mechanism_box.width * mm, sheet.plan_box.width * mm
     fair = mechanism + 2 * MARGIN + (WIDTH - mechanism - plan) * 0.5
-    return np.minimum(fair, np.maximum(AREA[2] - AREA[0] - LEAST, mechanism + 2 * MARGIN))
+    whole = AREA[2] - AREA[0]
+    shared = np.minimum(fair, np.maximum(whole - LEAST, mechanism + 2 * MARGIN))
+    return np.minimum(np.maximum(shared, LEAST_FIELD), whole - LEAST_FIELD)
 
 
 def grown(sheet: Sketch, mm: Array, width: Array) -> tuple[Array, Array, Array, Array]:

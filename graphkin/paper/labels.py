@@ -15,7 +15,7 @@ from graphkin.paper.doubt import with_leaders
 from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Circle, Line, Mark, Text, box, reach
 from graphkin.paper.place import Spot, Wish, place
-from graphkin.paper.richtext import extent, flowed
+from graphkin.paper.richtext import extent, flowed, words_of
 from graphkin.paper.shapes import Array, Box
 
 NUMBER = 2.3
@@ -232,9 +232,12 @@ class Board:
 
     def footed(self, notes: Sequence[str]) -> list[Mark]:
         """Notes in lines at the foot of the field, where they cross the fewest lines."""
-        lines = flowed(notes, "; ", self.rect[2] - self.rect[0] - 6, 2.5)
+        across = self.rect[2] - self.rect[0] - 6
+        lines = flowed(notes, "; ", across, 2.5)
         if not lines:
             return []
+        if max(extent(line, 2.5)[0] for line in lines) > across:
+            lines = flowed(words_of("; ".join(notes)), " ", across, 2.5)
         y = self.rect[3] - 2.5 - LEADING * (len(lines) - 1)
         room = self.rect[2] - self.rect[0] - 6 - max(extent(line, 2.5)[0] for line in lines)
         tried: list[list[Text]] = [

@@ -24,6 +24,8 @@ BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
 LEAST = 110.0
 """Width that a plan's field gets where the mechanism leaves it, in mm."""
+LEAST_FIELD = 42.0
+"""Width that every field has, in mm, so that its caption stands above it in two lines."""
 GROUND = 15.0
 """Room below a mechanism for the ground of its pivots and a line of notes, in mm."""
 FAR = 100.0
@@ -73,8 +75,9 @@ def shared_width(mechanism: float, plan: float) -> float:
             )
         )
     fair = mechanism + 2 * MARGIN + spare * 0.5
-    most = max(AREA[2] - AREA[0] - LEAST, mechanism + 2 * MARGIN)
-    return min(fair, most)
+    whole = AREA[2] - AREA[0]
+    most = max(whole - LEAST, mechanism + 2 * MARGIN)
+    return min(max(min(fair, most), LEAST_FIELD), whole - LEAST_FIELD)
 
 
 def centre(rect: Rect) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from itertools import product
 from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, inputs, mechanism
 from graphkin.paper.areas import A3_AREA, AREA, BELOW, MARKED, TABLES
+from graphkin.paper.captions import headlines
 from graphkin.paper.data import given
 from graphkin.paper.desk import Desk, above_foot
 from graphkin.paper.detail import parted
@@ -19,13 +20,10 @@ from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.members import members
-from graphkin.paper.naming import scale_of
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
-from graphkin.paper.relation import figure
 from graphkin.paper.richtext import escape, extent, flowed, words_of
 from graphkin.paper.ruled import plan_at
-from graphkin.paper.scale import digits
 from graphkin.paper.sentences import sentences
 from graphkin.paper.slides import covered
 from graphkin.paper.standing import lettered
@@ -33,8 +31,6 @@ from graphkin.paper.symbolic import symbol
 from graphkin.paper.symbols import VECTORS
 from graphkin.paper.tables import tables
 
-BLANK = ". . . . . . . . ."
-"""Room to write in what a task does not give away."""
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
 LEADING = 4.6
@@ -144,7 +140,7 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     """The mechanism's field."""
     field = layout.mechanism
     board = Board(field.rect, unnamed=drawing.words("page.unnamed"))
-    board.marks.append(headlines(drawing, layout, view)[0])
+    board.marks += headlines(drawing, layout, view)[0]
     if view == "task":
         mechanism.draw_frame(board, drawing, field)
         return board
@@ -181,7 +177,7 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     """The plan's field."""
     field = layout.plan
     board = Board(field.rect, unnamed=drawing.words("page.unnamed"))
-    board.marks.append(headlines(drawing, layout, view)[1])
+    board.marks += headlines(drawing, layout, view)[1]
     desk = Desk(board, field, drawing, layout)
     if view == "task":
         for number, step, value in drawing.steps(drawing.plane):
@@ -190,23 +186,6 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> Board:
         return board
     construct.draw_plan_steps(desk)
     return board
-
-
-def headlines(drawing: Drawing, layout: Layout, view: str) -> list[Mark]:
-    """The captions of both fields, small where one of them has no room for large lettering."""
-    words, scales = drawing.words, drawing.scales
-    factor = scale_of(drawing, drawing.plane) / 1000
-    k = BLANK if view == "task" and scales.from_driver else figure(drawing, factor)
-    kL = words.decimal(digits(scales.kL))
-    captions = {
-        words("page.mechanism_heading", scale=scales.words, kL=kL): layout.mechanism.rect,
-        words(f"page.{drawing.kind}_heading", k=k): layout.plan.rect,
-    }
-    fit = all(extent(said, 3.5)[0] <= r[2] - r[0] - 5 for said, r in captions.items())
-    height = 3.5 if fit else 2.5
-    return [
-        Text(rect[0] + 3, rect[1] - 2.5, said, "caption", height) for said, rect in captions.items()
-    ]
 
 
 def below(drawing: Drawing, view: str) -> list[Mark]:

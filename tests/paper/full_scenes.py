@@ -93,6 +93,57 @@ poles = [2]
 """
 """An eight-bar of three dyads."""
 
+FLAT = """
+[frame]
+O1 = [0, 0]
+O2 = [600, 0]
+[links.1]
+O1-A = 12
+[links.2]
+A-B = 590
+[links.3]
+O2-B = 14
+[[drivers]]
+turn = 1
+angle = 35
+speed = 10.471975512
+[branches]
+B = "left of A-O2"
+[ask]
+velocity = ["A", "B"]
+acceleration = ["A", "B"]
+omega = [2, 3]
+epsilon = [2, 3]
+centres = [2]
+poles = [2]
+"""
+"""A four-bar fifty times as broad as high."""
+TOGGLE = """
+[frame]
+O1 = [0, 0]
+O2 = [120, 0]
+[links.1]
+O1-A = 60
+[links.2]
+A-B = 70
+[links.3]
+O2-B = 80
+[[drivers]]
+turn = 1
+angle = 108.205
+speed = 6.283185307
+[branches]
+B = "left of A-O2"
+[ask]
+velocity = ["A", "B"]
+acceleration = ["A", "B"]
+omega = [2, 3]
+epsilon = [2, 3]
+centres = [2]
+poles = [2]
+"""
+"""A four-bar within one degree of its dead point."""
+
 
 def drawings_from(text: str, language: str = "en", title: str = "Full") -> list[Drawing]:
     """The material of both sheets of a scene given as text."""
