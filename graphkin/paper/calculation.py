@@ -12,7 +12,7 @@ from graphkin.paper.frame import page_frame
 from graphkin.paper.marks import Mark, Page, Text
 from graphkin.paper.relation import Relation
 from graphkin.paper.relations import relations
-from graphkin.paper.richtext import escape, extent, flowed, words_of
+from graphkin.paper.richtext import escape, extent, flowed, plain, words_of
 from graphkin.paper.settings import parameters
 from graphkin.paper.sheet import title_of
 
@@ -91,7 +91,7 @@ def broken(
             raise PageError(
                 Problem(
                     "calculation",
-                    f"does not fit: {line}",
+                    f"does not fit: {plain(line)}",
                     "a shorter relation",
                     "shorten the names of the points",
                 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from math import degrees
 
 from graphkin.paper.areas import BELOW, TABLES
@@ -31,16 +32,17 @@ OWN = {
 def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
     """The flattest crossing of a sheet, its angle, and what a millimetre of pencil becomes there.
 
-    ``start`` is where there is room, in mm; a name that has none there goes without its index.
+    ``start`` is where there is room, in mm; a name that has none there goes without its index,
+    then without what a millimetre becomes.
     Nothing where no lines cross. What stands on a sheet before this one is not drawn again.
     """
     worst = flattest(crossings_on(drawing))
     if worst is None:
         return
     letter = letter_of_crossing(drawing, worst)
-    for name in (letter, letter.partition("_")[0]):
+    for form, name in product(("flattest", "flattest_angle"), (letter, letter.partition("_")[0])):
         text = drawing.words(
-            "page.flattest",
+            f"page.{form}",
             name=symbol(name),
             angle=drawing.words.fixed(degrees(worst.angle), 0),
             factor=drawing.words.significant(worst.factor, 2),

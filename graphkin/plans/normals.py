@@ -43,7 +43,7 @@ def right_triangle(pen: Pen, places: tuple[int, int], images: tuple[int, int], s
     """Velocity at the pin, perpendicular at its tip, cut with the bar, turned over (figure 4)."""
     seconds = pen.seconds()
     pivot, pin = places
-    letter, index = says["q"].partition(",")[0].rstrip(digits).lower(), says["i"]
+    letter, index = bare(says["q"]), says["i"]
     with pen.hands_way():
         tip = pen.draw(set_velocity, pin, *images, seconds, name=f"{letter}″_{index}", **says)
         edge = pen.draw(square_at, tip, pivot, **says, tip=f"{letter}″_{index}")
@@ -52,6 +52,11 @@ def right_triangle(pen: Pen, places: tuple[int, int], images: tuple[int, int], s
         end = pen.draw(turn_over, cut, pin, name=f"{letter}⁗_{index}", **says)
         with pen.on(Part.NORMAL, Plane.NUMBERS):
             return pen.draw(normal_by_hand, pin, end, seconds, **says)
+
+
+def bare(point: str) -> str:
+    """The small letter of a point without its index: b for B, B2 and B_left."""
+    return point.partition(",")[0].partition("_")[0].rstrip(digits).lower()
 
 
 def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:

@@ -144,6 +144,30 @@ poles = [2]
 """
 """A four-bar within one degree of its dead point."""
 
+NAMED = """
+[frame]
+O_left = [0, 0]
+O_right = [130, 0]
+[links.crank]
+O_left-{crank} = 50
+[links.coupler]
+{crank}-{rocker} = 120
+[links.rocker]
+O_right-{rocker} = 90
+[[drivers]]
+turn = "crank"
+angle = 60
+speed = 10
+[branches]
+{rocker} = "left of {crank}-O_right"
+[ask]
+velocity = ["{crank}", "{rocker}"]
+acceleration = ["{crank}", "{rocker}"]
+omega = ["coupler", "rocker"]
+epsilon = ["coupler", "rocker"]
+"""
+"""A four-bar with the names of its moving points left open."""
+
 
 def drawings_from(text: str, language: str = "en", title: str = "Full") -> list[Drawing]:
     """The material of both sheets of a scene given as text."""
