@@ -10,14 +10,14 @@ from math import floor
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper.areas import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
-from graphkin.paper.marks import Anchor, Line, Mark, Text, box
-from graphkin.paper.richtext import escape, extent
+from graphkin.paper.marks import Line, Mark, Text, box
+from graphkin.paper.richtext import escape, extent, flowed, plain, words_of
 
 SIZES = {"A3": (420.0, 297.0), "A2": (594.0, 420.0)}
 FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # I and O are left out
 LEADING = 1.7  # distance of lines in heights of capitals
-ANCHORS: tuple[Anchor, Anchor] = ("start", "end")
+CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 
 
@@ -222,14 +222,24 @@ def page_frame(
 
 
 def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:
-    """Write one line of markup at the left and one at the right end of an A4 page's line."""
+    """Write markup at the left and at the right end of an A4 page's line, the left one in two
+    small lines where it is long."""
     left, right = A4_FRAME[0] + 3, A4_FRAME[2] - 3
+    first, last = words
     wide = sum(extent(markup, 2.5)[0] for markup in words)
     height = 2.5 if wide + 4 <= right - left else 1.8
+    lines = [first]
     if wide / 2.5 * height + 4 > right - left:
-        raise PageError(Problem(name, f"“{words[0]}  {words[1]}” is too long", hint="shorten it"))
-    marks: list[Mark] = []
-    for x, markup, anchor in zip((left, right), words, ANCHORS, strict=True):
-        if markup:
-            marks.append(Text(x, y, markup, "title", height, anchor, name))
-    return marks
+        room = right - left - 4 - extent(last, height)[0]
+        lines = flowed(words_of(first), " ", room, height)
+        if len(lines) > 2:
+            fits = len(plain(" ".join(lines[:2])))
+            found = f"“{plain(first)}” is too long: {len(plain(first))} letters"
+            raise PageError(Problem(name, found, f"about {fits} letters", "shorten it"))
+    low = y + CLOSE * (len(lines) - 1) / 2
+    marks: list[Mark] = [
+        Text(left, low - CLOSE * (len(lines) - 1 - i), line, "title", height, "start", name)
+        for i, line in enumerate(lines)
+        if line
+    ]
+    return [*marks, *([Text(right, y, last, "title", height, "end", name)] if last else [])]

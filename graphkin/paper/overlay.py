@@ -8,9 +8,9 @@ from dataclasses import replace
 from graphkin.paper.areas import A3_AREA, Rect
 from graphkin.paper.detail import with_detail
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.frame import fitting
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
-from graphkin.paper.richtext import escape
 from graphkin.paper.sheet import left_board, right_board, title_of
 from graphkin.paper.style import BARE, TINTS, style_of
 
@@ -35,10 +35,11 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     known = {(label.name, label.cls) for task in tasks for label in task.labels}
     name = f"{title_of(drawing)} – {words('sheet.' + drawing.kind)}"
     foot = f"{name}, {words('sheet.overlay')} {number}, {drawing.scales.words}"
+    (foot,), height = fitting("title", foot, A3_AREA[2] - A3_AREA[0] - 24, 2.5, 2.5)
     marks = (
         *(untinted(mark) for mark in with_detail(*boards) if not is_letter(mark, known)),
         *crop_marks(A3_AREA),
-        Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, escape(foot), "caption", 2.5, name="title"),
+        Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, foot, "caption", height, name="title"),
     )
     return Page(420, 297, marks, name, words.language)
 

@@ -106,3 +106,24 @@ def test_the_calculation_page_is_a4_with_a_filing_margin():
     assert [m.markup for m in texts(marks)] == ["Mecanism", "GK-1", "graphkin", "3/5"]
     with pytest.raises(PageError, match="header"):
         page_frame(("Mecanism " * 30, "x"))
+
+
+def test_a_long_title_of_a_calculation_page_stands_in_two_lines_within_its_head():
+    title = "Mechanism of the exercise seventeen b, second term, with a rocker, a long coupler"
+    title += " and an oscillating slide; n = 7"
+    marks = page_frame((title, "Breviar de calcul, rezolvare"), ("", "1/2"))
+    lines = [mark for mark in texts(marks) if mark.name == "header"]
+    right = [plain(mark.markup) for mark in lines if mark.x > 100]
+    assert right == ["Breviar de calcul, rezolvare"]
+    left = [mark for mark in lines if mark.x < 100]
+    assert len(left) == 2
+    assert " ".join(plain(mark.markup) for mark in left) == title
+    boxes = [reach(mark) for mark in lines]
+    assert all(A4_AREA[0] < box[0] and box[2] < A4_AREA[2] for box in boxes)
+    assert all(box[1] > 10 and box[3] < A4_AREA[1] for box in boxes)
+    assert reach(left[0])[3] < reach(left[1])[1]
+
+
+def test_a_title_too_long_for_a_calculation_page_is_told_how_long_it_may_be():
+    with pytest.raises(PageError, match="269 letters; expected about 215 letters"):
+        page_frame(("Mecanism " * 29 + "Mecanism", "x"))

@@ -9,6 +9,7 @@ from graphkin.paper.areas import AREA, MARGIN, WIDTH
 from graphkin.paper.captions import headlines
 from graphkin.paper.layout import LEAST_FIELD, lay_out, shared_width
 from graphkin.paper.marks import Text, reach
+from graphkin.paper.overlay import overlay
 from graphkin.paper.sheet import sheet
 from graphkin.text import LANGUAGES
 from tests.paper.full_scenes import FLAT, TOGGLE, drawings_from
@@ -46,3 +47,13 @@ def test_a_field_is_at_least_as_wide_as_its_caption_needs(plan):
 def test_drawings_wider_than_the_sheet_are_refused():
     with pytest.raises(PageError, match="does not fit"):
         shared_width(WIDTH, 1.0)
+
+
+@pytest.mark.parametrize("length", [240, 900])
+def test_a_long_title_of_an_overlay_is_smaller_or_refused_as_on_the_key(length):
+    drawing, _ = drawings_from(FLAT, title="letters " * (length // 8))
+    if length == 240:
+        overlay(drawing, "1/2").check()
+    else:
+        with pytest.raises(PageError, match=r"title block, title: .* does not fit .* shorten"):
+            overlay(drawing, "1/2")
