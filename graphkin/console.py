@@ -13,7 +13,9 @@ from click.exceptions import Exit
 
 from graphkin.errors import (
     ClosureError,
+    FileError,
     GraphkinError,
+    PageError,
     Problem,
     SceneError,
     StructureError,
@@ -56,9 +58,9 @@ class Desk(click.Group):
             return super().invoke(ctx)
         except BrokenPipeError:
             cut_short()
-        except (SceneError, StructureError, ClosureError) as error:
+        except (SceneError, StructureError, ClosureError, PageError) as error:
             scene = ctx.meta.get(READING)
-            if scene is None:
+            if scene is None or isinstance(error, FileError):
                 raise
             raise type(error)([of_scene(scene, problem) for problem in error.problems]) from error
 

@@ -51,3 +51,7 @@ class WitnessError(GraphkinError):
 
 class PageError(GraphkinError):
     """The drawing does not fit the page, or a file cannot be written."""
+
+
+class FileError(PageError):
+    """A file cannot be written where it was to be."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphkin.console import READING
-from graphkin.errors import PageError, Problem
+from graphkin.console import READING, complain
+from graphkin.errors import FileError, Problem
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
@@ -27,7 +27,7 @@ class Folder(click.Path):
             self.fail("the name of the folder is empty; . is the current one", param, ctx)
         if Path(value).is_file():
             hint = "name another folder with -o"
-            raise PageError(Problem(str(value), "is a file", "a folder", hint))
+            raise FileError(Problem(str(value), "is a file", "a folder", hint))
         return super().convert(value, param, ctx)
 
 
@@ -98,6 +98,18 @@ def scales_of(mechanism: Mechanism) -> Scales:
     from graphkin.scaling import scales
 
     return scales(mechanism)
+
+
+def scales_if_any(mechanism: Mechanism, without: str) -> Scales | None:
+    """The scale factors of the sheets; None, and a message, where they cannot be drawn."""
+    from graphkin.errors import GraphkinError
+
+    try:
+        return scales_of(mechanism)
+    except GraphkinError as error:
+        for problem in error.problems:
+            complain(f"{without}: {problem}")
+        return None
 
 
 def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:

@@ -23,7 +23,7 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     factor = scale_of(drawing, drawing.plane) / 1000
     k = BLANK if view == "task" and scales.from_driver else figure(drawing, factor)
     kL = words.decimal(digits(scales.kL))
-    mechanism = words("page.mechanism_heading", scale=scales.words, kL=kL)
+    mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     plan = words(f"page.{drawing.kind}_heading", k=k)
     left, right = layout.mechanism.rect, layout.plan.rect
     both = ((mechanism, left), (plan, right))

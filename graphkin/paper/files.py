@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
 
-from graphkin.errors import PageError, Problem
+from graphkin.errors import FileError, PageError, Problem
 from graphkin.paper.marks import Page
 from graphkin.paper.style import Ink
 
@@ -84,13 +84,13 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
     """Raise PageError with every target that is in the way."""
     if folder.exists() and not folder.is_dir():
         hint = "name another folder with -o"
-        raise PageError(Problem(str(folder), "is a file", "a folder", hint))
+        raise FileError(Problem(str(folder), "is a file", "a folder", hint))
     folders = [target for target in targets if target.is_dir()]
     there = [t for t in targets if not force and os.path.lexists(t) and t not in folders]
     problems = [in_the_way(there)] if there else []
     problems += [Problem(str(t), "is a folder", "a place for a file") for t in folders]
     if problems:
-        raise PageError(problems)
+        raise FileError(problems)
 
 
 def in_the_way(there: Sequence[Path]) -> Problem:
@@ -130,4 +130,4 @@ def cannot_write(place: str, error: OSError) -> PageError:
     """The error for a file or folder that the system does not let us write."""
     reason = error.strerror or str(error)
     found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
-    return PageError(Problem(place, found, "a folder that can be written", "name one with -o"))
+    return FileError(Problem(place, found, "a folder that can be written", "name one with -o"))

@@ -162,7 +162,9 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     """kL, kv and ka, and the drawn length of the driven bar."""
     words, scales = drawing.words, drawing.scales
     number = words.decimal(digits(scales.kL))
-    yield Relation("*k*_L", "", "", number, "", words("calculation.scale", scale=scales.words))
+    yield Relation(
+        "*k*_L", "", "", number, "", words("calculation.scale", scale=words.decimal(scales.words))
+    )
     for name, length in drawn_bars(drawing):
         yield Relation(
             name,

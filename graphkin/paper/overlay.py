@@ -34,7 +34,7 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     )
     known = {(label.name, label.cls) for task in tasks for label in task.labels}
     name = f"{title_of(drawing)} – {words('sheet.' + drawing.kind)}"
-    foot = f"{name}, {words('sheet.overlay')} {number}, {drawing.scales.words}"
+    foot = f"{name}, {words('sheet.overlay')} {number}, {words.decimal(drawing.scales.words)}"
     (foot,), height = fitting("title", foot, A3_AREA[2] - A3_AREA[0] - 24, 2.5, 2.5)
     marks = (
         *(untinted(mark) for mark in with_detail(*boards) if not is_letter(mark, known)),

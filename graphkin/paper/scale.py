@@ -60,7 +60,12 @@ class Scales:
     @property
     def words(self) -> str:
         """The scale as a drawing writes it, 1:5 or 2:1."""
-        return f"1:{digits(self.kL)}" if self.kL >= 1 else f"{digits(1 / self.kL)}:1"
+        return ratio(self.kL)
+
+
+def ratio(kL: float) -> str:
+    """A scale as a drawing writes it, 1:5 or 2:1."""
+    return f"1:{digits(kL)}" if kL >= 1 else f"{digits(1 / kL)}:1"
 
 
 def digits(number: float) -> str:
@@ -134,8 +139,8 @@ def kept_scale(stated: float, least: float) -> float:
         raise PageError(
             Problem(
                 "sheet.scale",
-                f"does not fit: at 1:{digits(stated)} the drawing leaves its fields",
-                f"1:{digits(least)} or smaller",
+                f"does not fit: at {ratio(stated)} the drawing leaves its fields",
+                f"{ratio(least)} or smaller",
                 f"write scale = {digits(least)}, or leave it out",
             )
         )

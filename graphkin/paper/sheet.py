@@ -97,7 +97,7 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         date_of_issue=sheet.date,
         sheet=number,
         language=words.language,
-        scale=drawing.scales.words,
+        scale=words.decimal(drawing.scales.words),
         labels={name: words(f"block.{name}") for name in fields},
     )
 

@@ -107,7 +107,7 @@ def data(drawing: Drawing, datum: str = "") -> str:
 def wanted(drawing: Drawing) -> str:
     """At which scales a task is to be drawn, and what it asks for, piece by piece."""
     words, kL = drawing.words, drawing.words.decimal(digits(drawing.scales.kL))
-    first = words("task.to_scale", scale=drawing.scales.words, kL=kL)
+    first = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
     then = plan_at(drawing)
     scales = f'<p class="scales"><strong>{marked_up(first)}</strong> {marked_up(then)}</p>'
     return scales + listed([*asked(drawing), members(drawing)])

@@ -86,6 +86,46 @@ def test_scales_keep_the_right_triangle(pump: Any) -> None:
     assert scales["kv"] == pytest.approx(pump["links"]["1"]["omega"] * scales["kL"], rel=1e-12)
 
 
+TIGHT = """graphkin = 1
+title = "At a scale that does not fit"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[[drivers]]
+turn = 1
+angle = 30
+speed = 2
+[sheet]
+scale = 0.1
+[ask]
+velocity = ["A"]
+"""
+
+
+def test_scales_are_null_where_what_is_asked_does_not_fit_the_sheet(
+    run: Run, tmp_path: Path
+) -> None:
+    file = tmp_path / "tight.toml"
+    file.write_text(TIGHT)
+    result = run("solve", file, "--asked", "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["scales"] == {"kL": None, "kv": None, "ka": None}
+    assert "the scales are null: sheet.scale: does not fit: at 10:1" in result.stderr
+    assert run("solve", file, "--asked").stderr == ""
+
+
+def test_a_scale_that_does_not_fit_is_told_with_the_file(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "tight.toml"
+    file.write_text(TIGHT)
+    for command in (("solve", file), ("sheet", file, "-o", tmp_path)):
+        result = run(*command)
+        assert result.exit_code == 2
+        assert result.stderr.startswith(f"graphkin: {file}: sheet.scale: does not fit: at 10:1 ")
+        assert len(result.stderr.splitlines()) == 1
+
+
 def test_the_witness_agrees(pump: Any) -> None:
     assert pump["witness"]["agrees"] is True
     assert pump["witness"]["largest_difference"] < 1e-9

@@ -43,9 +43,9 @@ def scene(sheet="", body=FOUR_BAR, **changes):
     return Mechanism(read_text(f"{head}[sheet]\n{sheet}\n{body}", "four-bar", None, {}))
 
 
-def said(mechanism, kind, view="key"):
+def said(mechanism, kind, view="key", language="en"):
     """All that a sheet says."""
-    pages = next(s.pages for s in hand_out(mechanism, view, "en") if s.kind == kind)
+    pages = next(s.pages for s in hand_out(mechanism, view, language) if s.kind == kind)
     return " | ".join(plain(m.markup) for p in pages for m in p.marks if isinstance(m, Text))
 
 
@@ -130,6 +130,23 @@ def test_a_student_is_told_of_the_enlargement():
 def test_an_enlargement_that_does_not_fit_a_stated_scale_is_refused_with_a_proposal():
     with pytest.raises(PageError, match=r"does not fit: at 1:2 .*; write scale = 20"):
         scales(scene("scale = 2\nenlarge = 4"))
+
+
+def test_a_scale_that_does_not_fit_is_told_as_a_drawing_writes_it():
+    with pytest.raises(PageError, match="does not fit: at 10:1 the drawing leaves its fields"):
+        scales(scene("scale = 0.1"))
+
+
+@pytest.mark.parametrize("view", ["key", "task", "overlay"])
+def test_a_scale_is_written_with_the_mark_of_its_language(view):
+    mechanism = scene("scale = 3.7")
+    kinds = ["velocity", *(["calculation"] if view == "key" else [])]
+    for kind in kinds:
+        assert "1:3.7" in said(mechanism, kind, view)
+        for language in ("ro", "it"):
+            told = said(mechanism, kind, view, language)
+            assert "1:3,7" in told
+            assert "1:3.7" not in told
 
 
 def test_an_enlargement_without_a_crank_that_turns_is_refused():
