@@ -19,6 +19,12 @@ def in_degrees(scene: Scene, words: Words, quantity: Quantity) -> str:
     return f"{words.fixed(degrees(float(quantity.si(scene.values))), 2)}°"
 
 
+def in_mm(words: Words, length: float) -> str:
+    """A drawn length in mm as it is written: one that no ruler shows as less than what one does."""
+    under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
+    return words.fixed(length, 2) if length == 0 or length >= 0.005 else under
+
+
 def written(scene: Scene, words: Words, quantity: Quantity) -> str:
     """A quantity as printed: in its written unit, in the language's own way."""
     unit = words(f"unit.{quantity.unit}") if words.has(f"unit.{quantity.unit}") else quantity.unit

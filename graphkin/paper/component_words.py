@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.paper.desk import in_mm
+from graphkin.paper.amounts import in_mm
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.letters import is_coriolis, letter_on, no_base, no_triangle
 from graphkin.paper.naming import NAUGHT, plan_amount, rate_symbol, scale_of, vector_of

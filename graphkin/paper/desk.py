@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from graphkin.paper.amounts import in_mm
 from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
 from graphkin.paper.naming import scale_of
-from graphkin.text import Words
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
@@ -56,12 +56,6 @@ def above_foot(rect: Rect) -> Rect:
 def middle(tail: XY, tip: XY) -> XY:
     """The middle of a vector."""
     return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
-
-
-def in_mm(words: Words, length: float) -> str:
-    """A short length in mm as it is written: one that no ruler shows as less than what one does."""
-    under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
-    return words.fixed(length, 2) if length >= 0.005 else under
 
 
 def note_tiny(desk: Desk, name: str, length: float) -> None:

@@ -213,13 +213,25 @@ class Drawing:
         return found
 
     def settled(self, value: float) -> float:
-        """A magnitude of the plan, or nought where it is only rounding beside the largest."""
-        return 0.0 if abs(value) < NOISE * self.largest else value
+        """A magnitude of the plan, or nought where it is only rounding."""
+        return 0.0 if abs(value) < NOISE * self.natural else value
+
+    @cached_property
+    def natural(self) -> float:
+        """A magnitude as large as the plan's own: its largest vector, or as much acceleration as
+        its velocities give over the size of the mechanism."""
+        if self.plane is Plane.VELOCITIES:
+            return self.largest
+        return max(self.largest, self.longest(Plane.VELOCITIES) ** 2 / self.reach)
 
     @cached_property
     def largest(self) -> float:
         """The largest vector of the plan."""
-        vectors = (v for _, s, v in self.steps(self.plane) if s.arrow and isinstance(v, Vector))
+        return self.longest(self.plane)
+
+    def longest(self, plane: Plane) -> float:
+        """The largest vector of a plan."""
+        vectors = (v for _, s, v in self.steps(plane) if s.arrow and isinstance(v, Vector))
         return max((abs(v.tip - v.tail) for v in vectors), default=0.0)
 
     def turning(self, link: str) -> float | None:
@@ -228,10 +240,16 @@ class Drawing:
         value = self.trace.value(quantity, link)
         if value is None:
             return None
-        fastest = max(abs(omega) for omega in self.all_of("omega"))
+        fastest = self.fastest
         alike = (abs(epsilon) for epsilon in self.all_of("epsilon"))
         largest = fastest if quantity == "omega" else max(fastest**2, *alike)
         return 0.0 if abs(value) < NOISE * largest else float(value)
+
+    @cached_property
+    def fastest(self) -> float:
+        """The largest angular velocity, or what the largest velocity gives over the mechanism."""
+        turning = (abs(omega) for omega in self.all_of("omega"))
+        return max(self.longest(Plane.VELOCITIES) / self.reach, *turning)
 
     def all_of(self, quantity: str) -> list[float]:
         """The values of a quantity on this sheet, of the links that have it."""

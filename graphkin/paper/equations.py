@@ -12,6 +12,7 @@ from graphkin.paper.gaps import fields_of
 from graphkin.paper.naming import arrow_of, index_of, is_driven, rate_symbol, vector_of, way_of
 from graphkin.paper.phrases import in_line
 from graphkin.paper.relation import Relation, answer, figure, length_of
+from graphkin.paper.short import laid_off
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.steps.program import CONTACT, Plane, Step
 
@@ -109,9 +110,7 @@ def turned(drawing: Drawing, step: Step, letter: str, rate: str) -> Relation:
     size = value * value * length if square else value * length
     remark = drawing.words("calculation.square_to", bar=bar(p, q))
     if square:
-        fields = {"p": symbol(p), "q": symbol(q)}
-        mm = drawing.words.fixed(1000 * size / drawing.scales.ka, 2)
-        remark = drawing.words("calculation.laid_off", drawn=mm, **fields)
+        remark = laid_off(drawing, "laid_off", size, p=symbol(p), q=symbol(q))
     return Relation(
         symbol(f"{letter}_{index}{kind}"),
         f"{rate_symbol(drawing, step.args[3], rate)}{square}·{bar(p, q)}",

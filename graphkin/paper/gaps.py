@@ -6,7 +6,7 @@ from cmath import phase
 from collections.abc import Mapping
 from math import degrees
 
-from graphkin.paper.amounts import in_degrees
+from graphkin.paper.amounts import in_degrees, in_mm
 from graphkin.paper.closing import found_place
 from graphkin.paper.data import angle_symbol, driver_index
 from graphkin.paper.drawing import Drawing
@@ -123,7 +123,7 @@ def on_plan(
     found = {}
     if key in LAID_OFF:
         drawn = drawn_between(drawing, step.args[0], number, step.plane)
-        found["drawn"] = drawing.words.fixed(drawn, 2)
+        found["drawn"] = in_mm(drawing.words, drawn)
         found["rate"] = rate_at_rest(drawing, step)
     match key:
         case "square-to" if "c" in says:
@@ -148,7 +148,7 @@ def on_plan(
             if step.name:
                 drawn = drawn_between(drawing, step.args[0], number, step.plane)
                 rates = drawing.trace.program.steps[step.args[1]].args[2:]
-                found["drawn"] = drawing.words.fixed(drawn, 2)
+                found["drawn"] = in_mm(drawing.words, drawn)
                 found["omega"] = rolling_rate(drawing, *rates)
         case "lay-off-coriolis" | "lay-back-coriolis":
             found["vector"] = symbol(f"a_{says['i']}^c")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from graphkin.paper.amounts import in_mm
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.relation import figure
 from graphkin.paper.richtext import escape
@@ -95,7 +96,7 @@ def amount(drawing: Drawing, metres: float) -> str:
 
 def plan_amount(drawing: Drawing, size: float, plane: Plane) -> str:
     """How a vector of a given size is drawn in a plan."""
-    return f"{drawing.words.fixed(1000 * size / scale_of(drawing, plane), 2)} mm"
+    return f"{in_mm(drawing.words, 1000 * size / scale_of(drawing, plane))} mm"
 
 
 def height_above(drawing: Drawing, step: Step) -> float:

@@ -17,7 +17,7 @@ from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.falling import falls_key
 from graphkin.paper.gaps import LAID_OFF, fields_of
-from graphkin.paper.naming import NAUGHT, beyond, drawn_between, is_driven
+from graphkin.paper.naming import beyond, drawn_between, is_driven
 from graphkin.paper.pairs import SWINGS
 from graphkin.paper.rolled import is_first_roll, is_halfway, is_moving_track, untold_track
 from graphkin.paper.symbolic import symbol
@@ -236,8 +236,9 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
 
 def has_no_length(drawing: Drawing, number: int) -> bool:
     """True for a vector that is laid off from a point of a plan and is nought."""
-    step = drawing.trace.program.steps[number]
-    return drawn_between(drawing, step.args[0], number, step.plane) < NAUGHT
+    start = drawing.trace.program.steps[number].args[0]
+    values = drawing.trace.values
+    return not drawing.settled(abs(values[number] - values[start]))
 
 
 def in_line(drawing: Drawing, step: Step) -> bool:

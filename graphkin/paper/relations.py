@@ -16,6 +16,7 @@ from graphkin.paper.outset import of_driver, of_scales
 from graphkin.paper.rates import FINE, of_sum, of_turning, within
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.scale import digits
+from graphkin.paper.short import laid_off
 from graphkin.paper.sliding import of_coriolis, of_rolling, of_slides
 from graphkin.paper.symbolic import TAGS, bar, symbol
 from graphkin.paper.trial_lengths import of_trial_lengths
@@ -200,7 +201,6 @@ def drawn(drawing: Drawing, millimetres: float) -> str:
 
 def of_normals(drawing: Drawing) -> Iterator[Relation]:
     """Each normal component: square of the relative velocity over the bar, and its drawn length."""
-    ka = drawing.scales.ka
     for _, step, value in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "normal":
             continue
@@ -213,12 +213,7 @@ def of_normals(drawing: Drawing) -> Iterator[Relation]:
             f"{figure(drawing, speed)}^2/{figure(drawing, length)}",
             answer(drawing, size),
             "m/s^2",
-            drawing.words(
-                "calculation.laid_off",
-                p=symbol(p),
-                q=symbol(q),
-                drawn=drawing.words.fixed(1000 * size / ka, 2),
-            ),
+            laid_off(drawing, "laid_off", size, p=symbol(p), q=symbol(q)),
             over=(p, q),
         )
 

@@ -49,30 +49,34 @@ def sentences(drawing: Drawing) -> list[Sentence]:
         for curve in drawing.curves
         if curve.kind not in ("fixed-centrode", "locus")
     ]
-    last = Sentence(-1, "", read_off(drawing))
+    last = [Sentence(-1, "", markup)] if (markup := read_off(drawing)) else []
     found = with_starts_together(drawing, with_trials_together(drawing, found))
     found = with_centres_together(drawing, found)
-    return with_indices(drawing, [*with_normals_together(drawing, found), last])
+    return with_indices(drawing, [*with_normals_together(drawing, found), *last])
 
 
 def read_off(drawing: Drawing) -> str:
-    """What is read off at the end; how a link turns only where the sheet says that one does."""
+    """What is read off at the end, if anything; how a link turns only where one is said to."""
     words, velocity = drawing.words, drawing.kind == "velocity"
     turns = any(drawing.turning(link) is not None for link in drawing.scene.links)
     turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
     part = Part.VELOCITY if velocity else Part.ACCELERATION
     early = set_before(drawing)
-    set_on = [
-        symbol(step.says["symbol"])
+    lengths = [
+        (symbol(step.says["symbol"]), abs(arrow.tip - arrow.tail))
         for number, step, arrow in drawing.steps(Plane.MECHANISM)
         if step.action and step.action.key in READ_OFF and step.part is part
         if number not in early
-        if abs(arrow.tip - arrow.tail) * 1000 >= TINY * drawing.scales.kL
     ]
+    if not lengths:
+        return turning.removeprefix("; ")
+    set_on = [name for name, length in lengths if length * 1000 >= TINY * drawing.scales.kL]
     named = words("list_mark").join(dict.fromkeys(set_on))
-    if not named:
-        return words("step.read-none", turning=turning)
-    return words("step.read-off", list=named, turning=turning)
+    if named:
+        return words("step.read-off", list=named, turning=turning)
+    metres = drawing.scales.metres(drawing.kind)
+    nought = not any(drawing.settled(length / metres) for _, length in lengths)
+    return words(f"step.read-{'none' if nought else 'short'}", turning=turning)
 
 
 def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:

@@ -8,6 +8,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import rate_symbol, vector_of
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.rolled import rolling_rate
+from graphkin.paper.short import laid_off
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import slid, slide_sense
 from graphkin.steps.program import Plane, Step
@@ -16,25 +17,21 @@ from graphkin.steps.program import Plane, Step
 def of_coriolis(drawing: Drawing) -> Iterator[Relation]:
     """Each Coriolis component: twice the turning of the guide times the relative velocity."""
     values = drawing.trace.values
-    for _, step, value in drawing.steps(Plane.NUMBERS):
+    for _, step, _ in drawing.steps(Plane.NUMBERS):
         if step.action is None or step.action.key != "coriolis" or not step.name:
             continue
         omega = abs(float(values[step.args[0]]))
         speed = abs(values[step.args[2]] - values[step.args[1]])
         rate = rate_symbol(drawing, step.args[0])
         v = symbol("v_" + step.says["i"])
+        size = drawing.settled(2 * omega * speed)
         yield Relation(
             symbol(step.name),
             f"2·{rate}·{v}",
             f"2·{figure(drawing, omega)}·{figure(drawing, speed)}",
-            answer(drawing, drawing.settled(2 * omega * speed)),
+            answer(drawing, size),
             "m/s^2",
-            drawing.words(
-                "calculation.quarter",
-                v=v,
-                omega=rate,
-                drawn=drawing.words.fixed(1000 * abs(value) / drawing.scales.ka, 2),
-            ),
+            laid_off(drawing, "quarter", size, v=v, omega=rate),
         )
 
 
@@ -50,12 +47,7 @@ def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
         f"{figure(drawing, abs(wheel - track))}^2·{figure(drawing, length)}",
         answer(drawing, size),
         "m/s^2",
-        drawing.words(
-            "calculation.laid_off",
-            p=symbol(q),
-            q=symbol(p),
-            drawn=drawing.words.fixed(1000 * size / drawing.scales.ka, 2),
-        ),
+        laid_off(drawing, "laid_off", size, p=symbol(q), q=symbol(p)),
         over=(p, q),
     )
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from graphkin.paper.amounts import in_mm
 from graphkin.paper.areas import Rect
 from graphkin.paper.columns import SMALL, Row, Table, laid_out
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Mark, Text
 from graphkin.paper.naming import scale_of, segment_of, way_of
 from graphkin.paper.richtext import escape, flowed
-from graphkin.paper.short import NEARLY_NOUGHT, hardly_turns, is_short
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Vector
 from graphkin.text import Words
@@ -37,19 +37,14 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, float, float]]:
 def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     """One row for each vector of the plan; the values left out on a task sheet.
 
-    A length stands in brackets where it is not measured: the vector is computed. What is too short
-    to be drawn is nearly nought.
+    A length stands in brackets where it is not measured: the vector is computed.
     """
     words = drawing.words
     rows = []
     for name, segment, length, size in vectors(drawing):
-        measured = words.fixed(length, 2)
+        measured = in_mm(words, length)
         drawn = f"({measured})" if symbol(name) in drawing.computed else measured
-        values = (drawn, words.significant(size))
-        if empty:
-            values = ("", "")
-        elif size and is_short(drawing, size, drawing.plane):
-            values = (NEARLY_NOUGHT, NEARLY_NOUGHT)
+        values = ("", "") if empty else (drawn, words.significant(size))
         rows.append(Row((symbol(name), segment, *values), name))
     return rows
 
@@ -63,11 +58,7 @@ def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
         value = drawing.turning(link)
         if value is None:
             continue
-        cells = (words.significant(abs(value)), sense(words, value))
-        if empty:
-            cells = ("", "")
-        elif value and hardly_turns(drawing, link):
-            cells = (NEARLY_NOUGHT, "")
+        cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))
         rows.append(Row((symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
     return rows
 
@@ -81,8 +72,6 @@ def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
         if not empty:
             size = drawing.settled(abs(value))
             cells = (words.significant(size), slide_sense(drawing, block, value) if size else "")
-            if size and is_short(drawing, size, drawing.plane):
-                cells = (NEARLY_NOUGHT, "")
         rows.append(Row((name, *cells), f"slide {block}"))
     return rows
 

@@ -508,6 +508,26 @@ RARE |= {
     f"four-bar with {sheet}": f"[sheet]\n{sheet}\n" + OTHERS["four-bar with a coupler point"]
     for sheet in ("enlarge = 1.5", "ka = 0.4")
 }
+RARE["what is asked of a point is too short to be drawn"] = """
+[frame]
+O1 = [0, 0]
+O2 = [120, 0]
+[links.1]
+O1-A = 60
+[links.2]
+A-B = 70
+[links.3]
+O2-B = 80
+[[drivers]]
+turn = 1
+angle = 108.205
+speed = 6
+[branches]
+B = "left of A-O2"
+[ask]
+acceleration = ["A"]
+epsilon = [2]
+"""
 
 
 def rare(name: str) -> Mechanism:
