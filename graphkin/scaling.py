@@ -16,6 +16,7 @@ from graphkin.errors import PageError, Problem, SceneError
 from graphkin.loci import curves_of
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import HEIGHT, WIDTH
+from graphkin.paper.coarse import refuse_dots
 from graphkin.paper.coriolis import without_triangles
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.scale import (
@@ -83,9 +84,21 @@ def shown(mechanism: Mechanism) -> Solution:
 def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Scales:
     """The one set of scale factors at which every sheet's drawings fit their fields.
 
-    Where the triangles of Coriolis components leave no room for a larger mechanism, they give way.
+    Raises PageError where one that the scene states leaves them no room, or leaves nothing of them.
     """
     curves = curves_of(mechanism) if curves is None else curves
+    chosen, sheet = fitting(mechanism, curves), mechanism.scene.sheet
+    keys = [key for key in ("scale", "enlarge", "ka") if stated(mechanism, getattr(sheet, key))]
+    if keys:
+        refuse_dots(chosen, trials_of(mechanism, curves, chosen), keys)
+    return chosen
+
+
+def fitting(mechanism: Mechanism, curves: tuple[Curve, ...]) -> Scales:
+    """Scale factors at which all fits, as the scene states them or as large as may be.
+
+    Where the triangles of Coriolis components leave no room for a larger mechanism, they give way.
+    """
     ka = stated(mechanism, mechanism.scene.sheet.ka)
     if ka:
         chosen = scales_with(mechanism, curves, triangles=False)

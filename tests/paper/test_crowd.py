@@ -69,7 +69,7 @@ def is_label(mark: Text) -> bool:
 
 
 def test_names_of_vectors_without_room_are_noted():
-    small = varied("stephenson-1", ("[ask]", "[sheet]\nscale = 500\n[ask]"))
+    small = varied("stephenson-1", ("[ask]", "[sheet]\nenlarge = 0.3\n[ask]"))
     page = hand_out(small, language="en")[1].pages[0]
     plan = Page(420, 297, tuple(m for m in page.marks if isinstance(m, Text) and m.x > PLAN))
     _, _, names = notes(plan).partition("no room for the names of: ")

@@ -10,7 +10,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.paper.marks import Text
 from graphkin.paper.richtext import plain
 from graphkin.paper.scale import FINE, Scales, digits
-from graphkin.scaling import scales
+from graphkin.scaling import scales, trials_of
 from graphkin.scene.read import read_text
 from tests.paper.sheet_tools import HEAD, OTHERS, SCENES, mechanism_named
 
@@ -212,6 +212,47 @@ def test_a_ka_that_keeps_the_condition_changes_nothing():
 def test_a_ka_too_small_is_refused_with_a_proposal():
     with pytest.raises(PageError, match=r"sheet\.ka: does not fit: at 0\.001 .*write a larger ka"):
         scales(scene("ka = 0.001"))
+
+
+@pytest.mark.parametrize(
+    ("line", "found", "hint"),
+    [
+        ("ka = 20", r"at 20 \(m/s²\)/mm the longest acceleration is .* mm long", "a smaller ka"),
+        ("ka = 1000000", r"at 1000000 \(m/s²\)/mm the longest acceleration", "a smaller ka"),
+        ("scale = 1000000", "at 1:1000000 the mechanism is drawn .* mm across", "a smaller scale"),
+        ("enlarge = 40", "at 40 times the mechanism is drawn .* mm across", "a smaller enlarge"),
+        ("enlarge = 1000000", "at 1000000 times the mechanism", "a smaller enlarge"),
+        ("enlarge = 0.02", "at 0.02 times the longest velocity is drawn", "a larger enlarge"),
+        ("enlarge = 0.2", "at 0.2 times the longest acceleration is drawn", "a larger enlarge"),
+    ],
+)
+def test_a_scale_factor_that_leaves_no_more_than_a_dot_is_refused(line, found, hint):
+    key = line.partition(" ")[0]
+    with pytest.raises(PageError, match=rf"sheet\.{key}: {found}.*; expected 5 mm or .*{hint}"):
+        scales(scene(line))
+
+
+@pytest.mark.parametrize("line", ["ka = 20", "scale = 1000000"])
+def test_the_scale_factor_that_is_proposed_instead_of_a_dot_is_accepted(line):
+    with pytest.raises(PageError, match=r"5 mm or more; write a smaller") as refused:
+        scales(scene(line))
+    proposed = str(refused.value).partition("a smaller ")[2].partition(" or less")[0]
+    key, _, number = proposed.partition(", ")
+    assert line.startswith(key)
+    assert min(longest(scene(f"{key} = {number}"))) >= 5
+
+
+def longest(mechanism):
+    """How large the mechanism is drawn on each sheet, and its longest vector, in mm."""
+    found = scales(mechanism)
+    for trial in trials_of(mechanism, (), found):
+        yield 1000 * trial.reach / found.kL
+        yield 1000 * abs(trial.at_scale(trial.plane, trial.largest)) / found.kL
+
+
+def test_a_plan_of_which_all_is_nought_is_no_dot():
+    steady = SLIDE + 'acceleration = ["A"]\n'
+    assert scales(scene("ka = 20", steady)).ka == pytest.approx(20_000)
 
 
 def test_a_ka_that_needs_a_smaller_mechanism_gets_one_unless_its_scale_is_stated():
