@@ -54,16 +54,18 @@ def plot(
 
 def chosen(drawings: list[Drawing], which: Which) -> Drawing:
     """The drawing that shows a plan; the mechanism stands on the first."""
+    from graphkin.paper.naming import has_plan
+
     if which not in get_args(Which):
         raise SceneError(Problem("plot", f"{which!r} is no drawing", ", ".join(get_args(Which))))
     for drawing in drawings:
-        if which in ("mechanism", drawing.kind):
+        if which == "mechanism" or (which == drawing.kind and has_plan(drawing)):
             return drawing
     raise SceneError(
         Problem(
             "plot",
             f"nothing of the {which} plan is asked",
-            ", ".join(["mechanism", *(drawing.kind for drawing in drawings)]),
+            ", ".join(["mechanism", *(drawing.kind for drawing in drawings if has_plan(drawing))]),
             f"ask for {'an' if which == 'acceleration' else 'a'} {which} under [ask]",
         )
     )

@@ -29,6 +29,8 @@ def appearing(
     What has no name goes with a mark beside it: the frame around a link's name with the name after
     it, the arrow of a driver's sense with its angle before it.
     """
+    if not marks:
+        return
     named = marks[0]
     for mark, after in zip(marks, (*marks[1:], marks[-1]), strict=True):
         named = mark if mark.name else named

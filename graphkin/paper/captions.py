@@ -6,7 +6,7 @@ from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import Layout
 from graphkin.paper.marks import Mark, Text
-from graphkin.paper.naming import scale_of
+from graphkin.paper.naming import has_plan, scale_of
 from graphkin.paper.relation import figure
 from graphkin.paper.richtext import extent, flowed, words_of
 from graphkin.paper.scale import digits
@@ -18,7 +18,10 @@ HEIGHTS, LEADING = (3.5, 2.5, 1.8), 3.2
 
 
 def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], list[Mark]]:
-    """The captions of both fields, small or in two lines where one has no room for large ones."""
+    """The captions of both fields, small or in two lines where one has no room for large ones.
+
+    A field without a plan has none.
+    """
     words, scales = drawing.words, drawing.scales
     factor = scale_of(drawing, drawing.plane) / 1000
     k = BLANK if view == "task" and scales.from_driver else figure(drawing, factor)
@@ -26,10 +29,11 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     plan = words(f"page.{drawing.kind}_heading", k=k)
     left, right = layout.mechanism.rect, layout.plan.rect
-    both = ((mechanism, left), (plan, right))
+    both = [(mechanism, left), *([(plan, right)] if has_plan(drawing) else [])]
     fits = (h for h in HEIGHTS if all(extent(s, h)[0] <= r[2] - r[0] - 5 for s, r in both))
     height = next(fits, HEIGHTS[-1])
-    return caption(mechanism, left, height), caption(plan, right, height)
+    above, *beside = (caption(said, rect, height) for said, rect in both)
+    return above, beside[0] if beside else []
 
 
 def caption(said: str, rect: Rect, height: float) -> list[Mark]:

@@ -15,6 +15,7 @@ from graphkin.paper.frame import sheet_frame
 from graphkin.paper.inset import insets
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.naming import called
 from graphkin.paper.richtext import flowed
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import sentences
@@ -49,7 +50,7 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
         for each in crossings_on(drawing)
         if not is_gap(drawing, each)
     ]
-    title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
+    title = f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
     return tuple(
         Page(
             420,

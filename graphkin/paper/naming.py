@@ -18,6 +18,16 @@ WELL_KNOWN = {"omega": "speed", "v": "speed", "epsilon": "acceleration", "a": "a
 """The names of given rates of drivers, and which of their rates it is."""
 
 
+def has_plan(drawing: Drawing) -> bool:
+    """Whether anything is drawn in the plan of a sheet: paths and fixed centres need none."""
+    return any(True for _ in drawing.steps(drawing.plane))
+
+
+def called(drawing: Drawing) -> str:
+    """What a sheet is called by: its plan, or the mechanism alone where it has none."""
+    return drawing.kind if has_plan(drawing) else "mechanism"
+
+
 def way_of(drawing: Drawing, name: str) -> str:
     """A guide by its block, or a straight track by its wheel."""
     link = drawing.scene.links.get(name)

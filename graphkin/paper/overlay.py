@@ -11,6 +11,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import fitting
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
+from graphkin.paper.naming import called
 from graphkin.paper.sheet import left_board, right_board, title_of
 from graphkin.paper.style import BARE, TINTS, style_of
 
@@ -33,7 +34,7 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
         for view in ("key", "task")
     )
     known = {(label.name, label.cls) for task in tasks for label in task.labels}
-    name = f"{title_of(drawing)} – {words('sheet.' + drawing.kind)}"
+    name = f"{title_of(drawing)} – {words('sheet.' + called(drawing))}"
     foot = f"{name}, {words('sheet.overlay')} {number}, {words.decimal(drawing.scales.words)}"
     (foot,), height = fitting("title", foot, A3_AREA[2] - A3_AREA[0] - 24, 2.5, 2.5)
     marks = (

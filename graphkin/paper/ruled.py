@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.naming import has_plan
 from graphkin.paper.outset import driven_bars, plan_scales
 from graphkin.paper.relation import figure
 from graphkin.paper.scale import digits
@@ -14,7 +15,9 @@ from graphkin.steps.program import Plane
 
 
 def plan_at(drawing: Drawing) -> str:
-    """At which scale the plan of a task is to be drawn, as a sentence."""
+    """At which scale the plan of a task is to be drawn, as a sentence; nothing without a plan."""
+    if not has_plan(drawing):
+        return ""
     return drawing.words("task.plan", rule=", ".join(rules(drawing)))
 
 

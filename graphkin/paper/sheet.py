@@ -20,6 +20,7 @@ from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.members import members
+from graphkin.paper.naming import called
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
 from graphkin.paper.richtext import escape, extent, flowed, words_of
@@ -53,7 +54,7 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
         *panels(layout),
         *below(drawing, view),
     ]
-    title = f"{title_of(drawing)} – {drawing.words('sheet.' + drawing.kind)}"
+    title = f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
     return Page(420, 297, tuple(marks), title, drawing.words.language)
 
 
@@ -92,7 +93,7 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         title=title_of(drawing),
         creator=sheet.author,
         approved_by=sheet.approved,
-        document_type=words(f"sheet.document_{drawing.kind}", view=words(f"sheet.{view}")),
+        document_type=words(f"sheet.document_{called(drawing)}", view=words(f"sheet.{view}")),
         identification=sheet.number,
         date_of_issue=sheet.date,
         sheet=number,
@@ -106,7 +107,7 @@ def heading(drawing: Drawing) -> list[Mark]:
     """The sheet's title and the data, in as many lines as they need."""
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
-    name = f"{words('sheet.' + drawing.kind)} – {title_of(drawing)}"
+    name = f"{words('sheet.' + called(drawing))} – {title_of(drawing)}"
     height = next((h for h in (5, 3.5) if extent(escape(name), h)[0] <= TITLE), 2.5)
     marks: list[Mark] = [Text(left, top + 10, escape(name), "title", height, name="title")]
     marks += check_bar(AREA[2] - 106, top + 7, "")
@@ -201,7 +202,7 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
     else:
         marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
         lines = flowed(asked(drawing), "; ", width - 5, 2.5)
-        for told in (members(drawing), plan_at(drawing)):
+        for told in filter(None, (members(drawing), plan_at(drawing))):
             lines += ["", *flowed(told.split(" "), " ", width - 5, 2.5)]
         marks += [
             Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5)

@@ -80,7 +80,12 @@ def themed(rule: str) -> str:
 
 
 def headline(marks: Sequence[Mark]) -> tuple[str, Sequence[Mark]]:
-    """The markup of a field's caption, which stands above it, and the marks in the field."""
+    """The markup of a field's caption, which stands above it, and the marks in the field.
+
+    The field of a plan of which nothing is asked has neither.
+    """
+    if not marks:
+        return "", marks
     first = marks[0]
     assert isinstance(first, Text)
     return first.markup, marks[1:]

@@ -12,7 +12,7 @@ from itertools import chain
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import Rect
 from graphkin.paper.marks import Mark
-from graphkin.paper.naming import scale_of
+from graphkin.paper.naming import called, scale_of
 from graphkin.paper.sheet import title_of
 from graphkin.paper.style import Ink
 from graphkin.paper.svg import number
@@ -165,7 +165,7 @@ def figure_pair(
 ) -> list[str]:
     """A sheet: the field of the mechanism and that of the plan, each under its caption."""
     drawing, count = sheet.drawing, len(sheet.left)
-    name = escape(drawing.words(f"sheet.{drawing.kind}"))
+    name = escape(drawing.words(f"sheet.{called(drawing)}"))
     ids = [f"m{place}-{k}" for k in range(len(timed))]
     named = list(zip(ids, timed, strict=True))
     found = [
@@ -197,7 +197,7 @@ def outcome(sheets: Sequence[ScreenSheet], datum: str) -> Iterator[str]:
     yield f"{escape(words('screen.results'))}</h2>"
     for sheet in sheets:
         yield f'<div data-kind="{sheet.drawing.kind}">'
-        yield f"<h3>{escape(words(f'sheet.{sheet.drawing.kind}'))}</h3>"
+        yield f"<h3>{escape(words(f'sheet.{called(sheet.drawing)}'))}</h3>"
         yield from facts.results(sheet.drawing)
         yield "</div>"
     yield "</section>"

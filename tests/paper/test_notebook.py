@@ -145,6 +145,16 @@ def test_a_plan_of_which_nothing_is_asked_is_refused(tmp_path):
         load(str(path)).plot(axes(), "acceleration")
 
 
+def test_a_plan_of_velocities_of_which_nothing_is_asked_is_refused_too(tmp_path):
+    text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
+    path = tmp_path / "path.toml"
+    path.write_text(text.partition("[ask]")[0] + '[ask]\ncurves = ["P"]\n', encoding="utf-8")
+    refused = "nothing of the velocity plan is asked; expected mechanism; ask for a velocity under"
+    with pytest.raises(SceneError, match=refused):
+        load(str(path)).plot(axes(), "velocity")
+    assert load(str(path)).plot(axes(), "mechanism").get_children()
+
+
 @pytest.mark.parametrize("which", ["vel", None, 3])
 def test_what_is_no_drawing_is_said_to_be_none(which):
     with pytest.raises(

@@ -10,13 +10,14 @@ from pathlib import Path
 import pytest
 
 from graphkin.handout import drawings_of, hand_out
-from graphkin.mechanism import load
+from graphkin.mechanism import Mechanism, load
 from graphkin.paper.appear import grown
 from graphkin.paper.areas import AREA
 from graphkin.paper.marks import Circle, Line, Text, reach
 from graphkin.paper.richtext import extent
 from graphkin.paper.sentences import sentences
 from graphkin.paper.style import NOW, TINTS, style_of
+from graphkin.scene.model import Ask
 from graphkin.steps.solution import Verdict
 from graphkin.text import words as words_of
 from tests.mechanisms import mechanism_of
@@ -303,3 +304,35 @@ def test_the_crossing_that_closes_a_group_is_told_with_its_locus():
     (told,) = [mark.markup for mark in locus.marks if mark.name == "crossing"]
     assert told.startswith("*E*: ")
     assert not [mark for mark in after.marks if mark.name == "crossing"]
+
+
+def asked_only(ask):
+    """A linkage of which one thing alone is asked."""
+    scene = load(str(SCENES / "crank-rocker.toml")).scene
+    return Mechanism(replace(scene, ask=ask))
+
+
+@pytest.mark.parametrize("view", ["key", "task", "steps", "overlay"])
+@pytest.mark.parametrize(
+    "ask",
+    [Ask(curves=("P",)), Ask(velocity=("O1",)), Ask(inflection=("2",)), Ask(centres=("3",))],
+    ids=str,
+)
+def test_a_scene_that_asks_for_one_thing_alone_has_all_its_views(ask, view):
+    assert all(sheet.pages for sheet in hand_out(asked_only(ask), view, "en"))
+
+
+def test_a_sheet_without_a_plan_claims_none():
+    for view in ("key", "task", "steps", "overlay"):
+        first, *_ = hand_out(asked_only(Ask(curves=("P",))), view, "en")
+        texts = [m.markup for page in first.pages for m in page.marks if isinstance(m, Text)]
+        assert not [text for text in texts if "elocity" in text or "*k*_v" in text]
+        assert not [text for text in texts if "nothing is set" in text]
+        assert all("Mechanism" in page.title for page in first.pages)
+    assert "over the motion *P* describes its path" in sentences_of(asked_only(Ask(curves=("P",))))
+
+
+def sentences_of(mechanism):
+    """The sentences of a scene's first sheet."""
+    drawing, *_ = drawings_of(mechanism, Verdict(True, 0.0, "", 0.0, 0.0, 0.0), words_of("en"))
+    return [sentence.markup for sentence in sentences(drawing)]

@@ -508,6 +508,13 @@ RARE |= {
     f"four-bar with {sheet}": f"[sheet]\n{sheet}\n" + OTHERS["four-bar with a coupler point"]
     for sheet in ("enlarge = 1.5", "ka = 0.4")
 }
+RARE["only a path is asked"] = (
+    OTHERS["parallelogram"].partition("[ask]")[0]
+    + """
+[ask]
+curves = ["B"]
+"""
+)
 RARE["what is asked of a point is too short to be drawn"] = """
 [frame]
 O1 = [0, 0]
