@@ -144,8 +144,8 @@ def cycle(
     the lengths say of a single loop. Writes a table (CSV, SI units), curves of all motions, paths
     of points, centrodes, and the circle of the driven pin against what the rest can reach.
 
-    Several drivers, and laws of time, are moved by the time: one turn of the first, or --from
-    and --to seconds.
+    Several drivers, and laws of time, are moved by the time: one turn of the first, once to and
+    fro where a law never makes one, or --from and --to seconds.
 
     \b
     Examples:

@@ -256,7 +256,8 @@ def reach_of(scene: Scene) -> float:
 def whole_turn(scene: Scene) -> float:
     """The time (s) in which the first turning driver makes one turn from the time nought.
 
-    Where none does, the time until one comes to rest, or has slid as far as all lengths together.
+    Where none does, the time until one comes to rest, or has slid as far as all lengths together,
+    or in which a law of time moves one once to and fro.
     Raises SceneError where there is no such time.
     """
     for driver in scene.drivers:
@@ -270,12 +271,13 @@ def whole_turn(scene: Scene) -> float:
         if found is not None:
             return found
     for driver in scene.drivers:
-        if TIME not in driver.position.uses() and (span := until_rest(driver, scene)) is not None:
+        span = (to_and_fro if TIME in driver.position.uses() else until_rest)(driver, scene)
+        if span is not None:
             return span
     raise SceneError(
         Problem(
             "drivers",
-            "no driver makes a whole turn",
+            "no driver makes a whole turn or turns back again and again",
             "a time to end",
             "say with --from and --to which seconds to show",
         )
@@ -320,6 +322,28 @@ def turn_by_law(driver: Driver, scene: Scene) -> float | None:
             return float(high)
         if not np.isfinite(angle).all() or span > 1e6:
             return None
+        span *= 2
+    return None
+
+
+def to_and_fro(driver: Driver, scene: Scene) -> float | None:
+    """The time (s) in which a law of time moves its driver to and fro: from where it first turns
+    back to where it does so for the third time."""
+    import numpy as np
+
+    span = 1e-3
+    for _ in range(DOUBLINGS):
+        times = np.linspace(0, span, GRID + 1)
+        speed = timed(driver, dict(scene.values), times)[1]
+        if not np.isfinite(speed).all() or span > 1e6:
+            return None
+        moves = np.flatnonzero(speed)
+        back = np.flatnonzero(np.diff(np.sign(speed[moves])))
+        if back.size >= 3:
+            before, after = moves[back], moves[back + 1]
+            share = speed[before] / (speed[before] - speed[after])
+            turns = times[before] + (times[after] - times[before]) * share
+            return float(turns[2] - turns[0])
         span *= 2
     return None
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from graphkin.errors import GraphkinError
+from graphkin.errors import GraphkinError, SceneError
 from graphkin.mechanism import Mechanism
 from graphkin.motion.sweep import TURN, reach_of
 from graphkin.paper.areas import Rect
@@ -33,8 +33,10 @@ if TYPE_CHECKING:
     from graphkin.screen.sheets import ScreenSheet
 
 NO_DRIVER, NO_RANGE, NO_LINE = "moving.no_driver", "moving.no_range", "moving.no_line"
+NO_END = "moving.no_end"
 """The keys of the sentences why a page stands still: nothing drives it, it stands at a place from
-which it cannot move, or its construction is no straight line of reckoning."""
+which it cannot move, its construction is no straight line of reckoning, or nothing says how long a
+law of time is to be shown."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,10 @@ def still(mechanism: Mechanism) -> str | None:
     except GraphkinError:
         return NO_RANGE
     size = reach_of(mechanism.scene)
-    return None if tracing.reached(tracing.closed(trace, size), size) else NO_RANGE
+    try:
+        return None if tracing.reached(tracing.closed(trace, size), size) else NO_RANGE
+    except SceneError:
+        return NO_END
 
 
 def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | None:

@@ -22,6 +22,7 @@ from graphkin.paper.desk import above_foot
 from graphkin.paper.field import clipped
 from graphkin.paper.marks import Circle, Line, Mark, Polyline, Text
 from graphkin.scene.model import FRAME
+from graphkin.screen.driven import driven_by, window
 from graphkin.screen.moving import Moving, moving, still
 from graphkin.screen.sheets import ScreenSheet, screen_sheets
 from graphkin.text import words
@@ -310,3 +311,22 @@ def test_teeth_mesh_all_the_way(name):
                 assert wheel.difference(ring).area < 1e-3
         outlines.add(tuple(round(x, 4) for _, shape in shapes.values() for x in shape.bounds))
     assert len(outlines) > len(PLACES) / 2
+
+
+def by_law(law: str) -> Mechanism:
+    """A crank-rocker driven by a law of time."""
+    text = FOUR_BAR.format(a=1, b=3, c=2.5, d=3, angle=f'"{law}"').replace("speed = 10\n", "")
+    return mechanism_of(f"time = 0.25\n{text}")
+
+
+def test_a_law_that_makes_no_turn_is_shown_from_the_start_once_to_and_fro():
+    mechanism = by_law("75 + 20*sin(180*t)")
+    driven = driven_by(mechanism.scene)
+    assert driven is not None
+    assert window(driven) == pytest.approx((0, 0.25 + 2), abs=1e-6)
+    assert still(mechanism) is None
+
+
+def test_a_law_that_never_turns_back_stands_still_and_says_why():
+    mechanism = by_law("75 + 20*t/(1 + t)")
+    assert words("en")(still(mechanism) or "").startswith("No driver makes a whole turn")
