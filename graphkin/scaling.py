@@ -41,8 +41,6 @@ WANTED = {
 """The sheet on which each quantity is asked."""
 SIZES = (0.2, 1.2)
 """How large plans are drawn beside the mechanism where no crank says it: at least, at most."""
-NARROW = 45.0
-"""Least width of a plan in mm, so that its caption has room above it."""
 LADDER = 5
 """Preferred scales that are tried then, upwards from the least."""
 LARGE = (120.0, 80.0)
@@ -176,9 +174,7 @@ def finer(mechanism: Mechanism, curves: tuple[Curve, ...], chosen: Scales) -> Sc
             break
         found = replace(chosen, seconds=chosen.kL / kv)
         trials = trials_of(mechanism, curves, found)
-        widest = 1000 * max(trial.mechanism_extent().width for trial in trials)
-        needed = fitting_scale(extents(trials), WIDTH, HEIGHT)
-        if needed <= chosen.kL * (1 + 1e-12) and widest <= chosen.kL * (WIDTH - NARROW):
+        if fitting_scale(extents(trials), WIDTH, HEIGHT) <= chosen.kL * (1 + 1e-12):
             return found
     return chosen
 
@@ -233,8 +229,6 @@ def pairs_of(
         if seconds < SIZES[0] * natural / 2:
             return
         trials = trials_of(mechanism, curves, replace(free, seconds=seconds))
-        if 1000 * max(trial.mechanism_extent().width for trial in trials) > kL * (WIDTH - NARROW):
-            continue
         if fitting_scale(extents(trials), WIDTH, HEIGHT) <= kL * (1 + 1e-12):
             size = min(1000 * trial.reach / kL for trial in trials)
             shortest = shortest_plan(trials, kL)

@@ -16,7 +16,7 @@ from graphkin.lab.extents import PLANES, Sketch, sketches
 from graphkin.loci import is_closer
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import HEIGHT, WIDTH
-from graphkin.paper.scale import preferred
+from graphkin.paper.scale import NARROW, preferred
 from graphkin.scaling import HEADROOM, LITTLE, SMALL, larger_plans, scales
 
 Array = Any
@@ -203,9 +203,10 @@ def fitting(trials: list[Sketch], height: float) -> Array:
     import numpy as np
 
     across = np.max([t.mechanism_box.width + t.plan_box.width for t in trials], axis=0)
+    beside = np.max([t.mechanism_box.width for t in trials], axis=0)
     down = np.max([np.maximum(t.mechanism_box.height, t.plan_box.height) for t in trials], axis=0)
-    least = 1000 * np.maximum(across / WIDTH, down / height)
-    return first_preferred(least)
+    wide = np.maximum(across / WIDTH, beside / (WIDTH - NARROW))
+    return first_preferred(1000 * np.maximum(wide, down / height))
 
 
 def first_preferred(least: Array) -> Array:

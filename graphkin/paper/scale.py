@@ -16,6 +16,8 @@ STEPS = (1.0, 2.0, 5.0)
 """First digits of preferred scales."""
 FINE = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 """First digits of scale factors that are round enough where the preferred ones lie far apart."""
+NARROW = 45.0
+"""Least width of a plan in mm, so that its caption has room above it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,11 +125,12 @@ def fitting_scale(needs: Sequence[tuple[Extent, Extent]], width: float, height: 
     """The smallest preferred kL at which mechanism and plan stand side by side on every sheet.
 
     ``needs`` holds, for each sheet, the extents of its mechanism and of its plan drawn at the
-    mechanism's scale; the room's width and height are in mm.
+    mechanism's scale; the room's width and height are in mm. A plan takes up NARROW at least.
     """
-    across = max(mechanism.width + plan.width for mechanism, plan in needs)
-    down = max(max(mechanism.height, plan.height) for mechanism, plan in needs)
-    least = 1000 * max(across / width, down / height)
+    across = max((mechanism.width + plan.width) / width for mechanism, plan in needs)
+    beside = max(mechanism.width for mechanism, _ in needs) / (width - NARROW)
+    down = max(max(mechanism.height, plan.height) for mechanism, plan in needs) / height
+    least = 1000 * max(across, beside, down)
     if not least > 0:
         raise PageError(Problem("scale", "the mechanism has no extent", "points apart"))
     return next(preferred(least))
