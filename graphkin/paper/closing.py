@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.lines import place
-from graphkin.paper.naming import amount, way_of
+from graphkin.paper.naming import drawn_amount, way_of
 from graphkin.paper.pairs import heading
 from graphkin.paper.richtext import escape
 from graphkin.paper.sentence import Sentence
@@ -61,7 +61,7 @@ def found_place(drawing: Drawing, step: Step) -> dict[str, str]:
     assert zero is not None
     side = heading(drawing.trace.values[step.args[0]].along * (-1 if size < 0 else 1))
     return {
-        "what": amount(drawing, abs(size)),
+        "what": drawn_amount(drawing, abs(size)),
         "side": drawing.words(f"page.{side}"),
         "zero": place(drawing, path.on, zero),
     }

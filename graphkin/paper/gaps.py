@@ -16,6 +16,7 @@ from graphkin.paper.misses import tried_link
 from graphkin.paper.naming import (
     amount,
     beyond,
+    drawn_amount,
     drawn_between,
     index_of,
     names_in,
@@ -238,14 +239,15 @@ def sliding_vector(drawing: Drawing, step: Step, number: int) -> str:
 
 
 def coordinate(drawing: Drawing, step: Step) -> str:
-    """The coordinate at which a driven link stands along its guide or track."""
+    """The coordinate at which a link stands on its guide or track, given or as it is drawn."""
     number = step.args[1]
-    size = amount(drawing, float(drawing.trace.values[number]))
+    size = float(drawing.trace.values[number])
     drivers = drawing.scene.drivers
     given = drawing.trace.program.steps[number]
     if given.given is None or given.name != "s":
-        return size
-    return f"{angle_symbol(drawing.scene, drivers[int(given.says['d'])])} = {size}"
+        return drawn_amount(drawing, size)
+    name = angle_symbol(drawing.scene, drivers[int(given.says["d"])])
+    return f"{name} = {amount(drawing, size)}"
 
 
 def derived(drawing: Drawing, number: int) -> str:

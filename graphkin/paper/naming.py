@@ -104,6 +104,11 @@ def amount(drawing: Drawing, metres: float) -> str:
     return f"{figure(drawing, drawing.length(metres))} {drawing.scene.units['length']}"
 
 
+def drawn_amount(drawing: Drawing, metres: float) -> str:
+    """How long a length of the mechanism is drawn."""
+    return f"{drawing.words.fixed(1000 * metres / drawing.scales.kL, 2)} mm"
+
+
 def plan_amount(drawing: Drawing, size: float, plane: Plane) -> str:
     """How a vector of a given size is drawn in a plan."""
     return f"{in_mm(drawing.words, 1000 * size / scale_of(drawing, plane))} mm"

@@ -6,7 +6,7 @@ from math import degrees
 
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.lines import straight
-from graphkin.paper.naming import amount, rate_symbol
+from graphkin.paper.naming import amount, drawn_amount, rate_symbol
 from graphkin.paper.richtext import escape
 from graphkin.paper.sentence import Sentence, together
 from graphkin.paper.symbolic import symbol
@@ -49,8 +49,8 @@ def is_halfway(drawing: Drawing, where: Step) -> bool:
 
 
 def arc_rolled(drawing: Drawing, step: Step) -> str:
-    """The arc by which a rack has moved since the start."""
-    return amount(drawing, abs(float(drawing.trace.values[step.args[-1]])))
+    """The arc by which a rack has moved since the start, as long as it is drawn."""
+    return drawn_amount(drawing, abs(float(drawing.trace.values[step.args[-1]])))
 
 
 def rolling_rate(drawing: Drawing, wheel: int, track: int) -> str:

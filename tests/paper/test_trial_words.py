@@ -177,8 +177,8 @@ def test_the_place_that_closes_a_group_is_told_in_figures(higher):
         if tried and key in ("arm", "guide-back", "set-at"):
             markup = next(one.markup for one in said if number in behind(drawing, one))
             if key == "set-at":
-                size = abs(drawing.length(float(drawing.trace.values[step.args[1]])))
-                figure = f"{drawing.words.significant(size, 5)} {drawing.scene.units['length']}"
+                size = abs(float(drawing.trace.values[step.args[1]]))
+                figure = f"{drawing.words.fixed(1000 * size / drawing.scales.kL, 2)} mm"
             else:
                 way = (
                     value.along

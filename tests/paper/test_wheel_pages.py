@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from shapely import LineString, Point
 
@@ -196,8 +198,19 @@ def test_a_rate_is_told_where_it_is_taken_first():
 def test_how_far_a_wheel_or_a_rack_has_come_is_told_by_its_number():
     assert "for link 2 has turned by −18.0° since the start: B" in said("gears-pair")[2]
     assert (
-        "by the arc that the wheel has turned through since, 41.888 mm: B" in said("gears-rack")[1]
+        "by the arc that the wheel has turned through since, 41.89 mm: B" in said("gears-rack")[1]
     )
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+def test_a_place_that_was_found_is_told_in_millimetres_of_paper(language):
+    drawing = drawings("rod-and-wheel", language=language)[0]
+    told = plain(sentences(drawing)[1].markup)
+    figure = re.search(r"(\d+[.,]\d\d) mm", told)
+    field = lay_out(drawing).mechanism
+    from_zero = field(drawing.positions["C"])[0] - field(drawing.positions["R"])[0]
+    assert figure is not None
+    assert float(figure[1].replace(",", ".")) == pytest.approx(-from_zero, abs=0.005)
 
 
 @pytest.mark.parametrize(
