@@ -7,7 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.field import Field
 from graphkin.paper.marks import Circle, Line, Mark, Text
+from graphkin.paper.resting import ground_of
 from graphkin.paper.richtext import extent
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.stages import stage_of
@@ -22,7 +24,11 @@ AMONG = "; "
 
 
 def appearing(
-    drawing: Drawing, marks: Sequence[Mark], staged: dict[int, int], said: Sequence[Sentence]
+    drawing: Drawing,
+    field: Field,
+    marks: Sequence[Mark],
+    staged: dict[int, int],
+    said: Sequence[Sentence],
 ) -> Iterator[tuple[int, Mark]]:
     """The marks of a field, each with the sentence at which it appears.
 
@@ -31,12 +37,12 @@ def appearing(
     """
     if not marks:
         return
-    named = marks[0]
+    named, ground = marks[0], ground_of(drawing, field)
     for mark, after in zip(marks, (*marks[1:], marks[-1]), strict=True):
         named = mark if mark.name else named
         framed, sense = (mark.cls.split()[-1] == cls for cls in ("number", "sense"))
         beside = named if sense else after if framed and not mark.name else mark
-        yield stage_of(drawing, beside, staged, said), mark
+        yield stage_of(drawing, beside, staged, said, ground), mark
 
 
 def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:

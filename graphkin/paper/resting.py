@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.field import Field
 from graphkin.paper.marks import Mark
 from graphkin.paper.plates import corners_of, farthest
-from graphkin.paper.slides import places_of
-from graphkin.paper.wheels import is_all_wheel
+from graphkin.paper.slides import frame_guides, places_of
+from graphkin.paper.wheels import is_all_wheel, straight_tracks
 from graphkin.scene.model import FRAME, Driver, Link
 from graphkin.steps.program import CONTACT
 
@@ -18,6 +19,22 @@ DRIVEN = ("x", "axis", "phi", "omega", "s", "speed")
 
 BODY = ("plate", "link", "number", "label", "leader")
 """The classes of a link's bar or plate, and of its number."""
+
+
+def ground_of(drawing: Drawing, field: Field) -> Mapping[Mark, tuple[Target, ...]]:
+    """The guides and straight tracks of the frame, each with the points about which it is drawn.
+
+    Their lines alone, across the field, tell nothing of where blocks and wheels stand.
+    """
+    found: dict[Mark, tuple[Target, ...]] = {}
+    links = drawing.scene.links
+    for blocks, marks in frame_guides(drawing, field):
+        about = tuple(("position", links[block].points[0]) for block in blocks)
+        found |= dict.fromkeys(marks, about)
+    for touch, marks in straight_tracks(drawing, field):
+        if touch.rolling.on == FRAME:
+            found |= dict.fromkeys(marks, (("position", touch.disc.wheel.centre),))
+    return found
 
 
 def rests_on(drawing: Drawing, mark: Mark) -> Iterator[Target]:

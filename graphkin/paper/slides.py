@@ -46,13 +46,15 @@ ALIKE = 1e-6
 class Rail:
     """A straight line of one link that blocks slide on, with the places of what is on it.
 
-    ``marks`` are coordinates along the line, in metres from ``zero``; ``slots`` those of pins.
+    ``marks`` are coordinates of ``blocks`` along the line, in metres from ``zero``; ``slots`` those
+    of pins.
     """
 
     owner: str
     zero: complex
     along: complex
     marks: list[float] = field(default_factory=list)
+    blocks: list[str] = field(default_factory=list)
     slots: list[tuple[float, str]] = field(default_factory=list)
 
     def holds(self, owner: str, point: complex, along: complex, near: float) -> bool:
@@ -99,6 +101,7 @@ def rails_of(drawing: Drawing) -> list[Rail]:
             rail.slots.append((rail.along_of(way.at), way.block))
         else:
             rail.marks.append(rail.along_of(seat(drawing, way)))
+            rail.blocks.append(way.block)
     return found
 
 
@@ -114,21 +117,29 @@ def seat(drawing: Drawing, way: Guideway) -> complex:
 
 def draw_frame_guides(board: Board, drawing: Drawing, field: Field) -> None:
     """The hatched sides of the frame's guides and slots, and the blocks between them."""
+    for _, marks in frame_guides(drawing, field):
+        board.marks += marks
+    for guideway in drawing.standing.guideways:
+        if guideway.slide.on == FRAME and not guideway.slide.pin:
+            here, way = field(seat(drawing, guideway)), field.way(guideway.along)
+            board.marks.append(block(here, way, guideway.block, "slider"))
+
+
+def frame_guides(drawing: Drawing, field: Field) -> Iterator[tuple[list[str], list[Mark]]]:
+    """The drawn parts of the frame's guides and slots, each with the blocks about which it lies."""
     for rail in rails_of(drawing):
         if rail.owner != FRAME:
             continue
         at, way = field(rail.zero), field.way(rail.along)
         parts = [clear_of_pivots(drawing, field, rail, mark * field.mm) for mark in rail.marks]
         for low, high in merged(parts):
-            board.marks += within(rails(at, way, low, high), field.rect)
+            own = zip(rail.blocks, parts, strict=True)
+            about = [name for name, part in own if low <= part[0] and part[1] <= high]
+            yield about, list(within(rails(at, way, low, high), field.rect))
         for coordinate, name in rail.slots:
             low, high = coordinate * field.mm - STROKE, coordinate * field.mm + STROKE
-            board.marks += within(slot_ground(at, way, low, high), field.rect)
-            board.marks.append(slot(at, way, low, high, name))
-    for guideway in drawing.standing.guideways:
-        if guideway.slide.on == FRAME and not guideway.slide.pin:
-            here, way = field(seat(drawing, guideway)), field.way(guideway.along)
-            board.marks.append(block(here, way, guideway.block, "slider"))
+            ground = within(slot_ground(at, way, low, high), field.rect)
+            yield [name], [*ground, slot(at, way, low, high, name)]
 
 
 def clear_of_pivots(drawing: Drawing, field: Field, rail: Rail, middle: Real) -> tuple[Real, Real]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from graphkin.paper.closing import IDLE
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Mark
-from graphkin.paper.resting import rests_on
+from graphkin.paper.resting import Target, rests_on
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.standing import lettered
 from graphkin.paper.tips import set_before
@@ -77,10 +77,17 @@ def behind(program: Program, numbers: Iterable[int]) -> set[int]:
     return found
 
 
-def stage_of(drawing: Drawing, mark: Mark, staged: dict[int, int], said: Sequence[Sentence]) -> int:
+def stage_of(
+    drawing: Drawing,
+    mark: Mark,
+    staged: dict[int, int],
+    said: Sequence[Sentence],
+    ground: Mapping[Mark, tuple[Target, ...]],
+) -> int:
     """The sentence at which a mark of a field appears; BEFORE for what stands from the start.
 
-    A mark that belongs to no step appears with the last of what it rests on.
+    A mark that belongs to no step appears with the last of what it rests on: one of the ``ground``
+    with the points about which it is drawn.
     """
     if mark.step is not None:
         return staged.get(mark.step, BEFORE)
@@ -90,7 +97,8 @@ def stage_of(drawing: Drawing, mark: Mark, staged: dict[int, int], said: Sequenc
     if told is not None:
         return told
     targets = drawing.trace.program.targets
-    numbers = (targets[target] for target in rests_on(drawing, mark) if target in targets)
+    rests = ground[mark] if mark in ground else rests_on(drawing, mark)
+    numbers = (targets[target] for target in rests if target in targets)
     idle = (stage for stage, one in enumerate(said) if one.name == IDLE + mark.name)
     return max((*idle, *(settled(drawing, number, staged) for number in numbers)), default=BEFORE)
 

@@ -34,9 +34,15 @@ def draw_wheels(board: Board, drawing: Drawing, field: Field) -> None:
 
 def draw_tracks(board: Board, drawing: Drawing, field: Field) -> None:
     """The straight tracks that wheels roll on."""
+    for _, marks in straight_tracks(drawing, field):
+        board.marks += marks
+
+
+def straight_tracks(drawing: Drawing, field: Field) -> Iterator[tuple[Touch, list[Mark]]]:
+    """The marks of each straight track, with where its wheel touches it."""
     for touch in drawing.standing.touches:
         if touch.zero is not None:
-            board.marks += within(track(drawing, field, touch), field.rect)
+            yield touch, list(within(track(drawing, field, touch), field.rect))
 
 
 def draw_fixed_wheels(board: Board, drawing: Drawing, field: Field) -> None:

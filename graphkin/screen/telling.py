@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import crossings_on
 from graphkin.paper.marks import Circle, Mark, Text
+from graphkin.paper.resting import ground_of
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import sentences
 from graphkin.paper.stages import behind, stage_of, stages
@@ -233,10 +234,12 @@ def timed_marks(
 ) -> tuple[Timed, ...]:
     """The marks of a sheet with the sentences that draw them."""
     found, touched = [], dict(contacts(sheet))
+    ground = ground_of(sheet.drawing, sheet.layout.mechanism)
     for mark in (*sheet.left, *sheet.right):
         step = touched.get(mark)
         if step is None:
-            step, stage = step_of(sheet.drawing, mark), stage_of(sheet.drawing, mark, staged, own)
+            step = step_of(sheet.drawing, mark)
+            stage = stage_of(sheet.drawing, mark, staged, own, ground)
         else:
             stage = staged[step]
         found.append(Timed(mark, before + stage + 1 if stage >= 0 else 0, step))

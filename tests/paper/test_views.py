@@ -13,11 +13,14 @@ from graphkin.handout import drawings_of, hand_out
 from graphkin.mechanism import Mechanism, load
 from graphkin.paper.appear import grown
 from graphkin.paper.areas import AREA
+from graphkin.paper.layout import lay_out
 from graphkin.paper.marks import Circle, Line, Text, reach
 from graphkin.paper.richtext import extent
 from graphkin.paper.sentences import sentences
+from graphkin.paper.slides import frame_guides
 from graphkin.paper.style import NOW, TINTS, style_of
-from graphkin.scene.model import Ask
+from graphkin.paper.wheels import straight_tracks
+from graphkin.scene.model import FRAME, Ask
 from graphkin.steps.solution import Verdict
 from graphkin.text import words as words_of
 from tests.mechanisms import mechanism_of
@@ -103,6 +106,26 @@ def test_nothing_that_stands_goes_away_or_moves(name):
     for steps in pages(name, "steps").values():
         for before, after in itertools.pairwise(steps):
             assert drawn(before) <= drawn(after)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_guides_and_tracks_stand_no_earlier_than_what_they_are_drawn_about(name):
+    """Their lines alone do; where along them a block or a wheel stands is not given away."""
+    mechanism = load(name, **({"n": 7} if name == "pump" else {}))
+    verdict = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    first, *_ = drawings_of(mechanism, verdict, words_of("en"))
+    field, links = lay_out(first).mechanism, first.scene.links
+    ground = [([links[b].points[0] for b in own], m) for own, m in frame_guides(first, field)]
+    tracks = straight_tracks(first, field)
+    ground += [([touch.disc.wheel.centre], m) for touch, m in tracks if touch.rolling.on == FRAME]
+    (key,), (task,) = pages(name, "key")["velocity"], pages(name, "task")["velocity"]
+    for page in pages(name, "steps")["velocity"]:
+        pins = {mark.name for mark in page.marks if mark.cls.split()[0] == "pin"}
+        seen = {without_now(mark) for mark in page.marks}
+        for points, marks in ground:
+            assert {*marks} <= {*key.marks}
+            assert ({*marks} <= seen) is ({*points} <= pins)
+            assert {*points} <= pins or not ({*marks} - {*task.marks}) & seen
 
 
 @pytest.mark.parametrize("name", ALL)
