@@ -6,12 +6,17 @@ from collections.abc import Iterator, Mapping
 
 from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.field import Field
+from graphkin.paper.labels import Board
+from graphkin.paper.layout import arc_span
 from graphkin.paper.lines import place
+from graphkin.paper.marks import Arc
 from graphkin.paper.naming import drawn_amount, way_of
 from graphkin.paper.pairs import heading
 from graphkin.paper.richtext import escape
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.plane import Circle
 from graphkin.scene.model import Rolling, Slide
 from graphkin.steps.program import Part, Plane, Step
 
@@ -33,11 +38,37 @@ def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
     fields["q"] = symbol(says["q"])
     if "g" in says:
         return drawing.words("step.close-guide", guide=way_of(drawing, says["g"]), **fields)
-    known = [drawing.trace.program.targets["position", says[end]] < number for end in "pq"]
-    fixed, moving = ("q", "p") if known[1] else ("p", "q")
-    fields |= {"p": symbol(says[fixed]), "q": symbol(says[moving])}
-    key = "step.close-bar" if any(known) else "step.close-gap"
+    fixed, moving = ends_of_bar(drawing, number, step)
+    fields |= {"p": symbol(fixed or says["p"]), "q": symbol(moving)}
+    key = "step.close-bar" if fixed else "step.close-gap"
     return drawing.words(key, bar=bar(says["p"], says["q"]), **fields)
+
+
+def ends_of_bar(drawing: Drawing, number: int, step: Step) -> tuple[str, str]:
+    """The ends of the bar that a group is cut at: one that stands, if any does; a moving one."""
+    first, second = step.says["p"], step.says["q"]
+    stands = {p for p in (first, second) if drawing.trace.program.targets["position", p] < number}
+    if second in stands:
+        return second, first
+    return first if first in stands else "", second
+
+
+def draw_closing_arcs(board: Board, drawing: Drawing, field: Field) -> None:
+    """Of the arc that a locus is cut by, where a group closes, the part that finds the pin."""
+    for number, step, _ in drawing.steps(Plane.NUMBERS):
+        if (
+            step.action is None
+            or step.action.key != "close"
+            or not {"d", "g"}.isdisjoint(step.says)
+        ):
+            continue
+        fixed, moving = ends_of_bar(drawing, number, step)
+        if fixed:
+            centre, pin = drawing.positions[fixed], drawing.positions[moving]
+            circle = Circle(centre, abs(pin - centre))
+            span, name = arc_span(circle, [pin], field.mm), step.says["p"] + step.says["q"]
+            radius = circle.radius * field.mm
+            board.marks.append(Arc(*field(centre), radius, *span, "compass", name, number))
 
 
 def links_drawn(drawing: Drawing, says: Mapping[str, str]) -> list[str]:

@@ -9,6 +9,7 @@ from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, inputs, mechanism
 from graphkin.paper.areas import A3_AREA, AREA, BELOW, MARKED, TABLES
 from graphkin.paper.captions import headlines
+from graphkin.paper.closing import draw_closing_arcs
 from graphkin.paper.data import given
 from graphkin.paper.desk import Desk, above_foot
 from graphkin.paper.detail import parted
@@ -149,6 +150,7 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> Board:
     mechanism.draw_plates(board, drawing, field)
     draw_curves(board, drawing, field, above_foot(field.rect))
     construct.draw_mechanism_steps(desk, found=True)
+    draw_closing_arcs(board, drawing, field)
     loci = list(board.marks)
     mechanism.draw_ground(board, drawing, field)
     mechanism.draw_guides(board, drawing, field)

@@ -17,6 +17,8 @@ READ_OFF = ("set-on", "set-on-twice")
 """Arrows on the mechanism, which the last sentence asks for."""
 AT_LAST = ("detail", "note")
 """The names of marks that stand when all is drawn."""
+PINS = ("pin", "hinge", "label", "leader")
+"""The classes of a pin, and of its letter."""
 TOLD_BY = {"fixed-centrode": "moving-centrode"}
 """The names of sentences that tell of a curve of another kind than their name."""
 BEFORE = -1
@@ -93,7 +95,9 @@ def stage_of(
         return staged.get(mark.step, BEFORE)
     if mark.name in AT_LAST:
         return len(said) - 1
-    told = stage_of_curve(drawing, mark, said)
+    told = stage_of_closing(drawing, mark, said)
+    if told is None:
+        told = stage_of_curve(drawing, mark, said)
     if told is not None:
         return told
     targets = drawing.trace.program.targets
@@ -123,6 +127,13 @@ def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> in
             stages = [stage for stage, sentence in enumerate(said) if sentence.name == name]
             return stages[min(alike.index(curve.of), len(stages) - 1)]
     return None
+
+
+def stage_of_closing(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
+    """The sentence that closes a group at a pin, for the pin's marks; None for all others."""
+    if mark.cls.split()[0] not in PINS or mark.name in drawing.scene.links:
+        return None
+    return next((at for at, one in enumerate(said) if mark.name in traced(drawing, one)), None)
 
 
 def traced(drawing: Drawing, said: Sentence) -> list[str]:

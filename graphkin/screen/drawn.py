@@ -10,6 +10,7 @@ from typing import Any
 from graphkin.arithmetic import larger, pick, smaller
 from graphkin.paper.centre import FAR as ENDLESS
 from graphkin.paper.centre import STRAIGHT
+from graphkin.paper.closing import ends_of_bar
 from graphkin.paper.desk import TINY, above_foot
 from graphkin.paper.images import undrawn_sides
 from graphkin.paper.layout import BEYOND, SWEEP
@@ -95,19 +96,24 @@ class Steps(Seen):
     def arc(self, number: int) -> Binding | None:
         """A compass arc about the points on it, or the one that turns a length over."""
         if self.key(number) == "turn-over":
-            tail, tip = self.ends[number]
-            lift, mm = self.bench.shelf.lifted, self.bench.field.mm
-            way, degrees = lift(tip - tail), 180 / pi
-            radius = abs(way)
-            bearing = way.imag.do("atan2", way.real) * degrees
-            half = smaller(degrees * SWEEP / 2 / (radius * mm), 60.0)
-            span = (bearing - half, bearing + half)
-            return self.bench.arc(tail, radius, span, radius * mm - SHORT)
+            return self.arc_about(*self.ends[number], SWEEP / 2)
+        if self.key(number) == "close":
+            drawing, spots = self.bench.places.drawing, self.bench.places.spots
+            centre, pin = ends_of_bar(drawing, number, self.step(number))
+            return self.arc_about(spots[centre], spots[pin], SWEEP)
         value = self.value(number)
         if not isinstance(value, Round):
             return None
         span = self.bench.places.arc_span(number, self.bench.field.mm)
         return self.bench.arc(value.centre, value.radius, span)
+
+    def arc_about(self, tail: Any, tip: Any, sweep: float) -> Binding:
+        """An arc about a centre through a point, so many mm of it on both sides of that."""
+        way, mm, degrees = self.bench.shelf.lifted(tip - tail), self.bench.field.mm, 180 / pi
+        radius = abs(way)
+        bearing = way.imag.do("atan2", way.real) * degrees
+        half = smaller(degrees * sweep / (radius * mm), 60.0)
+        return self.bench.arc(tail, radius, (bearing - half, bearing + half), radius * mm - SHORT)
 
     def polygon(self, number: int, mark: Polyline) -> Binding | None:
         """An arrowhead, the mark of a right angle, or the inflection circle."""
