@@ -58,7 +58,7 @@ def all_rows(
 ) -> Iterator[Row]:
     """All lines in order, relations numbered through."""
     number = 0
-    for section, found in relations(drawings):
+    for section, found in relations(drawings, solved=solved):
         if not found:
             continue
         yield Row(drawings[0].words(f"calculation.{section}"), heading=True)
@@ -80,7 +80,9 @@ def broken(
         for part in parts
         for piece in (words_of(part) if extent(part, LETTER)[0] > room else [part])
     ]
-    if relation.result and not solved:
+    if relation.blank and not solved:
+        parts = [*parts[:-1], f"{parts[-1]} {relation.blank[0]}", *relation.blank[1:]]
+    elif relation.result and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
         if relation.unit.startswith("rad/"):
             parts.append(f"({drawing.words('table.sense')}: {BLANK.rstrip()})")

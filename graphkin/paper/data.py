@@ -10,7 +10,7 @@ from graphkin.paper.lines import axis_of
 from graphkin.paper.pairs import closures, of_guide, tracks, wheels
 from graphkin.paper.relation import figure
 from graphkin.paper.richtext import escape
-from graphkin.paper.settings import after_parameter, other_parameters
+from graphkin.paper.settings import after_parameter, is_derived, other_parameters, reckoned
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.model import (
     FRAME,
@@ -27,12 +27,19 @@ from graphkin.scene.quantity import Quantity
 from graphkin.text import MINUS, Words
 
 
-def given(drawing: Drawing) -> list[str]:
-    """The data of a scene as short pieces of markup, in the order of the scene."""
+def given(drawing: Drawing, *, solved: bool = True) -> list[str]:
+    """The data of a scene as short pieces of markup, in the order of the scene.
+
+    Unless ``solved``, without the numbers that a student reckons from the parameters.
+    """
     scene, words = drawing.scene, drawing.words
     return [
         *other_parameters(scene, words),
-        *(piece for driver in scene.drivers for piece in of_driver(scene, words, driver)),
+        *(
+            piece
+            for driver in scene.drivers
+            for piece in of_driver(scene, words, driver, solved=solved)
+        ),
         *lengths(scene, words),
         *fixed_points(scene, words),
         *plates(drawing),
@@ -56,21 +63,31 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
         yield words("page.apart", ka=figure(drawing, scales.ka / 1000))
 
 
-def of_driver(scene: Scene, words: Words, driver: Driver) -> Iterator[str]:
+def of_driver(scene: Scene, words: Words, driver: Driver, *, solved: bool = True) -> Iterator[str]:
     """Position, speed and acceleration of a driver."""
     speed = "*v*"
     if driver.kind == "turn":
         speed = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
     index = f"_{{{driver_index(driver)}}}"
-    angle = in_degrees(scene, words, driver.position)
-    place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
-    yield f"{angle_symbol(scene, driver)} = {place}"
+    if solved or not reckoned(scene, driver.position):
+        angle = in_degrees(scene, words, driver.position)
+        place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
+        yield f"{angle_symbol(scene, driver)} = {place}"
     steady = driver.acceleration.is_zero()
-    tail = f" = {words('page.constant')}" if steady else ""
-    yield f"{speed}{index} = {with_sense(scene, words, driver, driver.speed, tail)}"
+    rates = [(f"{speed}{index}", driver.speed, [words("page.constant")] if steady else [])]
     if not steady:
         rate = "*ε*" if driver.kind == "turn" else "*a*"
-        yield f"{rate}{index} = {with_sense(scene, words, driver, driver.acceleration)}"
+        rates.append((f"{rate}{index}", driver.acceleration, []))
+    for name, quantity, constant in rates:
+        if not solved and is_derived(quantity):
+            continue  # its law tells its sense, too
+        size, sense = with_sense(scene, words, driver, quantity)
+        told = [size] if solved or not reckoned(scene, quantity) else []
+        parts = [name, *told, *constant]
+        if len(parts) > 1:
+            yield " = ".join(parts) + (f", {sense}" if sense else "")
+        elif sense:
+            yield f"{name}: {sense}"
 
 
 def driver_index(driver: Driver) -> str:
@@ -79,18 +96,15 @@ def driver_index(driver: Driver) -> str:
     return index if driver.against == FRAME else f"{index}/{escape(driver.against)}"
 
 
-def with_sense(
-    scene: Scene, words: Words, driver: Driver, quantity: Quantity, tail: str = ""
-) -> str:
+def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -> tuple[str, str]:
     """A driver's speed or acceleration; of a crank the magnitude, and its sense in words."""
     value = float(quantity.si(scene.values))
     if driver.kind != "turn" or not value:
-        return after_parameter(scene, words, quantity) + tail
+        return after_parameter(scene, words, quantity), ""
     if value > 0:
-        size, key = after_parameter(scene, words, quantity), "page.turning_anticlockwise"
-    else:
-        size, key = written(scene, words, quantity).removeprefix(MINUS), "page.turning_clockwise"
-    return f"{size}{tail}, {words(key)}"
+        return after_parameter(scene, words, quantity), words("page.turning_anticlockwise")
+    size = written(scene, words, quantity).removeprefix(MINUS)
+    return size, words("page.turning_clockwise")
 
 
 def angle_symbol(scene: Scene, driver: Driver) -> str:

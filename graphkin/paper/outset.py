@@ -12,7 +12,7 @@ from graphkin.paper.rates import of_sum
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.richtext import escape
 from graphkin.paper.scale import digits
-from graphkin.paper.settings import lone
+from graphkin.paper.settings import is_derived, reckoned
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import sense
 from graphkin.scene.expression import CONSTANT
@@ -37,18 +37,17 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
         (f"{speed}{index}", driver.speed),
         (f"{rate}{index}", driver.acceleration),
     ):
-        derived = "/dt" in quantity.text  # figures are put in only after it is derived
-        reckoned = quantity.uses() and not lone(scene, quantity)
-        if reckoned or (derived and not quantity.is_zero()):
+        derived = is_derived(quantity)  # figures are put in only after it is derived
+        if reckoned(scene, quantity):
             value = written(scene, words, quantity)
-            amount, _, unit = value.partition(" ")
+            amount, _, unit = value.removesuffix("°").partition(" ")
             figures = "" if derived else expression(drawing, quantity, values=True)
             yield Relation(
                 letter,
                 expression(drawing, quantity, values=False),
-                figures if figures != amount.rstrip("°") else "",
+                figures if figures != amount else "",
                 amount,
-                unit,
+                "°" if value.endswith("°") else unit,
             )
     if driver.kind != "turn":
         return

@@ -15,7 +15,8 @@ class Relation:
     """left = symbols = figures = result unit, remark; ``more`` are further words after ``left``.
 
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
-    of the length that it takes.
+    of the length that it takes. ``blank``: what a form has for a result that is no single number,
+    and how it is counted.
     """
 
     left: str
@@ -27,6 +28,7 @@ class Relation:
     more: tuple[str, ...] = ()
     equals: str = "="
     over: tuple[str, str] | None = None
+    blank: tuple[str, ...] = ()
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""
@@ -39,7 +41,8 @@ class Relation:
             return [*pieces, "="]
         if self.figures:
             pieces.append(f"= {self.figures}")
-        pieces.append(f"{self.equals} {self.result} {self.unit}".strip())
+        space = "" if self.unit == "°" else " "
+        pieces.append(f"{self.equals} {self.result}{space}{self.unit}".strip())
         if self.remark:
             pieces.append(f"({self.remark})")
         return pieces

@@ -6,6 +6,7 @@ What was laid off, what was crossed, and what follows by length.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
@@ -26,13 +27,18 @@ from graphkin.steps.program import Part, Plane, Step
 Section = tuple[str, list[Relation]]
 GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
 """What two trial plans miss."""
+ROOM = ". . . . . . . ."
+"""Room to write a coordinate in."""
 
 
-def relations(drawings: Sequence[Drawing]) -> list[Section]:
-    """The sections of the calculation, in the order of the work."""
+def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Section]:
+    """The sections of the calculation, in the order of the work.
+
+    The data of one that is not solved leave out what it asks.
+    """
     first = drawings[0]
     sections: list[Section] = [
-        ("data", [data_line(first)]),
+        ("data", [data_line(first, solved=solved)]),
         ("driver", [r for d in first.scene.drivers for r in of_driver(first, d)]),
         ("scales", list(of_scales(first))),
     ]
@@ -107,9 +113,9 @@ def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
             yield relation
 
 
-def data_line(drawing: Drawing) -> Relation:
+def data_line(drawing: Drawing, *, solved: bool) -> Relation:
     """The data, as one relation that may be broken after each piece."""
-    *pieces, last = given(drawing)
+    *pieces, last = given(drawing, solved=solved)
     first, *more = [f"{piece};" for piece in pieces] + [last]
     return Relation(first, more=tuple(more))
 
@@ -233,13 +239,23 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
         if step.part is not part or not isinstance(value, Ratio) or not step.name:
             continue
         point = drawing.place(value)
+        blank = blank_place(drawing)
         if point is None:
             everywhere = drawing.is_everywhere(value)
             key, equals = ("everywhere", "=") if everywhere else ("at_infinity", "")
             said = drawing.words(f"calculation.{key}")
-            yield Relation(symbol(step.name), result=said, equals=equals)
+            yield Relation(symbol(step.name), result=said, equals=equals, blank=blank)
         else:
-            yield of_place(drawing, symbol(step.name), point)
+            yield replace(of_place(drawing, symbol(step.name), point), blank=blank)
+
+
+def blank_place(drawing: Drawing) -> tuple[str, str]:
+    """Room for a place, and from where it is counted."""
+    words, pivots = drawing.words, drawing.scene.frame.points
+    pair = f"({ROOM}; {ROOM})"
+    if not pivots:
+        return f"{pair} {drawing.scene.units['length']}", f"({words('calculation.axes')})"
+    return f"{pair} mm", f"({words('calculation.from_pivot', pivot=symbol(pivots[0]))})"
 
 
 def of_place(drawing: Drawing, name: str, point: complex) -> Relation:

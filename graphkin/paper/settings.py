@@ -57,6 +57,17 @@ def lone(scene: Scene, quantity: Quantity) -> str:
     return quantity.text if quantity.text in scene.values and quantity.text != TIME else ""
 
 
+def reckoned(scene: Scene, quantity: Quantity) -> bool:
+    """Whether a relation of its own tells how a driver's quantity follows from the parameters."""
+    derived = is_derived(quantity) and not quantity.is_zero()
+    return derived or (bool(quantity.uses()) and not lone(scene, quantity))
+
+
+def is_derived(quantity: Quantity) -> bool:
+    """Whether a rate follows from the law of time of a position or a speed."""
+    return "/dt" in quantity.text
+
+
 def shown_quantities(scene: Scene) -> Iterator[Quantity]:
     """The quantities of the data beside which their parameter is printed."""
     for driver in scene.drivers:

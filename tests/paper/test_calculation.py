@@ -10,6 +10,7 @@ import pytest
 import shapely
 
 from graphkin.paper.marks import Page, reach
+from graphkin.text import LANGUAGES, words
 from tests.mechanisms import SHIPPED
 from tests.paper.sheet_tools import (
     DRAWN,
@@ -89,15 +90,17 @@ def test_the_relations_are_numbered_from_one_without_a_gap(pages):
 
 
 def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages):
-    key, task = (relation_lines(form) for form in pages)
+    key, task = (after_data(relation_lines(form)) for form in pages)
     assert [number for number, _ in key] == [number for number, _ in task]
     for (number, solved), (_, blank) in zip(key, task, strict=True):
         if not number:
             assert solved == blank
             continue
-        symbols, dots, unit = re.fullmatch(r"(.*) =((?: \.){10,}) ?(.*)", blank).groups()
-        if solved == f"{symbols} at infinity":
+        place = re.fullmatch(r"(.*) = \((?:\. )*\.; (?:\. )*\.\) (?:mm|cm|m) \([^)]*\)", blank)
+        if place:
+            assert solved.startswith((f"{place[1]} = ", f"{place[1]} at infinity"))
             continue
+        symbols, dots, unit = re.fullmatch(r"(.*) =((?: \.){10,}) ?(.*)", blank).groups()
         assert solved.startswith(f"{symbols} = "), (solved, blank)
         unit, has_sense, sense = unit.partition(" (")
         assert bool(has_sense) is unit.startswith("rad/"), blank
@@ -105,6 +108,34 @@ def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages
         assert dots and not re.search(r"\d", unit.replace("^2", "")), blank
         rest = solved.removeprefix(f"{symbols} = ")
         assert unit in rest, (solved, blank)
+
+
+def after_data(lines):
+    """The relations after the data, of which a form leaves out what it asks."""
+    heads = {words(c)(f"calculation.{of}") for c in LANGUAGES for of in ("driver", "scales")}
+    return lines[next(i for i, (_, line) in enumerate(lines) if line in heads) :]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_form_gives_only_the_parameters_of_what_it_asks(language):
+    key, task = (relation_lines(calculations("pump", 28, of, language)) for of in ("key", "task"))
+    given = [line for number, line in task[: task.index(after_data(task)[0])] if not number]
+    asked = dict(task)
+    assert "*n* = 28;" in " ".join(given)
+    assert words(language)("page.turning_anticlockwise") in " ".join(given)
+    assert not re.search(r"\b(86|580)\b", " ".join(line for _, line in task))
+    assert "*φ* = 86°;" in " ".join(line for _, line in key)
+    assert asked["1"].startswith("*φ* = 30 + 2·*n* = . .") and asked["1"].endswith(". °")
+    assert dict(key)["1"] == "*φ* = 30 + 2·*n* = 30 + 2·28 = 86°"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_form_says_from_where_a_place_is_counted(language):
+    lines = [line for _, line in relation_lines(calculations("pump", 28, "task", language))]
+    places = [line for line in lines if re.match(r"\*[IJ]\*_\{?\d", line)]
+    said = words(language)("calculation.from_pivot", pivot="*O*_{1}")
+    assert len(places) == 3
+    assert all(line.endswith(f") mm ({said})") for line in places), places
 
 
 def test_a_task_has_no_figures_but_those_of_the_data_and_of_the_laws(pages):
