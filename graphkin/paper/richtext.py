@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 from graphkin.errors import PageError, Problem
@@ -18,6 +19,8 @@ from graphkin.paper.glyphs import advance, ink, known, size_for
 SUB, SUP, SMALL = 0.24, -0.48, 0.70  # em: shifts (y down) and size of scripts
 OVERHANG = {"f": 0.14}
 """How far, in em, slanted letters reach over an upright sign or an exponent after them."""
+CLEAR = 0.1
+"""The least room, in mm, between signs of lines above one another."""
 STACKED = 2
 """Signs of the longest index above which an exponent may stand."""
 SPECIAL = "\\*_^{}"
@@ -166,6 +169,38 @@ def extent(markup: str, height: float) -> tuple[float, float, float]:
             tops.append(run.y - found[1] * run.size)
             bottoms.append(run.y - found[0] * run.size)
     return width, min(tops, default=0.0), max(bottoms, default=0.0)
+
+
+def are_clear(lines: Sequence[str], height: float, leading: float) -> bool:
+    """Whether no sign of a line comes near one of the line above it, set so many mm apart."""
+    return all(
+        extent(above, height)[2] + CLEAR - extent(below, height)[1] <= leading
+        or not nearer(above, below, height, leading)
+        for above, below in pairwise(lines)
+    )
+
+
+def nearer(above: str, below: str, height: float, leading: float) -> bool:
+    """Whether a sign of a line stands less than clear above one of the line below."""
+    low = [
+        box for box in signs(above, height) if box[3] > extent(below, height)[1] + leading - CLEAR
+    ]
+    return any(
+        left < end and start < right and bottom + CLEAR > leading + top
+        for left, right, _, bottom in low
+        for start, end, top, _ in signs(below, height)
+    )
+
+
+def signs(markup: str, height: float) -> Iterator[tuple[float, float, float, float]]:
+    """Give the left, right, top and bottom of the ink of each sign, from the baseline's start."""
+    for run in laid(markup, height)[0]:
+        x = run.x
+        for sign in run.text:
+            end, found = x + advance(sign, run.italic) * run.size, ink(sign, run.italic)
+            if found:
+                yield x, end, run.y - found[1] * run.size, run.y - found[0] * run.size
+            x = end
 
 
 def words_of(markup: str) -> list[str]:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import product
 
 from graphkin.errors import PageError, Problem
 from graphkin.paper import construct, inputs, mechanism
-from graphkin.paper.areas import A3_AREA, AREA, BELOW, MARKED, TABLES
+from graphkin.paper.areas import A3_AREA, AREA, BELOW, TABLES
 from graphkin.paper.captions import headlines
 from graphkin.paper.closing import draw_closing_arcs
 from graphkin.paper.data import given
@@ -19,14 +18,14 @@ from graphkin.paper.frame import TitleBlock, check_bar, sheet_frame
 from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout, lay_out
+from graphkin.paper.listing import listed
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.members import members
 from graphkin.paper.naming import called
 from graphkin.paper.paths import draw_curves
 from graphkin.paper.plan import put_pole
-from graphkin.paper.richtext import escape, extent, flowed, words_of
+from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.ruled import plan_at
-from graphkin.paper.sentences import sentences
 from graphkin.paper.slides import covered
 from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import symbol
@@ -121,7 +120,7 @@ def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]
     """The data in two lines, or in three of smaller lettering."""
     first, *pieces = given(drawing)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
-    for height, leading, room, above in ((2.5, 4.2, 2, 0.0), (1.8, 2.8, 3, 1.0)):
+    for height, leading, room, above in ((2.5, 4.2, 2, 0.0), (1.8, 3.2, 3, 1.0)):
         lines = flowed(pieces, "; ", width, height)
         if len(lines) <= room:
             return [
@@ -245,36 +244,3 @@ def asked(drawing: Drawing) -> list[str]:
         for what, names in groups.items()
         if names
     ]
-
-
-def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
-    """The numbered sentences of the construction, in lettering that fits."""
-    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
-    looks = ((2.5, 5.6), (2.5, LEADING), (2.5, 4.0), (1.8, 4.0), (1.8, 3.4))
-    spaces = ((width, MARKED[1]), (MARKED[0] - x, bottom))
-    found: dict[tuple[float, float], list[tuple[int | str, str]]] = {}
-    for (height, leading), (across, lowest) in product(looks, spaces):
-        if (height, across) not in found:
-            found[height, across] = [
-                (number if i == 0 else "", line)
-                for number, words in enumerate(said, 1)
-                for i, line in enumerate(flowed(words, " ", across - 7, height))
-            ]
-        lines = found[height, across]
-        if y + (len(lines) - 1) * leading <= lowest:
-            break
-    else:
-        raise PageError(
-            Problem(
-                "construction",
-                f"does not fit: {len(lines)} lines",
-                "a shorter construction",
-                "ask for less on one sheet",
-            )
-        )
-    marks: list[Mark] = []
-    for i, (number, line) in enumerate(lines):
-        if number:
-            marks.append(Text(x + 5, y + i * leading, f"{number}.", "caption", height, "end"))
-        marks.append(Text(x + 7, y + i * leading, line, "caption", height))
-    return marks
