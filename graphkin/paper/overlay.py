@@ -12,6 +12,8 @@ from graphkin.paper.frame import fitting
 from graphkin.paper.layout import Layout, lay_out
 from graphkin.paper.marks import Line, Mark, Page, Text
 from graphkin.paper.naming import called
+from graphkin.paper.richtext import extent
+from graphkin.paper.settings import variant
 from graphkin.paper.sheet import left_board, right_board, title_of
 from graphkin.paper.style import BARE, TINTS, style_of
 
@@ -25,7 +27,8 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     """Mechanism and plan of the key at the places and scale that they have on the task sheet.
 
     The letters of the task sheet are left to it, whose places need not be those of the key.
-    Crosses stand on the corners of the task sheet's frame, crop marks outside them.
+    Crosses stand on the corners of the task sheet's frame, crop marks outside them. The caption
+    tells which variant of the mechanism it is.
     """
     layout = layout or lay_out(drawing)
     words = drawing.words
@@ -35,12 +38,14 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     )
     known = {(label.name, label.cls) for task in tasks for label in task.labels}
     name = f"{title_of(drawing)} – {words('sheet.' + called(drawing))}"
-    foot = f"{name}, {words('sheet.overlay')} {number}, {words.decimal(drawing.scales.words)}"
-    (foot,), height = fitting("title", foot, A3_AREA[2] - A3_AREA[0] - 24, 2.5, 2.5)
+    set_to = "".join(f", {each}" for each in variant(drawing.scene, words))
+    rest = f"{set_to}, {words('sheet.overlay')} {number}, {words.decimal(drawing.scales.words)}"
+    room = A3_AREA[2] - A3_AREA[0] - 24 - extent(rest, 2.5)[0]
+    (first,), height = fitting("title", name, room, 2.5, 2.5)
     marks = (
         *(untinted(mark) for mark in with_detail(*boards) if not is_letter(mark, known)),
         *crop_marks(A3_AREA),
-        Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, foot, "caption", height, name="title"),
+        Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
     )
     return Page(420, 297, marks, name, words.language)
 

@@ -21,6 +21,14 @@ def parameters(scene: Scene, words: Words) -> list[str]:
     return [parameter(scene, words, name) for name in scene.values if name in put_in(scene)]
 
 
+def variant(scene: Scene, words: Words) -> list[str]:
+    """The parameters that tell a variant from others: those with a range, and those put in."""
+    ranged = {name for name, each in scene.parameters.items() if each.minimum is not None}
+    return [
+        parameter(scene, words, name) for name in scene.values if name in ranged | put_in(scene)
+    ]
+
+
 def other_parameters(scene: Scene, words: Words) -> list[str]:
     """The parameters put into an expression that no driver or length shows by itself."""
     shown = {name for quantity in shown_quantities(scene) if (name := lone(scene, quantity))}

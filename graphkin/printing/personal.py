@@ -12,6 +12,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.frame import fitting
 from graphkin.paper.glyphs import known, measures
 from graphkin.paper.marks import Page, Text
+from graphkin.paper.overlay import FOOT
 from graphkin.paper.richtext import escape
 from graphkin.printing.code import stamped
 from graphkin.printing.manifest import Variant
@@ -20,8 +21,8 @@ NAME_CELL = (47.0, 5.0, 3.5)
 """Room for a name in the title block: width, depth and largest lettering, in mm."""
 UNKNOWN = "?"
 """What stands for a sign that the sheet's font does not have."""
-OVERLAY_FOOT = (A3_AREA[0] + 12, A3_AREA[3] - 9)
-"""Where an overlay says whose it is, in mm."""
+OVERLAY_FOOT = (A3_AREA[0] + 12, A3_AREA[3] - FOOT + 4.6)
+"""Where an overlay says whose it is, in mm: below its caption."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from graphkin.paper.appear import grown
 from graphkin.paper.areas import AREA
 from graphkin.paper.layout import lay_out
 from graphkin.paper.marks import Arc, Circle, Line, Text, reach
-from graphkin.paper.richtext import extent
+from graphkin.paper.richtext import extent, plain
 from graphkin.paper.sentences import sentences
 from graphkin.paper.slides import frame_guides
 from graphkin.paper.style import NOW, TINTS, style_of
@@ -304,6 +304,20 @@ def test_the_overlay_is_the_key_at_the_places_of_the_task(name):
         filled = {mark.cls for mark in over.marks if mark.cls.split()[0] in ("white", "shade")}
         assert not filled
         assert not {mark.cls for mark in over.marks if style_of(mark.cls).fill in TINTS}
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "said"),
+    [
+        ("pump", {"n": 9}, "n = 9"),
+        ("pump", {"n": 28}, "n = 28"),
+        (named("rod-and-wheel"), {"q": 190}, "q = 190 mm"),
+    ],
+)
+def test_the_caption_of_an_overlay_tells_which_variant_it_is(name, settings, said):
+    for sheet in hand_out(load(name, **settings), view="overlay", language="en"):
+        (caption,) = [mark for mark in sheet.pages[0].marks if mark.name == "title"]
+        assert f", {said}, overlay" in plain(caption.markup)
 
 
 def test_the_crosses_of_an_overlay_lie_on_the_corners_of_the_frame():

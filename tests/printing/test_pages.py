@@ -15,7 +15,7 @@ from graphkin.lab.items import items
 from graphkin.lab.model import Item
 from graphkin.paper import pdf
 from graphkin.paper.glyphs import measures
-from graphkin.paper.marks import Page, Text
+from graphkin.paper.marks import Page, Text, reach
 from graphkin.paper.richtext import plain
 from graphkin.printing.code import modules
 from graphkin.printing.form import advice, form, quantity_of
@@ -71,6 +71,12 @@ def test_the_code_stands_beside_a_drawing_number_of_the_scene(edition):
     assert variant.code in " ".join(texts(page))
     (page, *_) = pages(Sheets(numbered, variant), "task")
     assert f"M-12 / {variant.code}" in texts(page)
+
+
+def test_an_overlay_says_whose_it_is_below_its_caption(edition):
+    (page,) = pages(Sheets(order(edition), edition.variants[0]), "overlay")
+    caption, owned = (next(m for m in page.marks if m.name == n) for n in ("title", "owner"))
+    assert reach(owned)[1] - reach(caption)[3] > 0.5
 
 
 def test_files_are_made_by_one_thread_at_a_time(edition, monkeypatch):
