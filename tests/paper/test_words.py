@@ -572,6 +572,17 @@ def test_every_language_has_the_same_keys(language):
     assert english == others, english ^ others
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_apostrophe_is_the_typographic_one(language):
+    assert not {key for key, said in words(language).sentences.items() if "'" in said}
+
+
+@pytest.mark.parametrize("name", [*SCENES, *SHIPPED])
+def test_titles_and_notes_of_shipped_scenes_have_the_typographic_apostrophe(name):
+    scene = mechanism_named(name, 7 if name in SHIPPED else None).scene
+    assert "'" not in " ".join([scene.title, *scene.titles.values(), *scene.notes.values()])
+
+
 @pytest.mark.parametrize("language", OTHER_LANGUAGES)
 def test_every_sentence_has_the_same_gaps_in_every_language(language):
     english, others = words("en").sentences, words(language).sentences
