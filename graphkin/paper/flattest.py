@@ -40,9 +40,10 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
     if worst is None:
         return
     letter = letter_of_crossing(drawing, worst)
-    for form, name in product(("flattest", "flattest_angle"), (letter, letter.partition("_")[0])):
+    forms = "page.flattest", "page.flattest_angle"
+    for form, name in product(forms, (letter, letter.partition("_")[0])):
         text = drawing.words(
-            f"page.{form}",
+            form,
             name=symbol(name),
             angle=drawing.words.fixed(degrees(worst.angle), 0),
             factor=drawing.words.significant(worst.factor, 2),
