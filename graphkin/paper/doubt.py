@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 BARS, DIRECTIONS = ("link",), ("construction", "trial")
 """Classes of the bars of a mechanism, and of the lines that a plan is constructed by."""
+KINDS = {cls: kinds for kinds in (BARS, VECTORS, DIRECTIONS) for cls in kinds}
 MARGIN = 0.3
 """How much nearer a neighbour may be, in mm, before a label gets a leader."""
 LEAST = MARGIN + CLEAR - 0.1
@@ -67,15 +68,15 @@ def doubtful_ones(
     import shapely
 
     found: list[int] = []
-    for kinds in (BARS, VECTORS, DIRECTIONS):
-        bare = [
-            i
-            for i, (label, spot) in enumerate(zip(labels, spots, strict=True))
-            if kinds_of(label) is kinds and segment_of(label) and not spot.leader
-        ]
-        shapes = rivals(marks, kinds) if bare else {}
+    bare: dict[tuple[str, ...], list[int]] = {}
+    for i, (label, spot) in enumerate(zip(labels, spots, strict=True)):
+        if segment_of(label) and not spot.leader:
+            bare.setdefault(kinds_of(label), []).append(i)
+    every = rivals(marks) if bare else {}
+    for kinds, some in bare.items():
+        shapes = every.get(kinds, {})
         place = {name: j for j, name in enumerate(shapes)}
-        which = [i for i in bare if labels[i].name in place]
+        which = [i for i in some if labels[i].name in place]
         if not which or len(shapes) < 2:
             continue
         areas = shapely.box(*np.array([labels[i].area(spots[i]) for i in which]).T)
@@ -96,24 +97,30 @@ def kinds_of(label: Label) -> tuple[str, ...]:
     return DIRECTIONS if label.cls in DIRECTIONS else VECTORS
 
 
-def rivals(marks: Sequence[Mark], kinds: tuple[str, ...]) -> dict[str, Any]:
-    """The lines of some kinds, and plates beside bars, of a drawing by name."""
+def rivals(marks: Sequence[Mark]) -> dict[tuple[str, ...], dict[str, Any]]:
+    """The bars and plates, the vectors, and the construction's lines of a drawing, by name."""
     import numpy as np
     import shapely
 
-    lines: dict[str, list[tuple[XY, XY]]] = {}
+    lines: dict[tuple[str, ...], dict[str, list[tuple[XY, XY]]]] = {}
+    plates: dict[str, Any] = {}
     for mark in marks:
-        if isinstance(mark, Line) and mark.name and mark.cls.split()[0] in kinds:
-            lines.setdefault(mark.name, []).append(((mark.x1, mark.y1), (mark.x2, mark.y2)))
-    found: dict[str, Any] = {}
-    if lines:
-        parts = shapely.linestrings([ends for some in lines.values() for ends in some])
-        which = [i for i, some in enumerate(lines.values()) for _ in some]
-        found |= zip(lines, np.asarray(shapely.multilinestrings(parts, indices=which)), strict=True)
-    for mark in marks if kinds is BARS else ():
-        if isinstance(mark, Polyline) and mark.cls.split()[0] == "plate":
-            found[mark.name] = shapely.Polygon(mark.points)
-    return found
+        if not mark.name or not isinstance(mark, Line | Polyline):
+            continue
+        cls = mark.cls.split()[0]
+        if isinstance(mark, Line) and cls in KINDS:
+            named = lines.setdefault(KINDS[cls], {}).setdefault(mark.name, [])
+            named.append(((mark.x1, mark.y1), (mark.x2, mark.y2)))
+        elif isinstance(mark, Polyline) and cls == "plate":
+            plates[mark.name] = shapely.Polygon(mark.points)
+    found: dict[tuple[str, ...], dict[str, Any]] = {}
+    for kinds, parts in lines.items():
+        drawn = shapely.linestrings([ends for each in parts.values() for ends in each])
+        if len(drawn) > len(parts):
+            which = [i for i, each in enumerate(parts.values()) for _ in each]
+            drawn = np.asarray(shapely.multilinestrings(drawn, indices=which))
+        found[kinds] = dict(zip(parts, drawn, strict=True))
+    return {**found, BARS: {**found.get(BARS, {}), **plates}}
 
 
 def segment_of(label: Label) -> tuple[XY, XY] | None:
