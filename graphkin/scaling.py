@@ -60,11 +60,16 @@ HEADROOM = 6.0
 
 
 def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
-    """What is asked on one sheet, with the whole mechanism; nothing when nothing is asked."""
+    """What is asked on one sheet, with the whole mechanism; nothing when nothing is asked.
+
+    Velocities that the sheet of accelerations takes up are drawn on the first, asked or not.
+    """
     ask = mechanism.scene.ask
     asked = [target for target in mechanism.asked() if target[0] in WANTED[kind]]
     if kind == "velocity":
         asked += [("centre", link) for link in ask.centrodes if mechanism.gives(("centre", link))]
+        later = targets_of(mechanism, "acceleration")
+        asked += mechanism.program.also_found(later, ("velocity", "omega"), asked)
     if not asked and not (kind == "velocity" and (ask.curves or ask.centrodes)):
         return ()
     positions = [

@@ -236,7 +236,7 @@ def asked(drawing: Drawing) -> list[str]:
         "inflection": () if first else ask.inflection,
         f"slides_{drawing.kind}": ask.slides,
     }
-    return [
+    found = [
         words(
             f"ask.{what}" + ("_many" if len(names) > 1 else ""),
             list=words("list_mark").join(symbol(lettered(name)) for name in names),
@@ -244,3 +244,4 @@ def asked(drawing: Drawing) -> list[str]:
         for what, names in groups.items()
         if names
     ]
+    return found or ([words("ask.for_accelerations")] if any(ask) else [])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, NamedTuple
@@ -148,6 +148,15 @@ class Program:
         if by_hand:
             wanted |= self._arrows(wanted)
         return tuple(sorted(wanted))
+
+    def also_found(
+        self, targets: Iterable[Target], quantities: Sequence[str], without: Iterable[Target]
+    ) -> list[Target]:
+        """The targets of some quantities that others need, and that some do not need: not given."""
+        needed = set(self.needed(targets)) - set(self.needed(without))
+        needed -= {number for number in needed if not self.steps[number].args}
+        mine = ((target, n) for target, n in self.targets.items() if target[0] in quantities)
+        return [target for target, number in mine if number in needed]
 
     def _arrows(self, wanted: set[int]) -> set[int]:
         """The arrows whose ends are all there, with what comes along to them."""

@@ -6,6 +6,7 @@ import pytest
 
 from graphkin.handout import hand_out, scales, targets_of
 from graphkin.mechanism import Mechanism
+from graphkin.paper.marks import Text
 from graphkin.scene.model import Ask
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.solution import Solution
@@ -26,9 +27,29 @@ def test_velocities_alone_give_no_acceleration_sheet_and_run_no_acceleration(nam
     assert not [s for s in ran if s.part in BEYOND or s.plane is Plane.ACCELERATIONS]
 
 
-def test_accelerations_alone_give_no_velocity_sheet():
-    handed = hand_out(asking("pump", Ask(acceleration=("D",))), language="en")
+def test_accelerations_that_need_no_velocity_give_no_velocity_sheet():
+    handed = hand_out(asking("pump", Ask(acceleration=("A",))), language="en")
     assert [sheet.kind for sheet in handed] == ["acceleration", "calculation"]
+
+
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_accelerations_that_need_velocities_bring_their_sheet(view):
+    """Right triangles and Coriolis components take them up, and calculations derive them."""
+    handed = hand_out(asking("pump", Ask(acceleration=("D",))), view, language="en")
+    assert [sheet.kind for sheet in handed] == ["velocity", "acceleration", "calculation"]
+    texts = [m.markup for p in handed[0].pages for m in p.marks if isinstance(m, Text)]
+    assert ("the velocities that the accelerations need" in texts) == (view == "task")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_whatever_velocity_an_acceleration_needs_is_drawn_and_no_other(name):
+    mechanism = accelerations(name)
+    program = mechanism.program
+    first, then = (targets_of(mechanism, kind) for kind in ("velocity", "acceleration"))
+    taken = {n for n in program.needed(then) if program.steps[n].plane is Plane.VELOCITIES}
+    drawn = {n for n in program.needed(first) if program.steps[n].plane is Plane.VELOCITIES}
+    assert drawn == taken or not first
+    assert first or all(not program.steps[n].args for n in taken)
 
 
 def test_the_witness_of_a_sheet_judges_what_it_shows(monkeypatch):
@@ -58,7 +79,6 @@ def test_nothing_of_an_acceleration_is_drawn_for_a_velocity(name):
     drawn = [program.steps[number] for number in needed]
     assert not [step for step in drawn if step.part in BEYOND]
     assert targets_of(mechanism, "acceleration") == ()
-    assert targets_of(accelerations(name), "velocity") == ()
 
 
 def test_the_scale_of_velocities_does_not_hang_on_accelerations(monkeypatch):
