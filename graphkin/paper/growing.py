@@ -26,6 +26,8 @@ from graphkin.steps.crossings import Crossing, flattest
 
 LEADING, SMALL_LEADING = 6.2, 4.6
 """Distance of lines of the sentence to do, and of those that are done, in mm."""
+LEFT_OUT = "…"
+"""What stands for the sentences that are done and have no room."""
 
 
 def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tuple[Page, ...]:
@@ -116,9 +118,12 @@ def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mar
         for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width, 2.5))
     ]
     room = max(int((BELOW[3] - y - 3.5) / SMALL_LEADING) + 1, 0)
-    shown = done[-room:] if room else []
-    while shown and not shown[0][0]:
-        shown = shown[1:]
+    shown = done
+    if len(done) > room:  # a line tells that sentences before are left out
+        shown = done[len(done) - room + 1 :]
+        while shown and not shown[0][0]:
+            shown = shown[1:]
+        shown = [("", LEFT_OUT), *shown][:room]
     for i, (mark, line) in enumerate(shown):
         base = y + 2.5 + i * SMALL_LEADING
         if mark:

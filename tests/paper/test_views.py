@@ -13,7 +13,7 @@ from shapely import LineString, Point
 from graphkin.handout import drawings_of, hand_out
 from graphkin.mechanism import Mechanism, load
 from graphkin.paper.appear import grown
-from graphkin.paper.areas import AREA
+from graphkin.paper.areas import AREA, BELOW
 from graphkin.paper.layout import lay_out
 from graphkin.paper.marks import Arc, Circle, Line, Text, reach
 from graphkin.paper.richtext import extent, plain
@@ -325,6 +325,19 @@ def test_the_crosses_of_an_overlay_lie_on_the_corners_of_the_frame():
     crosses = [mark for mark in over.marks if isinstance(mark, Line) and mark.name == "corner"]
     middles = {((m.x1 + m.x2) / 2, (m.y1 + m.y2) / 2) for m in crosses}
     assert middles == {(20.0, 10.0), (410.0, 10.0), (20.0, 287.0), (410.0, 287.0)}
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_where_sentences_that_are_done_are_left_out_a_page_says_so(name):
+    for steps in pages(name, "steps").values():
+        for done, page in enumerate(steps):
+            texts = [m for m in page.marks if isinstance(m, Text) and m.cls == "caption"]
+            told = [m for m in texts if m.height == 2.5 and m.y > BELOW[1] + 12]
+            numbers = [int(m.markup[:-1]) for m in told if m.anchor == "end"]
+            assert numbers == [*range(done + 1 - len(numbers), done + 1)]
+            first = min((m for m in told if m.anchor == "start"), key=lambda m: m.y, default=None)
+            assert (len(numbers) < done) is (first is not None and first.markup == "…")
+            assert all(m.y <= BELOW[3] for m in told)
 
 
 def test_a_page_tells_how_flat_the_lines_of_its_sentence_cross():
