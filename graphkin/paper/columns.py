@@ -32,6 +32,8 @@ class Look(NamedTuple):
         return (HEIGHT, SMALL) if self.part == 1 else (SMALL,)
 
 
+TALL = Look(5.0, 3.55, 1.0)
+"""How tables with signs above letters look where there is room for it."""
 LOOKS = (Look(4.7, 3.4, 1.0), *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)))
 """How tables look where there is room, and where there is less and less."""
 
@@ -129,7 +131,8 @@ def cells(
 def laid_out(tables: Sequence[Table], rect: Rect) -> list[Mark]:
     """Tables in a rectangle, as large as they fit it. Raises PageError where none do."""
     left, top, right, low = rect
-    for look in LOOKS:
+    raised = any("^" in row.cells[0] for table in tables for row in table.rows)
+    for look in (TALL, *LOOKS) if raised else LOOKS:
         columns = in_columns(tables, (low - top) / look.row)
         wide = [max(sum(table.columns(look)) for table in column) for column in columns]
         if sum(wide) + BETWEEN * (len(wide) - 1) > right - left + 1e-9:
