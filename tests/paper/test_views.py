@@ -266,7 +266,8 @@ def test_no_sentence_that_is_done_begins_in_its_middle(name):
         for page in (page for sheet in sheets[:2] for page in sheet.pages[1:]):
             left = min(mark.x for mark in page.marks if mark.name == "sentence")
             small = [m for m in page.marks if m.cls == "caption" and m.height == 2.5 and not m.name]
-            first.add(next(m.markup for m in small if left + 4 < m.x < left + 8))
+            rows = [m.markup for m in small if left + 4 < m.x < left + 8 and m.markup != "…"]
+            first.add(rows[0])
     assert len(first) > 1
     assert all(re.fullmatch(r"\d+\.", markup) for markup in first), first
 
