@@ -18,6 +18,8 @@ from graphkin.text import Words
 
 VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
+UNSEEN = 0.01
+"""Length of a vector in mm below which nobody sees it."""
 LEADING = 2.9
 """Distance of the lines that say what is computed, in mm."""
 
@@ -44,9 +46,15 @@ def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     for name, segment, length, size in vectors(drawing):
         measured = in_mm(words, length)
         drawn = f"({measured})" if symbol(name) in drawing.computed else measured
-        values = ("", "") if empty else (drawn, words.significant(size))
+        values = ("", "") if empty else (drawn, value_of(words, size, length))
         rows.append(Row((symbol(name), segment, *values), name))
     return rows
+
+
+def value_of(words: Words, size: float, length: float) -> str:
+    """The value of a vector that is so many mm long; in two digits where it is next to nothing."""
+    value = words.significant(size)
+    return words.significant(size, 2) if length < UNSEEN and "·" in value else value
 
 
 def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:

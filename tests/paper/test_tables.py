@@ -34,3 +34,10 @@ def test_signs_above_letters_keep_clear_of_the_lines_of_their_cell(name, n):
         lines = [line.y1 for line in ruled if line.x1 < mark.x < line.x2]
         assert min(top - y for y in lines if y < mark.y) > 0.5
         assert min(y - bottom for y in lines if y > mark.y) > 0.5
+
+
+def test_a_value_next_to_nothing_has_two_digits_and_leaves_the_lettering_large():
+    _, drawing = drawings("stephenson-1", None)
+    marks = [mark for mark in tables(drawing, TABLES, empty=False) if isinstance(mark, Text)]
+    assert [mark.markup for mark in marks if "·10" in mark.markup] == ["1.1·10⁻⁸"]
+    assert {mark.height for mark in marks if mark.name} == {2.5}
