@@ -30,19 +30,23 @@ def appearing(
     staged: dict[int, int],
     said: Sequence[Sentence],
 ) -> Iterator[tuple[int, Mark]]:
-    """The marks of a field, each with the sentence at which it appears.
-
-    What has no name goes with a mark beside it: the frame around a link's name with the name after
-    it, the arrow of a driver's sense with its angle before it.
-    """
-    if not marks:
-        return
-    named, ground = marks[0], ground_of(drawing, field)
-    for mark, after in zip(marks, (*marks[1:], marks[-1]), strict=True):
-        named = mark if mark.name else named
-        framed, sense = (mark.cls.split()[-1] == cls for cls in ("number", "sense"))
-        beside = named if sense else after if framed and not mark.name else mark
+    """The marks of a field, each with the sentence at which it appears."""
+    ground = ground_of(drawing, field)
+    for mark, beside in accompanied(marks):
         yield stage_of(drawing, beside, staged, said, ground), mark
+
+
+def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
+    """The marks of a field, each with the one with which it appears: itself, if it has a name.
+
+    The frame around a link's name appears with the name after it, the arrow of a driver's sense
+    with its angle before it.
+    """
+    named = marks[0] if marks else None
+    for mark, after in zip(marks, (*marks[1:], *marks[-1:]), strict=True):
+        named = mark if mark.name or named is None else named
+        framed, sense = (mark.cls.split()[-1] == cls for cls in ("number", "sense"))
+        yield mark, named if sense else after if framed and not mark.name else mark
 
 
 def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:

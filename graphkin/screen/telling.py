@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from graphkin.paper.appear import accompanied
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import crossings_on
 from graphkin.paper.marks import Circle, Mark, Text
@@ -235,11 +236,11 @@ def timed_marks(
     """The marks of a sheet with the sentences that draw them."""
     found, touched = [], dict(contacts(sheet))
     ground = ground_of(sheet.drawing, sheet.layout.mechanism)
-    for mark in (*sheet.left, *sheet.right):
+    for mark, beside in accompanied((*sheet.left, *sheet.right)):
         step = touched.get(mark)
         if step is None:
             step = step_of(sheet.drawing, mark)
-            stage = stage_of(sheet.drawing, mark, staged, own, ground)
+            stage = stage_of(sheet.drawing, beside, staged, own, ground)
         else:
             stage = staged[step]
         found.append(Timed(mark, before + stage + 1 if stage >= 0 else 0, step))

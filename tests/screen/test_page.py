@@ -209,6 +209,15 @@ def test_a_contact_appears_with_the_sentence_that_finds_it():
     assert "*T*" in run.said[2].markup
 
 
+def test_frames_of_names_and_arrows_of_senses_appear_with_what_they_belong_to():
+    marks = told_of("excavator-relative").timed[0]
+    frames = [i for i, one in enumerate(marks) if one.mark.cls == "number" and not one.mark.name]
+    senses = [i for i, one in enumerate(marks) if one.mark.cls == "sense"]
+    assert len(frames) == len(senses) == 3
+    assert [marks[i].at for i in frames] == [marks[i + 1].at for i in frames] == [1, 2, 3]
+    assert [marks[i].at for i in senses] == [1, 2, 3]
+
+
 def test_a_detail_is_told_by_the_last_sentence_of_its_sheet():
     run, sheets = telling(sheets_of("pump")), sheets_of("pump")
     told = words("en")("screen.detail", scale="5:1")
