@@ -203,7 +203,7 @@ def test_what_belongs_to_no_step_appears_with_the_sentence_that_speaks_of_it(
 
 def test_an_inflection_circle_comes_with_the_sentence_that_finds_its_pole():
     mechanism = mechanism_of(four_bar("inflection = [2]"))
-    (steps,) = (sheet.pages for sheet in hand_out(mechanism, view="steps", language="en"))
+    *_, steps = (sheet.pages for sheet in hand_out(mechanism, view="steps", language="en"))
     told = [" ".join(m.markup for m in page.marks if m.name == "sentence") for page in steps]
     (number,) = (i for i, words in enumerate(told) if "*W*_{2}" in words)
     assert "inflection 2" in new_on(steps[number])
