@@ -25,7 +25,8 @@ Numbered = tuple[str, str]
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The sentences from a place on, as far apart as there is room for their lines.
 
-    In small lettering where signs of large lines would touch.
+    In small lettering where signs of large lines would touch. Raises PageError where even small
+    lines are too many.
     """
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     for height, most, least in LOOKS:
@@ -39,7 +40,7 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
                 break
         else:
             continue
-        if are_clear([line for _, line in lines], height, leading):
+        if height == LOOKS[-1][0] or are_clear([line for _, line in lines], height, leading):
             break
     else:
         raise PageError(

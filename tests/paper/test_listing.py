@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import pytest
 
+from graphkin.paper import listing
 from graphkin.paper.areas import BELOW, MARKED, TABLES
 from graphkin.paper.glyphs import advance, ink
 from graphkin.paper.listing import listed
@@ -84,3 +85,9 @@ def test_lines_of_small_data_stand_apart():
     for above, below in pairwise(data):
         foot = above.y + extent("*O*_{1}", above.height)[2]
         assert below.y + extent("T", below.height)[1] - foot > 0.7
+
+
+def test_small_lines_stay_where_even_their_signs_touch(monkeypatch):
+    (drawing, _) = drawings("pump", 3)
+    monkeypatch.setattr(listing, "are_clear", lambda *_: False)
+    assert {mark.height for mark in list_of(drawing)} == {listing.LOOKS[-1][0]}
