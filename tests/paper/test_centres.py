@@ -223,7 +223,7 @@ def test_a_link_without_any_acceleration_has_no_pole_at_infinity():
     """Of a crank that stands: a pole that is every point is told by its sentence alone."""
     text = HEAD + SCENES["four-bar"].replace("speed = 12", "speed = 0") + "[ask]\npoles = [2]\n"
     mechanism = Mechanism(read_text(text, "four-bar", None, {}))
-    (drawing,) = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))
+    *_, drawing = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))
     assert any("every point is its pole" in said.markup for said in sentences(drawing))
     assert not [m for m in page_of(drawing).marks if "infinity" in getattr(m, "markup", "")]
 

@@ -39,7 +39,7 @@ def test_the_plans_of_wild_motions_stay_on_the_paper(case, view):
             assert all(within(mark, (0, 0, page.width, page.height)) for mark in page.marks)
 
 
-@pytest.mark.parametrize(("scale", "status"), [("1", 2), ("10", 2), ("20", 0), ("1000", 0)])
+@pytest.mark.parametrize(("scale", "status"), [("1", 2), ("10", 2), ("20", 0), ("200", 0)])
 def test_a_scale_that_is_asked_fits_or_is_refused(scale, status, tmp_path):
     """Three metres at 1:10 would need a table: the least scale that fits is named."""
 
