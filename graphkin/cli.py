@@ -14,7 +14,7 @@ from graphkin.cli_grade import grade
 from graphkin.cli_print import print_sheets
 from graphkin.cli_studio import studio
 from graphkin.console import FAILED, Desk, complain
-from graphkin.options import leave, mechanism_of, scales_if_any, scales_of, scene_argument, tell
+from graphkin.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
@@ -154,8 +154,8 @@ def solve(
     """Compute positions, velocities and accelerations, and check them.
 
     Units are m, s and rad; x points right, y up; counter-clockwise is positive. With --asked no
-    step is run that what is asked does not need, neither here nor in the check. The scales of the
-    sheets are then looked for with --json alone; where the sheets do not fit they are null.
+    step is run that what is asked does not need, neither here nor in the check, and scales of a
+    drawing are looked for with --json alone.
 
     With --digits every digit that is printed is proved, by balls of as many bits as that takes;
     what no ball decides, such as whether a number is nought, is said instead, and the status is 1.
@@ -179,14 +179,9 @@ def solve(
     trace = mechanism.trace(targets)
     solution = gathered(trace)
     verdict = verdict_on(mechanism, solution)
-    drawn_at = None
-    if pencil is not None or not asked:
-        drawn_at = scales_of(mechanism)
-    elif as_json:
-        drawn_at = scales_if_any(mechanism, "the scales are null")
+    undrawn = asked and pencil is None and not as_json
+    drawn_at = None if undrawn else scales_of(mechanism)
     found = record(mechanism.scene, solution, verdict, drawn_at, asked=asked)
-    if as_json and drawn_at is None:
-        found["scales"] = dict.fromkeys(("kL", "kv", "ka"))
     if digits is not None:
         from graphkin.report.certified import certify
 

@@ -19,12 +19,14 @@ from graphkin.options import (
     mechanism_of,
     output_option,
     pairs_of,
-    scales_if_any,
+    scales_of,
     scene_argument,
     tell,
 )
 
 if TYPE_CHECKING:
+    from graphkin.mechanism import Mechanism
+    from graphkin.paper.scale import Scales
     from graphkin.paper.style import Ink
 
 
@@ -221,12 +223,24 @@ def accuracy(
     refuse_existing(folder, [folder / f"{stem}-accuracy.csv"], force)
     effort = QUICK if quick else Effort()
     say = progress()
-    found = study(mechanism, scales_if_any(mechanism, "the pencil is left out"), effort, say=say)
+    found = study(mechanism, scales_if_any(mechanism), effort, say=say)
     say("")
     tell(accuracy_lines(found))
     files = {f"{stem}-accuracy.csv": accuracy_table(found).encode()}
     files |= picture_files(found, stem, kinds)
     tell(["", *(str(path) for path in write_all(folder, files, force))])
+
+
+def scales_if_any(mechanism: Mechanism) -> Scales | None:
+    """The scale factors of the sheets; None, and a message, where they cannot be drawn."""
+    from graphkin.errors import GraphkinError
+
+    try:
+        return scales_of(mechanism)
+    except GraphkinError as error:
+        for problem in error.problems:
+            complain(f"the pencil is left out: {problem}")
+        return None
 
 
 def progress() -> Callable[[str], None]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphkin.console import READING, complain
+from graphkin.console import READING
 from graphkin.errors import FileError, Problem
 
 if TYPE_CHECKING:
@@ -98,18 +98,6 @@ def scales_of(mechanism: Mechanism) -> Scales:
     from graphkin.scaling import scales
 
     return scales(mechanism)
-
-
-def scales_if_any(mechanism: Mechanism, without: str) -> Scales | None:
-    """The scale factors of the sheets; None, and a message, where they cannot be drawn."""
-    from graphkin.errors import GraphkinError
-
-    try:
-        return scales_of(mechanism)
-    except GraphkinError as error:
-        for problem in error.problems:
-            complain(f"{without}: {problem}")
-        return None
 
 
 def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
