@@ -82,7 +82,7 @@ def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
     import numpy as np
 
     from graphkin.motion.course import Course
-    from graphkin.motion.sweep import GRID, TURN
+    from graphkin.motion.driving import GRID, TURN
 
     sweep = swept(scene, number)
     course = Course(sweep, scene.branches)
@@ -114,7 +114,8 @@ def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
 
 def swept(scene: Scene, number: int) -> Sweep:
     """One turn of a driver, or as far to both sides of nought as all lengths together reach."""
-    from graphkin.motion.sweep import reach_of, stated, sweep_of
+    from graphkin.motion.driving import reach_of, stated
+    from graphkin.motion.sweep import sweep_of
 
     driver = scene.drivers[number - 1]
     if driver.kind == "turn":

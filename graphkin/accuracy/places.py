@@ -15,8 +15,9 @@ import numpy as np
 
 from graphkin.errors import ClosureError, Problem
 from graphkin.motion.course import Course, Reals
+from graphkin.motion.driving import TURN
 from graphkin.motion.pieces import Path, Piece, followed
-from graphkin.motion.sweep import TURN, Sweep, sweep_of
+from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.scene.model import Closure, Scene
 
 AROUND = {"turn": 60.0}

@@ -23,7 +23,7 @@ from graphkin.curves.style import (
     span_of,
     subscripted,
 )
-from graphkin.motion.sweep import TURN
+from graphkin.motion.driving import TURN
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,9 +11,10 @@ import numpy as np
 
 from graphkin.errors import ClosureError, GraphkinError, Problem
 from graphkin.motion.course import Flags, Reals, spread
+from graphkin.motion.driving import TURN
 from graphkin.motion.events import Singular, singulars
 from graphkin.motion.pieces import Path, Piece, followed
-from graphkin.motion.sweep import TURN, Sweep, sweep_of
+from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.plane import Ratio
 from graphkin.scene.model import Branch, Scene
 from graphkin.steps.gather import gathered

@@ -8,10 +8,10 @@ from typing import Literal
 import numpy as np
 
 from graphkin.motion.course import Course
+from graphkin.motion.driving import TURN
 from graphkin.motion.ends import Event
 from graphkin.motion.numbered import numbered
 from graphkin.motion.pieces import ALIKE, Path
-from graphkin.motion.sweep import TURN
 from graphkin.plane import Circle, Line
 from graphkin.steps.program import Program
 

@@ -10,9 +10,9 @@ import numpy as np
 
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
+from graphkin.motion.driving import TURN
 from graphkin.motion.pieces import ALIKE, Piece, Range
 from graphkin.motion.refine import crossings_of_nought
-from graphkin.motion.sweep import TURN
 from graphkin.scene.model import Closure, Link, Scene
 from graphkin.steps.program import Target
 

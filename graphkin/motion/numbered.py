@@ -14,7 +14,7 @@ import numpy as np
 
 from graphkin.arithmetic import batch_kind
 from graphkin.motion.course import Course, Reals, spread
-from graphkin.motion.sweep import TURN
+from graphkin.motion.driving import TURN
 from graphkin.scene.model import Closure
 from graphkin.steps.batch import run_batch
 from graphkin.steps.trying import Closer

@@ -13,6 +13,7 @@ import numpy as np
 from graphkin.errors import ClosureError, Problem
 from graphkin.motion.change import beyond
 from graphkin.motion.course import Branches, Course, Reals
+from graphkin.motion.driving import GRID, TURN
 from graphkin.motion.ends import Event, next_event
 from graphkin.motion.numbered import (
     Node,
@@ -23,7 +24,7 @@ from graphkin.motion.numbered import (
     same_place,
 )
 from graphkin.motion.refine import TOUCH
-from graphkin.motion.sweep import GRID, TURN, Sweep
+from graphkin.motion.sweep import Sweep
 
 ALIKE = 1e-8
 """Degrees within which two places are one."""

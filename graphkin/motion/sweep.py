@@ -8,23 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import degrees, pi, radians, sqrt
-from typing import Any, Literal
+from math import pi
+from typing import Any
 
-from graphkin.arithmetic import batch_kind
 from graphkin.errors import Problem, SceneError
+from graphkin.motion.driving import GRID, TURN, What, stated, timed
+from graphkin.motion.window import window
 from graphkin.scene.expression import TIME, Name
-from graphkin.scene.model import At, Branch, Driver, Link, Scene
+from graphkin.scene.model import Branch, Driver, Scene
 from graphkin.scene.quantity import LENGTHS, Quantity
 
-What = Literal["turn", "slide", "roll", "time"]
-TURN = 360.0
-GRID = 7200
-"""Positions tried in a sweep when its events are looked for: in one turn every 0.05 degrees."""
-DOUBLINGS = 60
-"""How often the time is doubled to find a driver's first whole turn."""
-FREE = 2.1
-"""Reaches to each side of where a slide stands: over two, so that no dead point falls there."""
 UNITS = {"turn": "deg", "slide": "m", "roll": "m", "time": "s"}
 SYMBOLS = {"turn": "phi", "slide": "s", "roll": "s", "time": "t"}
 
@@ -164,188 +157,6 @@ def named(scene: Scene, number: int | None) -> Scene:
         motion = (place, 0.0, 0.0) if stands else (place, rate, push)
         values |= dict(zip(names(n), motion, strict=True))
     return replace(scene, drivers=tuple(drivers), values=values)
-
-
-def stated(driver: Driver, scene: Scene) -> tuple[float, float, float]:
-    """Position (degrees or m), speed and acceleration (rad or m) of a driver as it stands."""
-    number = driver.position.number(scene.values)
-    place = float(driver.position.si(scene.values))
-    if driver.kind == "turn":
-        place = float(number) if driver.position.unit == "deg" else degrees(place)
-    return place, float(driver.speed.si(scene.values)), float(driver.acceleration.si(scene.values))
-
-
-def timed(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any, Any]:
-    """Position (degrees or m), speed and acceleration of a driver at given times (N,).
-
-    A driver without a law moves from its stated position, at the time nought, with its stated
-    speed, evenly accelerated.
-    """
-    import numpy as np
-
-    law = TIME in driver.position.uses()
-    here = values | ({TIME: at} if law else {})
-    kind = batch_kind()
-    place, speed, push = (
-        quantity.si(here, kind) for quantity in (driver.position, driver.speed, driver.acceleration)
-    )
-    if not law:
-        place, speed = place + (speed + push * at / 2) * at, speed + push * at
-    if driver.kind == "turn":
-        place = np.degrees(place)
-    return tuple(np.broadcast_to(each, np.shape(at)) for each in (place, speed, push))  # type: ignore[return-value]
-
-
-def window(
-    scene: Scene,
-    what: What,
-    number: int | None,
-    start: float,
-    low: float | None,
-    high: float | None,
-) -> tuple[float, float, bool]:
-    """The window of the sweep, and whether it is one turn that closes on itself."""
-    if low is not None and high is not None and not low < high:
-        raise SceneError(Problem("--from, --to", f"{low:g} to {high:g}", "a window that grows"))
-    if what == "turn":
-        if low is None and high is None:
-            return start, start + TURN, True
-        first = low if low is not None else (high or 0.0) - TURN
-        return first, high if high is not None else first + TURN, False
-    if what == "time":
-        first = 0.0 if low is None else low
-        return first, high if high is not None else first + whole_turn(scene), False
-    room = reach_of(scene) * FREE
-    if what == "roll" and number is not None:
-        room = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or room
-        start -= room / 2
-        return start if low is None else low, start + room if high is None else high, False
-    return start - room if low is None else low, start + room if high is None else high, False
-
-
-def wheel_turn(link: Link, scene: Scene) -> float:
-    """The way of a wheel in one turn (m); nought where its radius is not given."""
-    radii = [wheel.radius.si(scene.values) for wheel in link.wheels if wheel.radius is not None]
-    return 2 * pi * float(radii[0]) if radii else 0.0
-
-
-def reach_of(scene: Scene) -> float:
-    """The sum of all lengths of a scene (m): no point moves farther.
-
-    Where the origin lies does not matter: coordinates count from the first that a link is given.
-    """
-    lengths: list[Quantity] = []
-    places: list[tuple[str, Quantity, Quantity]] = []
-    for link in (scene.frame, *scene.links.values()):
-        for placing in link.placings:
-            lengths += [length for _, _, length in placing.lengths()]
-            places += [(link.name, placing.x, placing.y)] if isinstance(placing, At) else []
-        for slide in link.slides:
-            lengths.append(slide.offset)
-            places += [(slide.on, *slide.through)] if isinstance(slide.through, tuple) else []
-        lengths += [wheel.radius for wheel in link.wheels if wheel.radius is not None]
-    far = sum(abs(float(length.si(scene.values))) for length in lengths)
-    first: dict[str, complex] = {}
-    for name, x, y in places:
-        place = complex(x.si(scene.values), y.si(scene.values))
-        way = place - first.setdefault(name, place)
-        far += abs(way.real) + abs(way.imag)
-    return far or 1.0
-
-
-def whole_turn(scene: Scene) -> float:
-    """The time (s) in which the first turning driver makes one turn from the time nought.
-
-    Where none does, the time until one comes to rest, or has slid as far as all lengths together,
-    or in which a law of time moves one once to and fro.
-    Raises SceneError where there is no such time.
-    """
-    for driver in scene.drivers:
-        if driver.kind != "turn":
-            continue
-        if TIME in driver.position.uses():
-            found = turn_by_law(driver, scene)
-        else:
-            _, speed, push = stated(driver, scene)
-            found = turn_evenly(abs(speed), push if speed >= 0 else -push)
-        if found is not None:
-            return found
-    for driver in scene.drivers:
-        span = (to_and_fro if TIME in driver.position.uses() else until_rest)(driver, scene)
-        if span is not None:
-            return span
-    raise SceneError(
-        Problem(
-            "drivers",
-            "no driver makes a whole turn or turns back again and again",
-            "a time to end",
-            "say with --from and --to which seconds to show",
-        )
-    )
-
-
-def until_rest(driver: Driver, scene: Scene) -> float | None:
-    """The time in which a driver comes to rest, or slides as far as the mechanism is long."""
-    _, speed, push = stated(driver, scene)
-    if speed * push < 0:
-        return -speed / push
-    if driver.kind == "turn" or speed == 0:
-        return None
-    return reach_of(scene) / abs(speed)
-
-
-def turn_evenly(speed: float, push: float) -> float | None:
-    """The time of one turn under even acceleration along the sense of the speed."""
-    if push == 0:
-        return radians(TURN) / speed if speed else None
-    under = speed * speed + 4 * pi * push
-    if under < 0:
-        return None
-    return 4 * pi / (speed + sqrt(under)) if push > 0 or speed else None
-
-
-def turn_by_law(driver: Driver, scene: Scene) -> float | None:
-    """The time at which a law of time has first turned its driver by a whole turn."""
-    import numpy as np
-
-    span = 1e-3
-    for _ in range(DOUBLINGS):
-        times = np.linspace(0, span, GRID + 1)
-        angle = timed(driver, dict(scene.values), times)[0]
-        past = np.flatnonzero(np.abs(angle - angle[0]) >= TURN)
-        if past.size:
-            low, high = times[past[0] - 1], times[past[0]]
-            for _ in range(DOUBLINGS):
-                middle = np.array([(low + high) / 2])
-                far = abs(timed(driver, dict(scene.values), middle)[0][0] - angle[0]) >= TURN
-                low, high = (low, middle[0]) if far else (middle[0], high)
-            return float(high)
-        if not np.isfinite(angle).all() or span > 1e6:
-            return None
-        span *= 2
-    return None
-
-
-def to_and_fro(driver: Driver, scene: Scene) -> float | None:
-    """The time (s) in which a law of time moves its driver to and fro: from where it first turns
-    back to where it does so for the third time."""
-    import numpy as np
-
-    span = 1e-3
-    for _ in range(DOUBLINGS):
-        times = np.linspace(0, span, GRID + 1)
-        speed = timed(driver, dict(scene.values), times)[1]
-        if not np.isfinite(speed).all() or span > 1e6:
-            return None
-        moves = np.flatnonzero(speed)
-        back = np.flatnonzero(np.diff(np.sign(speed[moves])))
-        if back.size >= 3:
-            before, after = moves[back], moves[back + 1]
-            share = speed[before] / (speed[before] - speed[after])
-            turns = times[before] + (times[after] - times[before]) * share
-            return float(turns[2] - turns[0])
-        span *= 2
-    return None
 
 
 def bounds_in_si(

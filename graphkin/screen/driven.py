@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from math import pi
 from typing import Any
 
-from graphkin.motion.sweep import SYMBOLS, TURN, What, chosen, law_of_time, stated, sweep_of
+from graphkin.motion.driving import TURN, What, stated
+from graphkin.motion.sweep import SYMBOLS, chosen, law_of_time, sweep_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS

@@ -7,7 +7,7 @@ from math import pi
 from typing import Any, NamedTuple
 
 from graphkin.arithmetic import pick
-from graphkin.motion.sweep import TURN
+from graphkin.motion.driving import TURN
 from graphkin.paper.inputs import ANGLE, WIDER, draw_crank, draw_roll, draw_slide, driven_slide
 from graphkin.paper.labels import Board
 from graphkin.paper.marks import Arc, Line, Mark, Polyline

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from graphkin.motion.sweep import TURN
+from graphkin.motion.driving import TURN
 from graphkin.paper.areas import Rect
 from graphkin.paper.data import angle_symbol
 from graphkin.paper.drawing import METRES, Drawing

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import GraphkinError, Problem, SceneError
 from graphkin.mechanism import Mechanism
-from graphkin.motion.sweep import TURN
+from graphkin.motion.driving import TURN
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.scale import Scales
 from graphkin.scaling import WANTED, drawing, natural_seconds, targets_of

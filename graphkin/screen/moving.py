@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import GraphkinError, SceneError
 from graphkin.mechanism import Mechanism
-from graphkin.motion.sweep import TURN, reach_of
+from graphkin.motion.driving import TURN, reach_of
 from graphkin.paper.areas import Rect
 from graphkin.paper.marks import Text
 from graphkin.plane import Vector

@@ -1,0 +1,70 @@
+"""How drivers move as a scene says: where they stand, how fast, and how far they can be moved."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import Any, Literal
+
+from graphkin.arithmetic import batch_kind
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import At, Driver, Scene
+from graphkin.scene.quantity import Quantity
+
+What = Literal["turn", "slide", "roll", "time"]
+TURN = 360.0
+GRID = 7200
+"""Positions tried in a sweep when its events are looked for: in one turn every 0.05 degrees."""
+
+
+def stated(driver: Driver, scene: Scene) -> tuple[float, float, float]:
+    """Position (degrees or m), speed and acceleration (rad or m) of a driver as it stands."""
+    number = driver.position.number(scene.values)
+    place = float(driver.position.si(scene.values))
+    if driver.kind == "turn":
+        place = float(number) if driver.position.unit == "deg" else degrees(place)
+    return place, float(driver.speed.si(scene.values)), float(driver.acceleration.si(scene.values))
+
+
+def timed(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any, Any]:
+    """Position (degrees or m), speed and acceleration of a driver at given times (N,).
+
+    A driver without a law moves from its stated position, at the time nought, with its stated
+    speed, evenly accelerated.
+    """
+    import numpy as np
+
+    law = TIME in driver.position.uses()
+    here = values | ({TIME: at} if law else {})
+    kind = batch_kind()
+    place, speed, push = (
+        quantity.si(here, kind) for quantity in (driver.position, driver.speed, driver.acceleration)
+    )
+    if not law:
+        place, speed = place + (speed + push * at / 2) * at, speed + push * at
+    if driver.kind == "turn":
+        place = np.degrees(place)
+    return tuple(np.broadcast_to(each, np.shape(at)) for each in (place, speed, push))  # type: ignore[return-value]
+
+
+def reach_of(scene: Scene) -> float:
+    """The sum of all lengths of a scene (m): no point moves farther.
+
+    Where the origin lies does not matter: coordinates count from the first that a link is given.
+    """
+    lengths: list[Quantity] = []
+    places: list[tuple[str, Quantity, Quantity]] = []
+    for link in (scene.frame, *scene.links.values()):
+        for placing in link.placings:
+            lengths += [length for _, _, length in placing.lengths()]
+            places += [(link.name, placing.x, placing.y)] if isinstance(placing, At) else []
+        for slide in link.slides:
+            lengths.append(slide.offset)
+            places += [(slide.on, *slide.through)] if isinstance(slide.through, tuple) else []
+        lengths += [wheel.radius for wheel in link.wheels if wheel.radius is not None]
+    far = sum(abs(float(length.si(scene.values))) for length in lengths)
+    first: dict[str, complex] = {}
+    for name, x, y in places:
+        place = complex(x.si(scene.values), y.si(scene.values))
+        way = place - first.setdefault(name, place)
+        far += abs(way.real) + abs(way.imag)
+    return far or 1.0

@@ -1,0 +1,150 @@
+"""The window of a sweep: one turn, the way of a slide, or for how long a scene is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi, radians, sqrt
+from typing import Any
+
+from graphkin.errors import Problem, SceneError
+from graphkin.motion.driving import GRID, TURN, What, reach_of, stated, timed
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import Driver, Link, Scene
+
+DOUBLINGS = 60
+"""How often the time is doubled to find a driver's first whole turn."""
+FREE = 2.1
+"""Reaches to each side of where a slide stands: over two, so that no dead point falls there."""
+
+
+def window(
+    scene: Scene,
+    what: What,
+    number: int | None,
+    start: float,
+    low: float | None,
+    high: float | None,
+) -> tuple[float, float, bool]:
+    """The window of the sweep, and whether it is one turn that closes on itself."""
+    if low is not None and high is not None and not low < high:
+        raise SceneError(Problem("--from, --to", f"{low:g} to {high:g}", "a window that grows"))
+    if what == "turn":
+        if low is None and high is None:
+            return start, start + TURN, True
+        first = low if low is not None else (high or 0.0) - TURN
+        return first, high if high is not None else first + TURN, False
+    if what == "time":
+        first = 0.0 if low is None else low
+        return first, high if high is not None else first + whole_turn(scene), False
+    room = reach_of(scene) * FREE
+    if what == "roll" and number is not None:
+        room = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or room
+        start -= room / 2
+        return start if low is None else low, start + room if high is None else high, False
+    return start - room if low is None else low, start + room if high is None else high, False
+
+
+def wheel_turn(link: Link, scene: Scene) -> float:
+    """The way of a wheel in one turn (m); nought where its radius is not given."""
+    radii = [wheel.radius.si(scene.values) for wheel in link.wheels if wheel.radius is not None]
+    return 2 * pi * float(radii[0]) if radii else 0.0
+
+
+def whole_turn(scene: Scene) -> float:
+    """The time (s) in which the first turning driver makes one turn from the time nought.
+
+    Where none does, the time until one comes to rest, or has slid as far as all lengths together,
+    or in which a law of time moves one once to and fro.
+    Raises SceneError where there is no such time.
+    """
+    for driver in scene.drivers:
+        if driver.kind != "turn":
+            continue
+        if TIME in driver.position.uses():
+            found = turn_by_law(driver, scene)
+        else:
+            _, speed, push = stated(driver, scene)
+            found = turn_evenly(abs(speed), push if speed >= 0 else -push)
+        if found is not None:
+            return found
+    for driver in scene.drivers:
+        span = (to_and_fro if TIME in driver.position.uses() else until_rest)(driver, scene)
+        if span is not None:
+            return span
+    raise SceneError(
+        Problem(
+            "drivers",
+            "no driver makes a whole turn or turns back again and again",
+            "a time to end",
+            "say with --from and --to which seconds to show",
+        )
+    )
+
+
+def until_rest(driver: Driver, scene: Scene) -> float | None:
+    """The time in which a driver comes to rest, or slides as far as the mechanism is long."""
+    _, speed, push = stated(driver, scene)
+    if speed * push < 0:
+        return -speed / push
+    if driver.kind == "turn" or speed == 0:
+        return None
+    return reach_of(scene) / abs(speed)
+
+
+def turn_evenly(speed: float, push: float) -> float | None:
+    """The time of one turn under even acceleration along the sense of the speed."""
+    if push == 0:
+        return radians(TURN) / speed if speed else None
+    under = speed * speed + 4 * pi * push
+    if under < 0:
+        return None
+    return 4 * pi / (speed + sqrt(under)) if push > 0 or speed else None
+
+
+def turn_by_law(driver: Driver, scene: Scene) -> float | None:
+    """The time at which a law of time has first turned its driver by a whole turn."""
+    import numpy as np
+
+    for times, (angle, _, _) in doubled(driver, scene):
+        past = np.flatnonzero(np.abs(angle - angle[0]) >= TURN)
+        if past.size:
+            low, high = times[past[0] - 1], times[past[0]]
+            for _ in range(DOUBLINGS):
+                middle = np.array([(low + high) / 2])
+                far = abs(timed(driver, dict(scene.values), middle)[0][0] - angle[0]) >= TURN
+                low, high = (low, middle[0]) if far else (middle[0], high)
+            return float(high)
+        if not np.isfinite(angle).all():
+            return None
+    return None
+
+
+def to_and_fro(driver: Driver, scene: Scene) -> float | None:
+    """The time (s) in which a law of time moves its driver to and fro: from where it first turns
+    back to where it does so for the third time."""
+    import numpy as np
+
+    for times, (_, speed, _) in doubled(driver, scene):
+        if not np.isfinite(speed).all():
+            return None
+        moves = np.flatnonzero(speed)
+        back = np.flatnonzero(np.diff(np.sign(speed[moves])))
+        if back.size >= 3:
+            before, after = moves[back], moves[back + 1]
+            share = speed[before] / (speed[before] - speed[after])
+            turns = times[before] + (times[after] - times[before]) * share
+            return float(turns[2] - turns[0])
+    return None
+
+
+def doubled(driver: Driver, scene: Scene) -> Iterator[tuple[Any, tuple[Any, Any, Any]]]:
+    """Times (N,) from nought on, each time over twice the span, with a driver's motion at them."""
+    import numpy as np
+
+    span = 1e-3
+    for _ in range(DOUBLINGS):
+        times = np.linspace(0, span, GRID + 1)
+        yield times, timed(driver, dict(scene.values), times)
+        if span > 1e6:
+            return
+        span *= 2
