@@ -54,15 +54,20 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
         )
     from graphkin.studio.desk import Desk
     from graphkin.studio.folder import Folder
+    from graphkin.studio.redirect import Redirect
     from graphkin.studio.server import serve
 
     desk = Desk(Folder(Path()), lang)
-    served = serve(desk, port, desk.address_of(name))
+    redirect = Redirect()
+    served = serve(desk, port, desk.address_of(name), redirect.remove)
     tell([served.address])
-    if not no_browser:
-        import webbrowser
+    try:
+        if not no_browser:
+            import webbrowser
 
-        webbrowser.open(served.address)
-    gc.collect()
-    gc.freeze()  # what is loaded stays: a search for garbage during a move passes it over
-    served.server.run()
+            webbrowser.open(redirect.write(served.address))
+        gc.collect()
+        gc.freeze()  # what is loaded stays: a search for garbage during a move passes it over
+        served.server.run()
+    finally:
+        redirect.remove()

@@ -10,6 +10,7 @@ from graphkin.errors import Problem, SceneError, WitnessError
 from graphkin.loci import curves_of
 from graphkin.mechanism import Mechanism
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.scale import Scales
 from graphkin.scaling import WANTED, drawing, scales, shown, targets_of
 from graphkin.steps.crossings import letter_of
 from graphkin.steps.solution import FAIR, Solution, Verdict
@@ -110,10 +111,12 @@ def nearly_singular(mechanism: Mechanism) -> Problem:
     )
 
 
-def drawings_of(mechanism: Mechanism, verdict: Verdict, spoken: Words) -> list[Drawing]:
-    """The material of each sheet, all at the same scale."""
+def drawings_of(
+    mechanism: Mechanism, verdict: Verdict, spoken: Words, held: Scales | None = None
+) -> list[Drawing]:
+    """The material of each sheet, all at the same scale: ``held``, else the one that fits best."""
     curves = curves_of(mechanism)
-    chosen = scales(mechanism, curves)
+    chosen = held or scales(mechanism, curves)
     drawings = [
         drawing(mechanism, kind, found, chosen, verdict, spoken, curves)
         for kind in WANTED

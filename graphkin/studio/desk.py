@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from threading import Lock
+from threading import Condition, Lock
 from typing import Any
 
 from graphkin import labs
 from graphkin.errors import GraphkinError, SceneError
 from graphkin.lab.new import START
 from graphkin.scene.limits import tables_of
-from graphkin.studio.folder import ENDING, Folder, shipped, shipped_text, stem_of
-from graphkin.studio.look import Sight, look, mistakes, spoken_in, told
+from graphkin.studio.folder import ENDING, Folder, completed, shipped, shipped_text, stem_of
+from graphkin.studio.look import Sight, look, spoken_in, told
 from graphkin.studio.orders import Order
 from graphkin.studio.panels import Memory, StaleError
 from graphkin.studio.places import marked
@@ -23,6 +24,7 @@ from graphkin.studio.saving import (
     VIEWS,
     Saved,
     Wanted,
+    mark_of_file,
     save_files,
     save_scene,
     sheets_of,
@@ -39,23 +41,28 @@ FIRST = "graphkin ="
 
 @dataclass(frozen=True, slots=True)
 class Opened:
-    """A text to begin with, and the name of the file as which it would be saved."""
+    """A text to begin with, and the name of the file as which it would be saved.
+
+    ``mark`` identifies the content of that file; it is empty for a text that is in no file here.
+    """
 
     name: str
     text: str
+    mark: str = ""
 
 
 class Desk:
     """The folder, the language of the page, and what each open page last saw.
 
     Drawings are made by one thread at a time: their fonts and caches are shared, and a newer move
-    of a slider makes an older one needless.
+    of a slider makes an older one needless. Texts are saved without waiting for a drawing.
     """
 
     def __init__(self, folder: Folder, language: str | None = None) -> None:
         self.folder = folder
         self.language = language
-        self.alone, self.counting = Lock(), Lock()
+        self.turns, self.writing = Condition(), Lock()
+        self.busy = False
         self.newest: OrderedDict[str, int] = OrderedDict()
         self.memories: dict[str, Memory] = {}
 
@@ -82,7 +89,8 @@ class Desk:
         if lab:
             return Opened(f"{lab}{ENDING}", shipped_text(lab))
         if scene:
-            return Opened(scene, self.folder.read(scene))
+            text = self.folder.read(scene)
+            return Opened(scene, text, mark_of_file(self.folder.path(scene)))
         return Opened(f"new{ENDING}", start_text())
 
     def listed(self) -> dict[str, Any]:
@@ -101,22 +109,40 @@ class Desk:
             order.flag("quick"),
         )
         self.arrived(tab, number)
-        with self.alone:
-            try:
-                self.still_wanted(tab, number)
+        try:
+            with self.drawing(lambda: self.still_wanted(tab, number)):
                 found = look(sight, self.memory(tab), lambda: self.still_wanted(tab, number))
-            except StaleError:
-                found = {"stale": True}
+        except StaleError:
+            found = {"stale": True}
         return found | {"number": number}
+
+    @contextmanager
+    def drawing(self, go_on: Callable[[], None] = lambda: None) -> Iterator[None]:
+        """Wait until nothing else is drawn; ``go_on`` is called while waiting, and may raise."""
+
+        def free() -> bool:
+            go_on()
+            return not self.busy
+
+        with self.turns:
+            self.turns.wait_for(free)
+            self.busy = True
+        try:
+            yield
+        finally:
+            with self.turns:
+                self.busy = False
+                self.turns.notify_all()
 
     def arrived(self, tab: str, number: int) -> None:
         """Note the newest request of a page; pages not heard of for long are forgotten."""
-        with self.counting:
+        with self.turns:
             self.newest[tab] = max(number, self.newest.get(tab, 0))
             self.newest.move_to_end(tab)
             while len(self.newest) > TABS:
                 gone, _ = self.newest.popitem(last=False)
                 self.memories.pop(gone, None)
+            self.turns.notify_all()
 
     def still_wanted(self, tab: str, number: int) -> None:
         """Raise StaleError where a page has asked for something newer."""
@@ -136,20 +162,21 @@ class Desk:
             return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
 
     def save(self, order: Order) -> dict[str, Any]:
-        """Save the text of a scene, whatever is wrong with it: what is so is told beside."""
+        """Save the text of a scene, whatever is wrong with it."""
         name, mark, replace = order.text("name"), order.text("mark"), order.flag("replace")
-        text = order.scene()
-        done = self.saving(lambda: save_scene(self.folder, name, text, mark, replace=replace), text)
-        if not done["files"]:
-            return done
-        with self.alone:
-            return done | {"mistakes": [told(each) for each in mistakes(text, stem_of(name))]}
+        text, whole = order.scene(), completed(name)
+
+        def saved() -> Saved:
+            with self.writing:
+                return save_scene(self.folder, whole, text, mark, replace=replace)
+
+        return self.saving(saved, text)
 
     def sheets(self, order: Order) -> dict[str, Any]:
         """Draw and save the sheets of a text."""
         wanted = Wanted(
             order.scene(),
-            order.text("name"),
+            completed(order.text("name")),
             order.settings(),
             order.choice("language", LANGUAGES),
             order.choice("view", VIEWS),
@@ -158,16 +185,17 @@ class Desk:
         replace = order.flag("replace")
 
         def saved() -> Saved:
-            files = sheets_of(self.folder, wanted)
-            return save_files(self.folder, files, replace=replace)
+            with self.drawing():
+                files = sheets_of(self.folder, wanted)
+            with self.writing:
+                return save_files(self.folder, files, replace=replace)
 
         return self.saving(saved, wanted.text)
 
     def saving(self, work: Callable[[], Saved], text: str) -> dict[str, Any]:
         """What was written, what is in the way, or why nothing was written."""
         try:
-            with self.alone:
-                return asdict(work()) | {"problems": []}
+            return asdict(work()) | {"problems": []}
         except GraphkinError as error:
             problems = [told(mark) for mark in marked(error.problems, text)]
         return asdict(Saved()) | {"problems": problems}

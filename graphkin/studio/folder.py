@@ -24,7 +24,7 @@ FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
 WORD = re.compile(r"\w[\w-]{0,60}")
 """A name that is good everywhere."""
 OTHERS = frozenset((labs.LAB, "pyproject.toml"))
-"""Files that are no scenes."""
+"""Files that are no scenes: neither listed nor read nor written."""
 
 
 class Folder:
@@ -54,7 +54,7 @@ class Folder:
     def holds(self, name: str) -> bool:
         """Whether a name is that of a scene that can be read here."""
         try:
-            return name not in OTHERS and self.path(name).is_file()
+            return self.path(name).is_file()
         except SceneError:
             return False
 
@@ -77,7 +77,14 @@ class Folder:
 def meant(name: str) -> str:
     """A name that would do, as near to a given one as it can be."""
     stem = name.replace("\\", "/").rpartition("/")[2].removesuffix(ENDING)
-    return f"{stem if WORD.fullmatch(stem) else 'pump'}{ENDING}"
+    near = f"{stem}{ENDING}"
+    return near if WORD.fullmatch(stem) and near not in OTHERS else f"pump{ENDING}"
+
+
+def completed(name: str) -> str:
+    """A name with the ending of a scene, where it has none of its own."""
+    last = name.rpartition("/")[2]
+    return name if not last or "." in last else f"{name}{ENDING}"
 
 
 def doubt(name: str) -> str:
@@ -87,6 +94,8 @@ def doubt(name: str) -> str:
         return f"the name does not end in {ENDING}"
     if len(name) > LONGEST or len(parts) > DEEPEST:
         return "the name is too long"
+    if parts[-1] in OTHERS:
+        return f"{parts[-1]} is no scene"
     return next((found for part in parts if (found := doubt_of_part(part))), "")
 
 

@@ -51,13 +51,17 @@ def new_token() -> str:
 class Guard:
     """Stands before an application: what is not the page's own is answered 403, and goes no way.
 
-    ``hosts`` are the names under which a browser may call the server, with its port.
+    ``hosts`` are the names under which a browser may call the server, with its port; ``known`` is
+    called whenever somebody shows the token.
     """
 
-    def __init__(self, inside: Application, token: str, hosts: Iterable[str]) -> None:
+    def __init__(
+        self, inside: Application, token: str, hosts: Iterable[str], known: Callable[[], None]
+    ) -> None:
         self.inside = inside
         self.token = token.encode()
         self.hosts = frozenset(hosts)
+        self.known = known
 
     def __call__(self, environ: Environ, start: Start) -> Iterable[bytes]:
         """Answer a request, or refuse it."""
@@ -68,6 +72,7 @@ class Guard:
         path = self.path(environ)
         if path is None:
             return refused(guarded)
+        self.known()
         within = {**environ, "PATH_INFO": path, "SCRIPT_NAME": ""}
         return self.inside(within, guarded)
 

@@ -57,17 +57,6 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
     return found
 
 
-def mistakes(text: str, name: str) -> list[Mark]:
-    """What is wrong with a text as it stands, so that no sheet could be drawn of it."""
-    try:
-        mechanism = Mechanism(read_text(text, name))
-        solution = shown(mechanism)
-        problems = doubts(solution.margin, mechanism.witness(solution))
-    except GraphkinError as error:
-        problems = list(error.problems)
-    return marked(problems, text)
-
-
 def read(sight: Sight) -> Scene:
     """The scene of a text; values of sliders that it has no longer are dropped."""
     try:
@@ -101,9 +90,10 @@ def drawn(
     solution = shown(mechanism)
     verdict = mechanism.witness(solution)
     problems += doubts(solution.margin, verdict)
-    drawings = drawings_of(mechanism, verdict, spoken)
+    held = memory.held(sight.text) if sight.quick else None
+    drawings = drawings_of(mechanism, verdict, spoken, held)
     pictures = []
-    for panel, unplaced in panels(drawings, sight.mechanism, memory, quick=sight.quick):
+    for panel, unplaced in panels(drawings, sight.text, sight.mechanism, memory, quick=sight.quick):
         pictures.append(panel)
         problems += unplaced
         go_on()

@@ -37,6 +37,7 @@ SPOKEN = (
     "studio.cancel",
     "studio.replace",
     "studio.exist",
+    "studio.changed",
     "studio.leave",
     "studio.go_on",
     "studio.moved",
@@ -90,6 +91,7 @@ def page(opened: Opened, words: Words) -> str:
         "language": words.language,
         "version": __version__,
         "name": opened.name,
+        "mark": opened.mark,
         "text": opened.text.removeprefix("\ufeff"),
         "start": json.dumps(start, ensure_ascii=False),
     }

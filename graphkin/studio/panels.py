@@ -6,19 +6,21 @@ the page's own.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from html import escape
 from math import ceil, floor
 
 from graphkin.errors import PageError, Problem
-from graphkin.paper.areas import Rect
+from graphkin.paper.areas import ABOVE, MARGIN, Rect
 from graphkin.paper.detail import with_detail
 from graphkin.paper.drawing import Drawing
+from graphkin.paper.field import Field
 from graphkin.paper.inset import insets
 from graphkin.paper.labels import Board
-from graphkin.paper.layout import Layout, lay_out
+from graphkin.paper.layout import Layout, lay_out, spans
 from graphkin.paper.marks import Mark, Text, reach
+from graphkin.paper.scale import Extent, Scales
 from graphkin.paper.sheet import left_board, right_board
 from graphkin.paper.style import in_variables
 from graphkin.paper.svg import element, rules
@@ -36,12 +38,41 @@ class StaleError(Exception):
     """Something newer is asked for, and what is being drawn is not wanted any more."""
 
 
+@dataclass(frozen=True, slots=True)
+class AtRest:
+    """The scale factors and fields of a text's drawings when they were last laid out freely."""
+
+    text: str
+    scales: Scales
+    layouts: Mapping[str, Layout]
+
+
 @dataclass
 class Memory:
-    """What stays from one answer to the next: seats of the labels and edges of each drawing."""
+    """What stays from one answer to the next: scales and fields, seats of labels, edges.
 
+    ``frames`` are the edges of the drawings at rest, ``edges`` those of the drawings as they move.
+    """
+
+    at_rest: AtRest | None = None
     seats: dict[tuple[str, str], Seats] = field(default_factory=dict)
+    frames: dict[tuple[str, str], Rect] = field(default_factory=dict)
     edges: dict[tuple[str, str], Rect] = field(default_factory=dict)
+
+    def held(self, text: str) -> Scales | None:
+        """The scale factors that are kept while values of a text move; None where none are."""
+        return self.at_rest.scales if self.at_rest and self.at_rest.text == text else None
+
+    def layouts(self, drawings: Sequence[Drawing], text: str, *, quick: bool) -> dict[str, Layout]:
+        """Where each drawing stands: while values move where it stood at rest, else anew.
+
+        Raises PageError where the drawings are too large for their fields.
+        """
+        if quick and self.held(text) and self.at_rest:
+            return {d.kind: moved(d, self.at_rest.layouts[d.kind]) for d in drawings}
+        found = {drawing.kind: lay_out(drawing) for drawing in drawings}
+        self.at_rest = AtRest(text, drawings[0].scales, found)
+        return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,15 +85,42 @@ class Panel:
     marks: tuple[Mark, ...]
 
 
+def moved(drawing: Drawing, layout: Layout) -> Layout:
+    """The layout of a drawing whose values have moved: its fields hold their scale and origin."""
+    metres = drawing.scales.metres(drawing.kind)
+    fields = replace(
+        layout,
+        mechanism=widened(layout.mechanism, drawing.mechanism_extent(), 1.0),
+        plan=widened(layout.plan, drawing.plan_extent(), metres),
+    )
+    return replace(fields, spans=spans(drawing, fields))
+
+
+def widened(field: Field, extent: Extent, metres: float) -> Field:
+    """A field with room for a drawing, whose points fall where they did before."""
+    low, high = complex(extent.left, extent.bottom), complex(extent.right, extent.top)
+    (left, bottom), (right, top) = field(low / metres), field(high / metres)
+    drawn = left - MARGIN, top - ABOVE, right + MARGIN, bottom + ABOVE
+    return replace(field, rect=around(field.rect, drawn))
+
+
+def around(one: Rect, other: Rect) -> Rect:
+    """The rectangle around two."""
+    left, top = (min(pair) for pair in zip(one[:2], other[:2], strict=True))
+    right, bottom = (max(pair) for pair in zip(one[2:], other[2:], strict=True))
+    return left, top, right, bottom
+
+
 def panels(
-    drawings: Sequence[Drawing], shown: str, memory: Memory, *, quick: bool
+    drawings: Sequence[Drawing], text: str, shown: str, memory: Memory, *, quick: bool
 ) -> Iterator[tuple[Panel, Sequence[Problem]]]:
     """The mechanism with the construction of one plan, then the plans; with what did not fit.
 
-    ``shown`` is the kind whose construction stands on the mechanism. ``quick`` lets labels ride.
+    ``shown`` is the kind whose construction stands on the mechanism. ``quick``, while values of the
+    scene's text move, holds scales and fields, and lets labels ride.
     """
     on_mechanism = next((d for d in drawings if d.kind == shown), drawings[0])
-    places = {drawing.kind: lay_out(drawing) for drawing in drawings}
+    places = memory.layouts(drawings, text, quick=quick)
     for name, drawing in ((MECHANISM, on_mechanism), *((d.kind, d) for d in drawings)):
         own = (name, drawing.kind)
         board = board_of(name, drawing, places[drawing.kind])
@@ -78,7 +136,10 @@ def panels(
             memory.seats[own] = seats_of(labels, marks)
         else:
             marks = riding(board, memory.seats.get(own, Seats()))
-        memory.edges[own] = edges_of(marks, memory.edges.get(own) if quick else None)
+        if quick and own in memory.frames:
+            memory.edges[own] = grown(memory.edges[own], edges_of(marks), memory.frames[own])
+        else:
+            memory.frames[own] = memory.edges[own] = edges_of(marks)
         svg = picture(name, marks, memory.edges[own], drawing)
         caption = marked_up(head.markup) if isinstance(head, Text) else ""
         yield Panel(name, caption, svg, tuple(marks)), problems
@@ -99,15 +160,23 @@ def finished(name: str, drawing: Drawing, layout: Layout, board: Board) -> list[
     return [*marks, *insets(drawing, layout.mechanism, marks)] if name == MECHANISM else marks
 
 
-def edges_of(marks: Iterable[Mark], before: Rect | None) -> Rect:
-    """The box around some marks with a little room, on a grid; not within what it was before."""
+def grown(before: Rect, needed: Rect, frame: Rect) -> Rect:
+    """Edges that hold what is drawn now and before, at most by a frame's size outside of it."""
+    width, height = frame[2] - frame[0], frame[3] - frame[1]
+    left, top, right, bottom = around(before, needed)
+    return (
+        max(left, frame[0] - width),
+        max(top, frame[1] - height),
+        min(right, frame[2] + width),
+        min(bottom, frame[3] + height),
+    )
+
+
+def edges_of(marks: Iterable[Mark]) -> Rect:
+    """The box around some marks with a little room, on a grid."""
     boxes = [reach(mark) for mark in marks]
     sides = [min(box[i] for box in boxes) - AROUND for i in (0, 1)]
     sides += [max(box[i] for box in boxes) + AROUND for i in (2, 3)]
-    if before is not None:
-        sides = [
-            pick(pair) for pick, *pair in zip((min, min, max, max), sides, before, strict=True)
-        ]
     left, top = (GRID * floor(side / GRID) for side in sides[:2])
     right, bottom = (GRID * ceil(side / GRID) for side in sides[2:])
     return left, top, right, bottom

@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from difflib import unified_diff
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
 
 from graphkin import labs
+from graphkin.errors import SceneError
 from graphkin.handout import hand_out
 from graphkin.mechanism import Mechanism
 from graphkin.paper.files import file_stem, rendered, write_all
@@ -22,30 +24,50 @@ from graphkin.studio.sliders import written
 VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
 FORMATS = ("svg", "pdf", PAGE)
+MOST_LINES = 12
+"""Lines that are shown of what saving would change in a file that is in the way."""
 
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """What became of it: the names of the files written, or of those that are in the way."""
+    """What became of it: the names of the files written, or of those that are in the way.
+
+    ``mark`` identifies the content that was written; ``changes`` are the lines in which a scene
+    that is in the way differs from the text to be saved, as `difflib` writes them.
+    """
 
     files: tuple[str, ...] = ()
     exist: tuple[str, ...] = ()
     mark: str = ""
+    changes: tuple[str, ...] = ()
 
 
 def save_scene(folder: Folder, name: str, text: str, mark: str, *, replace: bool) -> Saved:
     """Write the text of a scene; not over a file that is there, unless told to.
 
-    ``mark`` is what the last saving of this page gave: a file that is still as it was then is this
-    page's own and is written anew. Raises SceneError for a name that leads elsewhere, PageError
-    where nothing can be written.
+    ``mark`` identifies the content that the page last read or saved under this name: a file that
+    still holds it is replaced without asking. Raises SceneError for a name that leads elsewhere,
+    PageError where nothing can be written.
     """
     path = folder.path(name)
     data = text.encode("utf-8")
     if os.path.lexists(path) and not replace and mark_of_file(path) != mark:
-        return Saved(exist=(name,))
+        return Saved(exist=(name,), changes=changes(folder, name, text))
     write_all(path.parent, {path.name: data}, force=True)
     return Saved(files=(name,), mark=mark_of(data))
+
+
+def changes(folder: Folder, name: str, text: str) -> tuple[str, ...]:
+    """The lines that saving a text would take from a scene (-) and put into it (+), the first ones.
+
+    None for a file that cannot be read.
+    """
+    try:
+        before = folder.read(name)
+    except SceneError:
+        return ()
+    lines = list(unified_diff(before.splitlines(), text.splitlines(), lineterm="", n=0))[2:]
+    return (*lines[:MOST_LINES], *(("…",) if len(lines) > MOST_LINES else ()))
 
 
 def mark_of(data: bytes) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import socket
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlencode
@@ -16,10 +16,13 @@ from graphkin.studio.guard import Guard, new_token
 from graphkin.studio.orders import MOST_BYTES
 
 HOME = "127.0.0.1"
-THREADS = 4
+THREADS = 16
+"""Requests answered at once: of each page that is remembered one look and one to save."""
+CONNECTIONS = 500
 NOTHING: Mapping[str, str] = {}
-IDLE = 600
-"""Seconds after which a silent connection is closed."""
+IDLE, SWEEP = 10, 2
+"""Seconds after which a connection that asks for nothing is closed, and between two searches for
+such connections."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +34,15 @@ class Served:
     server: Any
 
 
-def serve(desk: Desk, port: int = 0, first: Mapping[str, str] = NOTHING) -> Served:
+def serve(
+    desk: Desk,
+    port: int = 0,
+    first: Mapping[str, str] = NOTHING,
+    known: Callable[[], None] = lambda: None,
+) -> Served:
     """Listen for the page of a desk, which opens what is named ``first``; port 0 is a free one.
+
+    ``known`` is called whenever a request shows the token.
 
     Raises PageError where the port is taken, or where the libraries of the studio are missing.
     """
@@ -46,13 +56,17 @@ def serve(desk: Desk, port: int = 0, first: Mapping[str, str] = NOTHING) -> Serv
     listening = listener(port)
     port = listening.getsockname()[1]
     token = new_token()
-    guard = Guard(application(desk), token, (f"{HOME}:{port}", f"localhost:{port}"))
+    hosts = (f"{HOME}:{port}", f"localhost:{port}")
+    guard = Guard(application(desk), token, hosts, known)
     server = create_server(
         guard,
         sockets=[listening],
         threads=THREADS,
         ident="",
+        connection_limit=CONNECTIONS,
+        asyncore_use_poll=True,  # select takes no file beyond the 1024th
         channel_timeout=IDLE,
+        cleanup_interval=SWEEP,
         max_request_body_size=MOST_BYTES,
         max_request_header_size=16 * 1024,
         clear_untrusted_proxy_headers=True,

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import signal
+import stat
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from http.client import HTTPConnection
 from pathlib import Path
 from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 from click.testing import CliRunner
@@ -18,8 +20,10 @@ from click.testing import CliRunner
 from graphkin import cli_studio
 from graphkin.cli import app
 from graphkin.errors import PageError
-from graphkin.studio.server import serve
-from tests.studio.pump import PUMP, desk_in
+from graphkin.studio.desk import Desk
+from graphkin.studio.redirect import Redirect
+from graphkin.studio.server import Served, serve
+from tests.studio.pump import PUMP, desk_in, running
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -51,13 +55,13 @@ def test_the_address_that_is_printed_answers_until_it_is_stopped(tmp_path, argum
         address = urlsplit(process.stdout.readline().strip())
         assert address.hostname == "127.0.0.1"
         assert address.query in ("scene=one.toml", "lab=pump")
-        line = HTTPConnection("127.0.0.1", address.port or 0, timeout=30)
+        line = HTTPConnection("127.0.0.1", address.port or 0)
         line.request("GET", f"{address.path}?{address.query}")
         page = line.getresponse().read().decode()
         assert ('<html lang="it"' in page) == ("it" in arguments)
         line.close()
         process.send_signal(signal.SIGINT)
-        _, wrong = process.communicate(timeout=30)
+        _, wrong = process.communicate()
         assert process.returncode in (0, 130)
         assert "Traceback" not in wrong
     assert [path.name for path in tmp_path.iterdir()] == ["one.toml"]
@@ -88,3 +92,44 @@ def test_without_its_packages_it_says_what_to_install(monkeypatch):
     result = CliRunner().invoke(cli_studio.studio, ["--no-browser"])
     assert result.exit_code == 2
     assert "the studio needs bottle: pip install '.[studio]'" in result.output
+
+
+def test_the_browser_is_led_by_a_file_of_this_user_alone_and_never_given_the_token(
+    tmp_path, monkeypatch
+):
+    """Everybody on a computer can read the command lines that run on it."""
+    (tmp_path / "one.toml").write_text(PUMP, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    opened, found = [], []
+
+    class Server:
+        def run(self) -> None:
+            path = Path(url2pathname(urlsplit(opened[0]).path))
+            found.append((path, path.read_text(encoding="utf-8"), path.parent.stat().st_mode))
+
+    def serving(desk: Desk, port: int, first: object, known: Callable[[], None]) -> Served:
+        found.append(known)
+        return Served("http://127.0.0.1:1/secret/?scene=one.toml&lang=it", 1, Server())
+
+    monkeypatch.setattr("graphkin.studio.server.serve", serving)
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    result = CliRunner().invoke(cli_studio.studio, ["one.toml"])
+    assert result.exit_code == 0, result.output
+    assert "secret" not in opened[0]
+    _, (path, text, mode) = found
+    assert 'url=http://127.0.0.1:1/secret/?scene=one.toml&amp;lang=it"' in text
+    assert not stat.S_IMODE(mode) & 0o077
+    assert not path.parent.exists()
+
+
+def test_the_file_that_leads_to_the_page_is_gone_once_the_page_is_asked_for(tmp_path):
+    redirect = Redirect()
+    with running(serve(desk_in(tmp_path), known=redirect.remove)) as served:
+        path = Path(url2pathname(urlsplit(redirect.write(served.address)).path))
+        parts = urlsplit(served.address)
+        for asked, left in (("/wrong/", True), (parts.path, False)):
+            line = HTTPConnection("127.0.0.1", served.port)
+            line.request("GET", asked)
+            line.getresponse().read()
+            line.close()
+            assert path.exists() is left

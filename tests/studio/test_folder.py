@@ -163,13 +163,52 @@ def test_a_name_that_is_refused_is_answered_with_one_that_would_do(place, name, 
     assert Folder(place).path(meant)
 
 
-def test_what_is_wrong_with_a_scene_that_is_saved_is_told(place):
+def test_a_text_is_saved_whatever_is_wrong_with_it_and_while_something_is_drawn(place):
     desk = desk_in(place)
     bad = PUMP.replace("A-B = 40", "A-B = ")
-    found = desk.save(ordered(text=bad, name="bad.toml"))
-    assert found["files"] == ("bad.toml",)
-    assert [(each["line"], each["column"]) for each in found["mistakes"]] == [(24, 7)]
-    assert not desk.save(ordered(name="good.toml"))["mistakes"]
+    with desk.drawing():
+        assert desk.save(ordered(text=bad, name="bad.toml"))["files"] == ("bad.toml",)
+    assert (place / "bad.toml").read_text(encoding="utf-8") == bad
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [("lever", "lever.toml"), ("lab/lever", "lab/lever.toml"), ("a.toml", "a.toml")],
+)
+def test_a_name_without_an_ending_gets_that_of_a_scene(place, name, file):
+    assert desk_in(place).save(ordered(name=name))["files"] == (file,)
+    assert (place / file).read_text(encoding="utf-8") == PUMP
+
+
+@pytest.mark.parametrize("name", ["lab/lab.toml", "lab.toml", "pyproject.toml"])
+def test_files_that_are_no_scenes_are_neither_read_nor_replaced(place, name):
+    folder = Folder(place)
+    with pytest.raises(SceneError, match=r"is no scene; expected .* such as pump\.toml"):
+        folder.read(name)
+    with pytest.raises(SceneError, match="is no scene"):
+        save_scene(folder, name, "mine", "", replace=True)
+    assert (place / "lab" / "lab.toml").read_text(encoding="utf-8") == ""
+
+
+def test_a_scene_is_saved_where_it_was_opened_until_somebody_else_changes_it(place):
+    desk = desk_in(place)
+    opened = desk.open("one.toml", "")
+    ours = PUMP.replace("A-B = 40", "A-B = 41")
+    assert desk.save(ordered(text=ours, name="one.toml", mark=opened.mark))["files"]
+    theirs = PUMP.replace("C-D = 20", "C-D = 21")
+    (place / "one.toml").write_text(theirs, encoding="utf-8")
+    found = desk.save(ordered(text=ours, name="one.toml", mark=opened.mark))
+    assert found["exist"] == ("one.toml",)
+    changed = [line for line in found["changes"] if line[0] in "-+"]
+    assert changed == ["-A-B = 40", "+A-B = 41", "-C-D = 21", "+C-D = 20"]
+    assert (place / "one.toml").read_text(encoding="utf-8") == theirs
+
+
+def test_only_the_first_changes_are_shown(place):
+    found = desk_in(place).save(ordered(text="x\n" * 500, name="one.toml"))
+    assert found["exist"]
+    assert 0 < len(found["changes"]) < 20
+    assert found["changes"][-1] == "…"
 
 
 def test_values_that_cannot_be_written_are_told(place):

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import re
 from html import unescape
+from math import dist
+from pathlib import Path
+from threading import Thread
 
 import pytest
 
@@ -15,7 +18,7 @@ from graphkin.paper.flattest import crossings_on
 from graphkin.paper.style import INKS, STYLES, style_of
 from graphkin.scaling import shown
 from graphkin.steps.solution import Verdict
-from graphkin.studio.panels import Memory, StaleError
+from graphkin.studio.panels import Memory, StaleError, around
 from graphkin.studio.tables import FLATTEST
 from graphkin.text import LANGUAGES, words
 from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
@@ -224,3 +227,75 @@ def test_a_route_that_does_not_agree_is_said_aloud_and_nothing_is_handed_out(mon
     assert "velocity of D; B" in verdict["words"]
     with pytest.raises(WitnessError):
         hand_out(load("pump"))
+
+
+WATT = (Path(__file__).parents[2] / "examples/scenes/watt-1.toml").read_text(encoding="utf-8")
+"""A mechanism whose sheets are of several scales over a turn."""
+TURN = ("60", "90", "150", "240", "330", "60")
+
+
+def test_scales_and_fields_hold_while_a_slider_moves():
+    memory = Memory()
+    seen(WATT, memory, settings={"angle": TURN[0]})
+    moved = [svgs(seen(WATT, memory, settings={"angle": at}, quick=True)) for at in TURN]
+    rested = [svgs(seen(WATT, settings={"angle": at})) for at in TURN]
+    assert len({round(length_of(svg["mechanism"], "1")) for svg in rested}) > 1
+    assert len({round(length_of(svg["mechanism"], "1"), 2) for svg in moved}) == 1
+    assert len({start_of(svg["mechanism"], "1") for svg in moved}) == 1
+
+
+def test_the_frame_holds_what_is_drawn_and_never_shrinks_while_a_slider_moves():
+    memory = Memory()
+    before = frame_of(svgs(seen(WATT, memory, settings={"angle": TURN[0]}))["mechanism"])
+    for at in TURN:
+        svg = svgs(seen(WATT, memory, settings={"angle": at}, quick=True))["mechanism"]
+        left, top, right, bottom = frame = frame_of(svg)
+        for x, y in ends_of(svg, "link"):
+            assert left < x < right, at
+            assert top < y < bottom, at
+        assert around(frame, before) == frame
+        before = frame
+
+
+def test_another_text_is_drawn_at_its_own_scale():
+    memory = Memory()
+    seen(memory=memory)
+    small = PUMP.replace('length = "cm"', 'length = "mm"')
+    assert svgs(seen(small, memory, quick=True))["mechanism"].count("<line")
+    assert memory.held(small) != memory.held(PUMP) is None
+
+
+ENDS = ("x1", "y1", "x2", "y2")
+
+
+def ends_of(svg: str, cls: str, name: str = '[^"]*') -> list[tuple[float, float]]:
+    """The ends of the lines of a class in a picture."""
+    lines = re.findall(rf'<line class="{cls}" data-name="{name}"[^>]*>', svg)
+    numbers = [[float(line.split(f' {at}="')[1].split('"')[0]) for at in ENDS] for line in lines]
+    return [end for x1, y1, x2, y2 in numbers for end in ((x1, y1), (x2, y2))]
+
+
+def length_of(svg: str, link: str) -> float:
+    """How long a link is drawn."""
+    return dist(*ends_of(svg, "link", link)[:2])
+
+
+def start_of(svg: str, link: str) -> tuple[float, float]:
+    """Where a link's first pin is drawn."""
+    return ends_of(svg, "link", link)[0]
+
+
+def frame_of(svg: str) -> tuple[float, float, float, float]:
+    """The edges of a picture."""
+    left, top, width, height = map(float, re.search(r'viewBox="([^"]*)"', svg)[1].split())
+    return left, top, left + width, top + height
+
+
+def test_who_waits_for_a_drawing_goes_when_something_newer_is_asked_for(tmp_path):
+    desk, answers = desk_in(tmp_path), []
+    waiting = Thread(target=lambda: answers.append(desk.look(ordered(number=1))))
+    with desk.drawing():
+        waiting.start()
+        desk.arrived("a", 2)
+        waiting.join()
+    assert answers == [{"stale": True, "number": 1}]

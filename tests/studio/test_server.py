@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import socket
 from collections.abc import Iterator
+from contextlib import suppress
 from http.client import HTTPConnection, HTTPResponse
 from pathlib import Path
 from typing import Any
@@ -295,3 +296,24 @@ def test_the_files_of_the_page_name_no_outside_address():
         assert "https:" not in text, path
         assert " on" + "click=" not in text
         assert "eval(" not in text
+
+
+def test_requests_that_are_never_finished_keep_nobody_waiting(served):
+    half = [socket.create_connection((HOME, served.port)) for _ in range(150)]
+    for each in half:
+        each.sendall(b"GET / HTTP/1.1\r\nHost: ")
+    assert asked(served, "GET", "")[0].status == 200
+    for each in half:
+        each.close()
+
+
+def test_a_request_that_is_never_finished_is_closed(tmp_path, monkeypatch):
+    monkeypatch.setattr("graphkin.studio.server.IDLE", 0)
+    monkeypatch.setattr("graphkin.studio.server.SWEEP", 0)
+    with (
+        running(serve(desk_in(tmp_path))) as served,
+        socket.create_connection((HOME, served.port)) as half,
+        suppress(ConnectionResetError),
+    ):
+        half.sendall(b"GET / HTTP/1.1\r\nHost: ")
+        assert half.recv(1) == b""

@@ -8,10 +8,13 @@ for (const button of document.querySelectorAll("dialog .close")) {
   button.addEventListener("click", () => button.closest("dialog").close());
 }
 
-/** The answer to a question: "yes", "other" where there is another way, or nothing. */
-export function agreed(question, yes, other = "") {
+/** The answer to a question: "yes", "other" where there is another way, or nothing; `lines` are
+ * what it is about. */
+export function agreed(question, yes, other = "", lines = []) {
   const dialog = find("asking");
   find("question").textContent = question;
+  find("asked-lines").textContent = lines.join("\n");
+  find("asked-lines").hidden = !lines.length;
   find("yes").textContent = yes;
   find("other").textContent = other;
   find("other").hidden = !other;
@@ -31,7 +34,8 @@ export async function saved(what, fields) {
   let answer = await ask(what, fields);
   if (answer.exist.length) {
     const list = answer.exist.join(", ");
-    if (!(await agreed(say("studio.exist", { list }), say("studio.replace")))) return null;
+    const question = say(fields.mark ? "studio.changed" : "studio.exist", { list });
+    if (!(await agreed(question, say("studio.replace"), "", answer.changes))) return null;
     answer = await ask(what, { ...fields, replace: true });
   }
   return answer;

@@ -25,7 +25,7 @@ export function onChoosing(work) {
 /** Put everything in its place; what cannot be drawn now stays as it was, and says so. */
 export function showDrawings(answer) {
   const drawn = answer.panels !== undefined;
-  old.hidden = drawn || !all.querySelector("svg");
+  old.hidden = drawn || !all.querySelector(".drawing svg");
   find("seeing").classList.toggle("old", !drawn);
   if (!drawn) {
     if (checked) find("verdict").textContent = say("studio.checked_before", { words: checked });

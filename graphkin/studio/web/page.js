@@ -14,7 +14,7 @@ const TO_TEXT = "to-text"; // where the next page has its focus
 const file = find("file");
 const drawings = find("drawings");
 let safe = written(); // the text as it was opened or last saved
-let mark = ""; // what the last saving gave
+let held = { name: file.value, mark: document.body.dataset.mark }; // the file as it was opened or saved
 let number = 0; // of the newest request
 let shown = 0; // of the newest answer
 let moving = false; // a move is on its way
@@ -25,7 +25,8 @@ let chosen = ""; // the language, where it was chosen here
 
 const scene = () => ({ text: written(), name: file.value.trim(), settings: settings() });
 
-/** Ask for a look at the scene as it is, and show the answer unless a newer one is there. */
+/** Ask for a look at the scene as it is, and show the answer unless a newer one is there; whether
+ * it is shown. */
 async function look(quick) {
   clearTimeout(timer);
   const own = ++number;
@@ -33,7 +34,7 @@ async function look(quick) {
   try {
     const fields = { ...scene(), number: own, mechanism: onMechanism(), quick };
     const answer = await ask("look", fields);
-    if (answer.stale || own < shown) return;
+    if (answer.stale || own < shown) return false;
     shown = own;
     wrong = answer.problems;
     showProblems(wrong);
@@ -45,9 +46,11 @@ async function look(quick) {
     showDrawings(answer);
     document.body.dataset.shown = String(own);
     document.body.dataset.settled = String(!quick);
-    state();
+    unsaved();
+    return true;
   } catch (error) {
     tell(error.message, "wrong");
+    return false;
   } finally {
     clearTimeout(waiting);
     if (own === number) drawings.removeAttribute("aria-busy");
@@ -74,10 +77,16 @@ function soon() {
 
 const isSafe = () => written() === safe;
 
-/** Say at the top whether something is not saved; what had failed is said no longer. */
+/** Something else is done: what had failed is said no longer. */
 function state() {
-  document.title = `${isSafe() ? "" : "• "}${file.value} – graphkin`;
   if (find("status").classList.contains("wrong")) tell("");
+  unsaved();
+}
+
+/** Say at the top whether something is not saved, but for what has just failed. */
+function unsaved() {
+  document.title = `${isSafe() ? "" : "• "}${file.value} – graphkin`;
+  if (find("status").classList.contains("wrong")) return;
   if (!isSafe()) tell(say("studio.unsaved"));
   else if (find("status").textContent === say("studio.unsaved")) tell("");
 }
@@ -117,36 +126,40 @@ async function save() {
     const values = await settled();
     if (values === null) return;
     const text = written();
-    const answer = await saved("save", { text, name: file.value.trim(), mark });
+    const name = file.value.trim();
+    const mark = name === held.name ? held.mark : "";
+    const answer = await saved("save", { text, name, mark });
     if (!answer) return;
     if (answer.problems.length) {
       tell(answer.problems.map(sentence).join(" "), "wrong");
       return;
     }
     safe = text;
-    mark = answer.mark;
+    file.value = answer.files[0];
+    held = { name: file.value, mark: answer.mark };
     state();
-    tellSaved(answer, values);
-    address(`scene=${encodeURIComponent(answer.files[0])}`);
+    tellSaved(answer.files, values);
+    address(`scene=${encodeURIComponent(file.value)}`);
   } catch (error) {
     tell(error.message, "wrong");
   }
 }
 
-/** Say what was saved: with which values, and what is wrong with it. */
-function tellSaved({ files, mistakes }, values) {
-  const parts = [say("studio.saved", { list: files.join(", ") }), values];
-  if (mistakes.length) {
-    const { line } = mistakes[0];
-    const count = counted(mistakes.length);
-    parts.push(line ? `${count} (${say("studio.line", { line })})` : count);
-    parts.push(say("studio.not_drawable"));
-  }
-  tell(parts.filter(Boolean).join("; "), mistakes.length ? "poor" : "");
+/** Say what was saved and with which values, then what is wrong with it, as soon as it is known. */
+async function tellSaved(files, values) {
+  const parts = [say("studio.saved", { list: files.join(", ") }), values].filter(Boolean);
+  tell(parts.join("; "));
+  if (!(await look(false)) || !isSafe() || !wrong.length) return;
+  const { line } = wrong[0];
+  const count = counted(wrong.length);
+  parts.push(line ? `${count} (${say("studio.line", { line })})` : count);
+  parts.push(say("studio.not_drawable"));
+  tell(parts.join("; "), "poor");
 }
 
 /** Save the sheets; where something is wrong, it is said at once and nothing is asked. */
 async function sheets() {
+  state();
   await look(false);
   if (find("status").classList.contains("wrong")) return;
   if (!wrong.length) saveSheets(scene);
