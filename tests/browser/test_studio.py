@@ -347,24 +347,75 @@ def test_the_check_of_an_older_text_has_no_tick(studio):
     assert page.inner_text("#verdict") == checked
 
 
-def test_a_scene_is_saved_and_nothing_is_replaced_unasked(studio, place):
+def test_a_scene_is_saved_where_it_was_opened_and_no_other_is_replaced_unasked(studio, place):
     page = studio()
-    write(page, "C-D = 20", "C-D = 21")
-    assert page.inner_text("#status") == "not saved"
+    (place / "other.toml").write_text(PUMP, encoding="utf-8")
+    for before, after in ((20, 21), (21, 22)):
+        write(page, f"C-D = {before}", f"C-D = {after}")
+        assert page.inner_text("#status") == "not saved"
+        page.keyboard.press("Control+s")
+        said(page, "Saved: mine.toml")
+        assert f"C-D = {after}" in (place / "mine.toml").read_text(encoding="utf-8")
+        assert not page.is_visible("#asking")
+    page.fill("#file", "other")
     page.click("#save")
     page.wait_for_selector("#asking[open]")
-    assert "mine.toml" in page.inner_text("#question")
+    assert page.inner_text("#question").startswith("There already: other.toml.")
     page.click("#no")
-    assert (place / "mine.toml").read_text(encoding="utf-8") == PUMP
+    assert (place / "other.toml").read_text(encoding="utf-8") == PUMP
     page.click("#save")
     page.click("#yes")
-    until(page, "document.getElementById('status').textContent === 'Saved: mine.toml'")
-    assert "C-D = 21" in (place / "mine.toml").read_text(encoding="utf-8")
-    write(page, "C-D = 21", "C-D = 22")
-    page.keyboard.press("Control+s")
-    until(page, "document.getElementById('status').textContent === 'Saved: mine.toml'")
-    assert "C-D = 22" in (place / "mine.toml").read_text(encoding="utf-8")
-    assert not page.is_visible("#asking")
+    said(page, "Saved: other.toml")
+    assert page.input_value("#file") == "other.toml"
+    assert "C-D = 22" in (place / "other.toml").read_text(encoding="utf-8")
+
+
+def test_what_another_has_saved_meanwhile_is_shown_before_it_is_replaced(studio, place):
+    page, other = studio(), studio()
+    write(other, "A-B = 40", "A-B = 41")
+    other.click("#save")
+    said(other, "Saved: mine.toml")
+    write(page, "C-D = 20", "C-D = 21")
+    page.click("#save")
+    page.wait_for_selector("#asking[open]")
+    assert "mine.toml has been changed elsewhere" in page.inner_text("#question")
+    lines = page.inner_text("#asked-lines").splitlines()
+    assert [line for line in lines if line[0] in "-+"] == [
+        "-A-B = 41",
+        "+A-B = 40",
+        "-C-D = 20",
+        "+C-D = 21",
+    ]
+    page.click("#no")
+    assert "A-B = 41" in (place / "mine.toml").read_text(encoding="utf-8")
+
+
+def test_why_nothing_was_saved_stays_when_the_drawing_is_new(studio, place):
+    """The text with the sliders' values is drawn again while it is saved."""
+    page = studio()
+    page.fill("#file", "lever.txt")
+    moved(page, "12")
+    page.click("#save")
+    name = "Write n = 12 into the text and save"
+    answered(page, lambda: page.get_by_role("button", name=name).click())
+    said(page, "the name does not end in .toml")
+    answered(page, lambda: page.locator("#shown input[value=acceleration]").check())
+    said(page, "the name does not end in .toml")
+    assert [path.name for path in place.iterdir()] == ["mine.toml"]
+    page.fill("#file", "lever")
+    page.click("#save")
+    said(page, "Saved: lever.toml")
+    assert "value = 12" in (place / "lever.toml").read_text(encoding="utf-8")
+
+
+def test_nothing_older_is_spoken_of_where_nothing_has_been_drawn(chromium, served, place):
+    (place / "mine.toml").write_text(PUMP.replace("A-B = 40", "A-B = forty"), encoding="utf-8")
+    page = chromium.new_context(**DESKTOP).new_page()
+    page.goto(served.address + "?scene=mine.toml")
+    page.wait_for_selector("body[data-shown]")
+    assert page.inner_text("#count") == "1 mistake"
+    assert not page.is_visible("#old")
+    page.context.close()
 
 
 def moved(page: Any, value: str) -> None:
