@@ -30,6 +30,9 @@ from graphkin.studio.riding import Seats, riding, seats_of
 MECHANISM = "mechanism"
 AROUND = 3.0
 """Room around the marks of a drawing, in mm."""
+MOST = {True: 1.0, False: 0.25}
+"""How far the frame of a mechanism, and that of a plan, is widened at each side while values move,
+as a part of its size: near a dead point a plan would else shrink to a dot."""
 GRID = 5.0
 """Edges of a drawing lie on such a grid, in mm, so that it keeps still while values move."""
 
@@ -137,7 +140,8 @@ def panels(
         else:
             marks = riding(board, memory.seats.get(own, Seats()))
         if quick and own in memory.frames:
-            memory.edges[own] = grown(memory.edges[own], edges_of(marks), memory.frames[own])
+            most = outside(memory.frames[own], MOST[name == MECHANISM])
+            memory.edges[own] = grown(memory.edges[own], edges_of(marks), most)
         else:
             memory.frames[own] = memory.edges[own] = edges_of(marks)
         svg = picture(name, marks, memory.edges[own], drawing)
@@ -160,16 +164,16 @@ def finished(name: str, drawing: Drawing, layout: Layout, board: Board) -> list[
     return [*marks, *insets(drawing, layout.mechanism, marks)] if name == MECHANISM else marks
 
 
-def grown(before: Rect, needed: Rect, frame: Rect) -> Rect:
-    """Edges that hold what is drawn now and before, at most by a frame's size outside of it."""
-    width, height = frame[2] - frame[0], frame[3] - frame[1]
+def grown(before: Rect, needed: Rect, most: Rect) -> Rect:
+    """Edges that hold what is drawn now and before, as far as they lie within the widest."""
     left, top, right, bottom = around(before, needed)
-    return (
-        max(left, frame[0] - width),
-        max(top, frame[1] - height),
-        min(right, frame[2] + width),
-        min(bottom, frame[3] + height),
-    )
+    return max(left, most[0]), max(top, most[1]), min(right, most[2]), min(bottom, most[3])
+
+
+def outside(frame: Rect, part: float) -> Rect:
+    """A frame with a part of its size added at every side."""
+    across, up = part * (frame[2] - frame[0]), part * (frame[3] - frame[1])
+    return frame[0] - across, frame[1] - up, frame[2] + across, frame[3] + up
 
 
 def edges_of(marks: Iterable[Mark]) -> Rect:

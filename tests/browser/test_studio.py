@@ -189,6 +189,18 @@ def test_a_slider_moves_drawings_and_numbers(studio):
     assert page.inner_html("#velocity .drawing svg") == before
 
 
+def test_a_slider_that_is_let_go_comes_to_rest(studio):
+    page = studio()
+    box = page.locator("#sliders input[type=range]").bounding_box()
+    middle = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] * 0.25, middle)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] * 0.75, middle)
+    until(page, "document.body.dataset.settled === 'false'")
+    answered(page, page.mouse.up)
+    assert int(page.input_value("#value-n")) > 20
+
+
 def test_the_drawn_vector_is_as_long_as_the_number_says(studio):
     page = studio()
     answered(page, lambda: (page.fill("#value-n", "20"), page.press("#value-n", "Enter")))

@@ -4,7 +4,7 @@ import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
 import { change, onWriting, showProblems, written } from "./editor.js";
 import { counted, sentence } from "./mistakes.js";
-import { forgetMoves, markSliders, onMoving, settings, showSliders } from "./sliders.js";
+import { forgetMoves, held as isHeld, markSliders, onMoving, settings, showSliders } from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
 
 const PAUSE = 150; // ms without a sign before the text is read
@@ -67,7 +67,7 @@ async function move() {
     await look(true);
   } while (next);
   moving = false;
-  timer = setTimeout(() => look(false), REST);
+  if (!isHeld()) timer = setTimeout(() => look(false), REST);
 }
 
 function soon() {

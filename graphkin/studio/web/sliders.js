@@ -8,6 +8,7 @@ const reset = find("reset");
 const rows = new Map();
 let moved = {};
 let changed = () => {};
+let holding = false; // a slider is held by the pointer
 
 /** The values that differ from the text, by name. */
 export const settings = () => ({ ...moved });
@@ -15,7 +16,10 @@ export const settings = () => ({ ...moved });
 /** The name of each parameter and its value as it is shown. */
 export const values = () => [...rows].map(([name, row]) => [name, row.field.value]);
 
-/** Call back when a slider is moved (quick) or a value is entered. */
+/** Whether a slider is held: it may move again at any time. */
+export const held = () => holding;
+
+/** Call back when a slider is moved (quick), or let go, or a value is entered. */
 export function onMoving(work) {
   changed = work;
 }
@@ -90,6 +94,11 @@ function made(name) {
     enable();
     changed(true);
   });
+  range.addEventListener("pointerdown", () => {
+    holding = true;
+  });
+  range.addEventListener("lostpointercapture", letGo);
+  range.addEventListener("pointerup", letGo);
   field.addEventListener("change", () => {
     const value = field.value.trim().replace(",", ".").replace("−", "-");
     if (value && value === moved[name]) return; // Enter was pressed before
@@ -101,6 +110,12 @@ function made(name) {
     if (event.key === "Enter") event.preventDefault(), field.dispatchEvent(new Event("change"));
   });
   return row;
+}
+
+function letGo() {
+  if (!holding) return;
+  holding = false;
+  if (Object.keys(moved).length) changed(true);
 }
 
 function fill(row, slider) {
