@@ -30,9 +30,9 @@ from graphkin.studio.riding import Seats, riding, seats_of
 MECHANISM = "mechanism"
 AROUND = 3.0
 """Room around the marks of a drawing, in mm."""
-MOST = {True: 1.0, False: 0.25}
-"""How far the frame of a mechanism, and that of a plan, is widened at each side while values move,
-as a part of its size: near a dead point a plan would else shrink to a dot."""
+PLAN = 0.25
+"""How far a plan's frame is widened at each side while values move, as a part of its size: near a
+dead point the plan would otherwise shrink to a dot."""
 GRID = 5.0
 """Edges of a drawing lie on such a grid, in mm, so that it keeps still while values move."""
 
@@ -140,7 +140,7 @@ def panels(
         else:
             marks = riding(board, memory.seats.get(own, Seats()))
         if quick and own in memory.frames:
-            most = outside(memory.frames[own], MOST[name == MECHANISM])
+            most = outside(memory.frames[own], 1.0 if name == MECHANISM else PLAN)
             memory.edges[own] = grown(memory.edges[own], edges_of(marks), most)
         else:
             memory.frames[own] = memory.edges[own] = edges_of(marks)
