@@ -261,7 +261,7 @@ def doubts(scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | No
             bound = "; in doubles no digit of it is sure"
         complain(f"{flat_words(scene, trace)}{bound}")
     if verdict is not None and not verdict.agrees:
-        complain(f"the independent check {verdict_words(verdict)}")
+        complain(f"the independent check {verdict_words(verdict, scene)}")
     return flat or verdict is None or not verdict.agrees
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.scale import Scales
 from graphkin.scaling import WANTED, drawing, scales, shown, targets_of
+from graphkin.scene.model import Scene
 from graphkin.steps.crossings import letter_of
 from graphkin.steps.solution import FAIR, Solution, Verdict
 from graphkin.text import LANGUAGES, Words, words
@@ -86,15 +88,20 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
         raise WitnessError(nearly_singular(mechanism))
     verdict = mechanism.witness(solution)
     if not verdict.agrees:
-        raise WitnessError(
-            Problem(
-                verdict.quantity,
-                f"construction and vector loops differ by {verdict.largest_difference:.1e}",
-                f"at most {verdict.limit:.1e}",
-                "; ".join(verdict.branches) or "no sheet is handed out",
-            )
-        )
+        raise WitnessError(disagreements(mechanism.scene, verdict))
     return verdict
+
+
+def disagreements(scene: Scene, verdict: Verdict) -> Iterator[Problem]:
+    """Why the witness does not agree: the numbers, the branches, or both."""
+    refused = "no sheet is handed out"
+    if verdict.differs:
+        difference = f"{verdict.largest_difference:.1e}"
+        found = f"construction and vector loops differ by {difference}"
+        yield Problem(verdict.quantity, found, f"at most {verdict.limit:.1e}", refused)
+    if verdict.branches:
+        found = f"{verdict.not_as_stated(scene.branches)} does not hold by the vector loops"
+        yield Problem("branches", found, "a construction that stands as stated", refused)
 
 
 def nearly_singular(mechanism: Mechanism) -> Problem:

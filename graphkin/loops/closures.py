@@ -17,7 +17,7 @@ from graphkin.loops.groups import Group, Joint, Mask, moved_by
 from graphkin.loops.motion import Motion
 from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.solve import CLOSED, in_bars, largest, newton
-from graphkin.loops.wholes import within_half
+from graphkin.loops.wholes import as_meant, settle
 from graphkin.scene.model import Scene
 
 STARTS = {1: 12, 2: 48}
@@ -121,7 +121,7 @@ def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
         late, _, _ = newton(part, found[~closed], moving)
         found = np.concatenate([found[closed], late])
         found = found[largest(in_bars(part, found)[0]) < CLOSED]
-        return found[within_half(part, found, moving)]
+        return found[as_meant(part, found, moving)]
 
 
 def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
@@ -135,8 +135,8 @@ def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: i
         thrown[:, k - 1] += start
     thrown[:, loops.turning_count :] *= 2 * reach(loops)
     thrown = np.concatenate([stands, np.where(moving, thrown, stands)])
-    angles = moving & (np.arange(len(moving)) < loops.turning_count)
-    return led(loops, led(loops, thrown, angles), moving)
+    settle(loops, thrown, np.ones_like(moving), ~moving, moving)
+    return led(loops, thrown, moving)
 
 
 def tracks(loops: Equations, moving: Mask) -> list[int]:

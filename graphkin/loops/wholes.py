@@ -1,7 +1,9 @@
 """Full turns: which of the angles that differ by whole turns is meant, where wheels roll.
 
 A driver's angle counts as written and a wheel's as its rolling leads it there; an angle that only
-pins tell is counted from its start, within half a turn.
+pins tell is counted from its start, within half a turn. Where rolling ties several of those, that
+of the arm, or of the track's link, is counted, else that of the largest wheel, and rolling leads
+the others: no order of links decides, and the wheels that turn faster are found all round.
 """
 
 from __future__ import annotations
@@ -48,9 +50,15 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
         if not (ready := free & told & turning).any():
             known |= free
             return
-        k = int(np.flatnonzero(ready)[0])
+        k = min(np.flatnonzero(ready).tolist(), key=lambda k: precedence(loops, k))
         values[:, k] = counted(loops, values, k)
         known[k] = True
+
+
+def precedence(loops: Equations, k: int) -> tuple[bool, float]:
+    """Which of several angles that rolling ties is counted: an arm's, else the largest wheel's."""
+    arms = {loops.turned.of[links[-1]] for links in loops.slips.links}
+    return k + 1 not in arms, -float(np.abs(loops.slips.rows[0, :, k]).max(initial=0))
 
 
 def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) -> tuple[Reals, Mask]:
@@ -92,19 +100,8 @@ def counted(loops: Equations, values: Reals, k: int) -> Reals:
     return np.asarray(angle - turn * beyond)
 
 
-def within_half(loops: Equations, values: Reals, moving: Mask) -> Mask:
-    """Where the angles of a group that only pins tell lie within half a turn of their start: (N,).
-
-    A wheel counts as far as it has come along a straight track, which is told by where it stands.
-    """
-    _, solved = solved_straight(loops, np.where(moving, 0, values), moving, ~moving)
-    tracks = [
-        loops.turned.of[guide.block]
-        for j, guide in enumerate(loops.guides)
-        if guide.rolls and moving[loops.turning_count + j]
-    ]
-    holds = np.ones(len(values), dtype=np.bool_)
-    for k in np.flatnonzero(moving & ~solved):
-        if k < loops.turning_count and k + 1 not in tracks:
-            holds &= np.abs(counted(loops, values, int(k)) - values[:, k]) < 1
-    return holds
+def as_meant(loops: Equations, values: Reals, moving: Mask) -> Mask:
+    """Where the full turns of a closed group are those that its position means: (N,)."""
+    found = values.copy()
+    settle(loops, found, np.ones_like(moving), ~moving, moving)
+    return np.asarray(np.abs(found - values).max(axis=1, initial=0) < 1)

@@ -246,7 +246,7 @@ def certified_text(scene: Scene, record: Record, verdict: Verdict | None) -> str
         [heading(scene, record)],
         *(numbers_table(record, section) for section in SECTIONS),
         scale_lines(record["scales"]) if "scales" in record else [],
-        [certified_words(record), f"witness  {verdict_words(verdict)}"],
+        [certified_words(record), f"witness  {verdict_words(verdict, scene)}"],
     ]
     return "\n\n".join("\n".join(lines) for lines in parts if lines)
 

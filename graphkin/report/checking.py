@@ -88,7 +88,7 @@ class Checking:
             return f"could not judge: {error}"
         if not verdict.agrees:
             self.doubts.append("the independent route does not agree with the construction")
-        return verdict_words(verdict)
+        return verdict_words(verdict, self.mechanism.scene)
 
 
 def title(scene: Scene) -> list[str]:

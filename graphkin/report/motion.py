@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import isfinite
 from typing import Any
 
 from graphkin.alignment import beside_dead_point
@@ -40,7 +41,7 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
         inflection_table(found["links"]),
         slides_table(found["slides"]),
         scale_lines(found["scales"]) if "scales" in found else [],
-        [f"witness  {verdict_words(verdict)}"],
+        [f"witness  {verdict_words(verdict, scene)}"],
     ]
     return "\n\n".join("\n".join(lines) for lines in parts if lines)
 
@@ -157,17 +158,21 @@ def scale_lines(scales: Mapping[str, float]) -> list[str]:
     ]
 
 
-def verdict_words(verdict: Verdict | None) -> str:
-    """What the independent route says of the construction."""
+def verdict_words(verdict: Verdict | None, scene: Scene) -> str:
+    """What the independent route says of the construction, each cause of a doubt by itself."""
     if verdict is None:
         return "could not judge"
     where = f" at {verdict.quantity}" if verdict.quantity else ""
-    says = "agrees" if verdict.agrees else "DOES NOT AGREE"
-    words = f"{says}: largest difference {verdict.largest_difference:.1e}{where}"
-    words += f", limit {verdict.limit:.1e}"
+    found = f"largest difference {verdict.largest_difference:.1e}{where}"
+    found += f", limit {verdict.limit:.1e}"
+    if verdict.agrees:
+        return f"agrees: {found}"
+    says = f"the numbers {'differ' if verdict.differs else 'agree'}: {found}"
+    if not isfinite(verdict.limit):
+        says = "lines stand in line, where no difference can be judged"
     if verdict.branches:
-        words += "; these branches do not hold: " + ", ".join(verdict.branches)
-    return words
+        says += f"; does not hold of [branches]: {verdict.not_as_stated(scene.branches)}"
+    return f"DOES NOT AGREE: {says}"
 
 
 def is_flat(trace: Trace) -> bool:

@@ -7,7 +7,7 @@ from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from graphkin.report.places import LETTER, at_words
-from graphkin.scene.model import Closure, Side
+from graphkin.scene.model import Closure
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
@@ -65,9 +65,4 @@ def span_words(cycle: Cycle, low: float, high: float) -> str:
 
 def branch_words(name: str, branch: Branch) -> str:
     """One sign, or the number of a closure."""
-    if isinstance(branch, Side):
-        side = "left" if branch.side > 0 else "right"
-        return f"{name} {side} of {branch.first}-{branch.second}"
-    if isinstance(branch, Closure):
-        return f"{name} closure {branch.number}"
-    return f"{name} {'forward' if branch.way > 0 else 'backward'}"
+    return f"{name} {branch}"

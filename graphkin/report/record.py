@@ -168,6 +168,7 @@ def witness(verdict: Verdict | None) -> Record:
         "largest_difference": real(verdict.largest_difference),
         "quantity": verdict.quantity,
         "limit": real(verdict.limit),
+        "branches_not_held": list(verdict.branches),
     }
 
 

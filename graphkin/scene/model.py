@@ -202,17 +202,26 @@ class Side(NamedTuple):
     second: str
     side: int
 
+    def __str__(self) -> str:
+        return f"{'left' if self.side > 0 else 'right'} of {self.first}-{self.second}"
+
 
 class Way(NamedTuple):
     """``5 = "forward"``: +1 the larger, -1 the smaller slide coordinate of the two closures."""
 
     way: int
 
+    def __str__(self) -> str:
+        return "forward" if self.way > 0 else "backward"
+
 
 class Closure(NamedTuple):
     """``2 = "closure 1"``: the number of a closure of a group of higher class."""
 
     number: int
+
+    def __str__(self) -> str:
+        return f"closure {self.number}"
 
 
 Branch = Side | Way | Closure

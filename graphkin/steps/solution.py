@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import inf
 
 from graphkin.arithmetic import Point, Real
 from graphkin.plane import Ratio
@@ -94,3 +95,12 @@ class Verdict:
     moved: float
     branches: tuple[str, ...] = ()
     guessed: tuple[str, ...] = ()
+
+    @property
+    def differs(self) -> bool:
+        """Whether the numbers are farther apart than the limit, or nothing limits them."""
+        return not self.largest_difference <= self.limit < inf
+
+    def not_as_stated(self, branches: Mapping[str, object]) -> str:
+        """What does not hold of the branches that a scene states, as it writes them."""
+        return ", ".join(f'{name} = "{branches[name]}"' for name in self.branches)

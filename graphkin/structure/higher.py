@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from graphkin.scene.model import Driver
+from graphkin.scene.model import Driver, Scene
 from graphkin.structure.graph import Contact, Pin
-from graphkin.structure.groups import Group, Higher, Tie, Trial
+from graphkin.structure.groups import Geared, Group, Higher, Tie, Trial
 from graphkin.structure.joints import Joint, Joints, partner, taken
 from graphkin.structure.order import (
     next_driven,
@@ -19,14 +19,30 @@ from graphkin.structure.order import (
     next_tie,
     settle,
 )
+from graphkin.structure.rolling import radius
 
 
 def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Higher | None:
-    """The smallest group that closes after one link has been tried, as written first."""
+    """The smallest group that closes after one link has been tried, as written first.
+
+    Of two wheels that turn one another the larger is tried: all round it the smaller goes farther.
+    """
     found = [
         group for trial in trials(joints, known) for group in tried(joints, known, waiting, trial)
     ]
-    return min(found, key=lambda group: len(group.links), default=None)
+    scene = joints.scene
+    return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
+
+
+def speeding(scene: Scene, group: Higher) -> int:
+    """How many wheels of a group are turned by smaller ones."""
+    geared = [(each.link, each.contact) for each in group.chain if isinstance(each, Geared)]
+    count = 0
+    for link, contact in geared:
+        if contact.track is not None:
+            own, other = radius(scene, contact.wheel), radius(scene, contact.track)
+            count += own > other if contact.links[0] == link else other > own
+    return count
 
 
 def trials(joints: Joints, known: Collection[str]) -> Iterator[Trial]:

@@ -100,7 +100,7 @@ def next_group(joints: Joints, known: Collection[str]) -> Group | None:
         left = joints.between(first, known)
         if not left:
             continue
-        if geared := geared_of(first, left):
+        if geared := geared_of(first, left, known):
             return geared
         if dyad := dyad_with(joints, known, first, left):
             return dyad
@@ -126,9 +126,12 @@ def train_with(
     return None
 
 
-def geared_of(link: str, joined: tuple[Joint, ...]) -> Geared | None:
-    """A link with one pair and a contact that takes a single freedom; more of these are idle."""
-    ones = [pair for pair in joined if isinstance(pair, Contact) and pair.taken == 1]
+def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> Geared | None:
+    """A link with one pair and a contact that takes a single freedom; more of these are idle.
+
+    A contact settles a turning once the arm that keeps its distance is known too.
+    """
+    ones = [pair for pair in joined if isinstance(pair, Contact) and pair.arm in known]
     twos = [pair for pair in joined if taken(pair) == 2]
     return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
 

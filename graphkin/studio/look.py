@@ -103,7 +103,10 @@ def drawn(
         "style": style(pictures),
         "results": results(drawings, solution),
         "margins": margins(drawings),
-        "verdict": {"agrees": verdict.agrees, "words": verdict_words(verdict, spoken)},
+        "verdict": {
+            "agrees": verdict.agrees,
+            "words": verdict_words(verdict, mechanism.scene, spoken),
+        },
     }
 
 

@@ -106,15 +106,19 @@ def look_of(crossing: Crossing) -> str:
     return "flat" if angle < FLAT else "slanted" if angle < SLANTED else ""
 
 
-def verdict_words(verdict: Verdict, words: Words) -> str:
+def verdict_words(verdict: Verdict, scene: Scene, words: Words) -> str:
     """What the independent route says, and how far apart both may be."""
     difference = words.significant(verdict.largest_difference, 2)
     limit = words.significant(verdict.limit, 2)
     if verdict.agrees:
         said = words("page.verified", difference=difference)
         return f"{said} ({words('studio.limit', limit=limit)})"
-    where = "; ".join([verdict.quantity, *verdict.branches])
-    return words("studio.disagrees", difference=difference, limit=limit, where=where)
+    found = {"difference": difference, "limit": limit, "where": verdict.quantity}
+    says = [words("studio.disagrees", **found)] if verdict.differs else []
+    if verdict.branches:
+        stated = verdict.not_as_stated(scene.branches)
+        says.append(words("studio.not_as_stated", branches=stated))
+    return " ".join(says)
 
 
 @lru_cache(maxsize=1024)
