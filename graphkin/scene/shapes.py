@@ -21,7 +21,23 @@ def read_shape(table: Table, measures: Measures) -> tuple[tuple[str, ...], tuple
         found = f"{len(sketch.points)} points"
         measures.findings.add(table.place, found, f"at most {MOST_POINTS} on one link")
         return tuple(sketch.points), ()
+    begin_with_axis(sketch)
     return tuple(sketch.points), Placer(sketch, measures).place()
+
+
+def begin_with_axis(sketch: Sketch) -> None:
+    """Put second the point at which the x axis ends: the same axis leads to a point on it."""
+    points, passed = sketch.points, set[str]()
+    while len(points) > 1 and points[1] not in passed:
+        passed.add(points[1])
+        words = sketch.words.get(points[1])
+        if not isinstance(words, OnWords) or words.beyond:
+            return
+        ends = [words.first, words.second]
+        end = next((p for p in ends if p != points[0] and p in points), None)
+        if points[0] in ends and end is not None and not sketch.spots and not sketch.polars:
+            points.remove(end)
+            points.insert(1, end)
 
 
 class Placer:
