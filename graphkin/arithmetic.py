@@ -117,6 +117,11 @@ def is_ball(value: Any) -> bool:
     return hasattr(value, "rel_accuracy_bits")
 
 
+def is_formal(value: Any) -> bool:
+    """Whether a number is a polynomial in letters."""
+    return hasattr(value, "terms")
+
+
 def sqrt(x: Real) -> Real:
     """Square root; a negative number raises ValueError, a negative element of a batch gives NaN.
 
@@ -128,7 +133,7 @@ def sqrt(x: Real) -> Real:
         if x < 0:
             raise ValueError("the square root of a negative number")
         return x.context.sqrt(x)
-    if is_ball(x):
+    if is_ball(x) or is_formal(x):
         return x.sqrt()
     import numpy as np
 
@@ -141,7 +146,7 @@ def phase(z: Point) -> Real:
         return cmath.phase(z)
     if is_decimal(z):
         return z.context.arg(z)
-    if is_ball(z):
+    if is_ball(z) or is_formal(z):
         return z.arg()
     import numpy as np
 
@@ -156,6 +161,8 @@ def turn_by(angle: Real) -> Point:
         return angle.context.expj(angle)
     if is_ball(angle):
         return at(angle.cos(), angle.sin())
+    if is_formal(angle):
+        return angle.turn()
     import numpy as np
 
     return np.cos(angle) + 1j * np.sin(angle)
@@ -184,6 +191,8 @@ def either(condition: Any, one: Point, other: Point) -> Point:
 
         x, y = one.real.intersection(other.real), one.imag.intersection(other.imag)
         return acb(x, y)
+    if is_formal(one):
+        return one.simpler(other)
     return pick(condition, one, other)
 
 

@@ -8,79 +8,86 @@ precision, such as whether a number is nought, is said and not printed.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import ceil, log2
 from typing import Any
 
 from graphkin.arithmetic import is_ball
 from graphkin.errors import SceneError
-from graphkin.exact import Exact
+from graphkin.formal import FORMAL, Formal, letter, point
 from graphkin.kinds import ball_kind
 from graphkin.mechanism import Mechanism
-from graphkin.meeting import exact_value
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene
-from graphkin.steps.program import Program, Target
+from graphkin.steps.program import Step, Target
 from graphkin.steps.run import StepFailed, Trace, evaluate
+from graphkin.steps.trying import Closer
 
 SPARE = 64
 """Bits beyond those of the digits at the first trial."""
 DOUBLINGS = 3
 """How often the bits are doubled before a number counts as not decided."""
-WIDEST = 2048
-"""Bits above or below the fraction bar beyond which a number is no longer kept as a fraction."""
-IRRATIONAL = (ArithmeticError, TypeError, AttributeError, SceneError)
-"""What an action raises on fractions: no such root, nothing to divide by, no order, no angle."""
+IRRATIONAL = (ArithmeticError, TypeError, ValueError, AttributeError, SceneError)
+"""What an action raises on formal numbers: nothing to divide by, no order, no function."""
 
 
 # --- runs in balls -------------------------------------------------------------------------------
 
 
-def precisions(digits: int) -> Iterator[int]:
-    """The bits that are tried one after the other for so many significant digits."""
+def precisions(digits: int) -> Iterator[tuple[int, bool]]:
+    """The bits that are tried one after the other for so many significant digits, and whether
+    formal numbers narrow the balls: these take longer, and most scenes do without."""
     bits = ceil(digits * log2(10)) + SPARE
-    for _ in range(DOUBLINGS + 1):
-        yield bits
-        bits *= 2
+    yield bits, False
+    for doublings in range(DOUBLINGS + 1):
+        yield bits << doublings, True
 
 
 @dataclass(frozen=True)
 class Certifier:
-    """A mechanism to be run in balls: the steps that are needed, and the values that are exact."""
+    """A mechanism to be run in balls: the steps that are needed, and their values in formal
+    numbers as they are found."""
 
     mechanism: Mechanism
     needed: tuple[int, ...]
-    stated: Mapping[int, Any]
+    formal: dict[int, Any] = field(default_factory=dict)
 
     @classmethod
     def of(cls, mechanism: Mechanism, targets: Iterable[Target] | None = None) -> Certifier:
         """Ready for some targets, or for all that can be asked."""
         program = mechanism.program
         needed = program.needed(program.answers if targets is None else targets)
-        return cls(mechanism, needed, rational(program, needed, fractions(mechanism.scene)))
+        return cls(mechanism, needed)
 
-    def run(self, bits: int) -> Balls:
-        """All that can be drawn in balls of so many bits; a step that fails takes with it only
-        what follows from it."""
+    def run(self, bits: int, narrowed: bool = True) -> Balls:
+        """All that can be drawn in balls of so many bits, narrowed to what is formally known.
+
+        A step that fails takes with it only what follows from it.
+        """
         kind, program = ball_kind(bits), self.mechanism.program
         found: dict[int, Any] = {}
         margins: dict[int, Any] = {}
         blame: dict[int, StepFailed] = {}
+        stated = fractions(self.mechanism.scene)
         with kind.working():
             values = self.mechanism.scene.values_in(kind)
             for number in self.needed:
-                lost = next((blame[n] for n in program.steps[number].args if n in blame), None)
+                step = program.steps[number]
+                lost = next((blame[n] for n in step.args if n in blame), None)
                 if lost is not None:
                     blame[number] = lost
                     continue
                 try:
-                    value = evaluate(program.steps[number], number, found, values, kind, margins)
+                    value = evaluate(step, number, found, values, kind, margins)
                 except StepFailed as failed:
                     blame[number] = failed
                     continue
-                found[number] = sharpened(value, self.stated.get(number))
-        return Balls(bits, Trace(program, found, margins), blame)
+                if narrowed and number not in self.formal:
+                    args = [self.formal[n] for n in step.args]
+                    self.formal[number] = formal_value(step, args, stated, value)
+                found[number] = sharpened(value, self.formal[number]) if narrowed else value
+        return Balls(bits, Trace(program, found, margins), blame, self.formal)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +97,7 @@ class Balls:
     bits: int
     trace: Trace
     blame: Mapping[int, StepFailed]
+    formal: Mapping[int, Any]
 
     def failure(self, target: Target) -> StepFailed | None:
         """Why a target was not found; the first failure of all for what is no target itself."""
@@ -98,8 +106,15 @@ class Balls:
             return next(iter(self.blame.values()), None)
         return self.blame[number]
 
+    def narrowed(self, place: Any, target: Target) -> Any:
+        """The place of a centre as narrow as what is formally known of it allows."""
+        ratio = self.formal.get(self.trace.program.targets.get(target, -1))
+        if ratio is None or not ratio.size.terms:
+            return place
+        return sharpened(place, ratio.start + ratio.shift / ratio.size)
 
-# --- values that the scene states ----------------------------------------------------------------
+
+# --- what the scene states, and what follows from it whatever the numbers are --------------------
 
 
 def fractions(scene: Scene) -> dict[str, Any]:
@@ -109,44 +124,66 @@ def fractions(scene: Scene) -> dict[str, Any]:
     return given | {TIME: moment} if isinstance(moment, Fraction) else given
 
 
-def rational(
-    program: Program, needed: Iterable[int], values: Mapping[str, Any]
-) -> Mapping[int, Any]:
-    """The values of the steps that are rational numbers, or made of them, without any rounding."""
-    found: dict[int, Any] = {}
-    for number in needed:
-        if found.keys() >= set(program.steps[number].args):
-            try:
-                value = exact_value(program, number, found, values)
-            except IRRATIONAL:
-                continue
-            if not is_wide(value):
-                found[number] = value
-    return found
+def formal_value(step: Step, args: Iterable[Any], values: Mapping[str, Any], ball: Any) -> Any:
+    """The value of a step in formal numbers; letters for what is none, in the make of its ball."""
+    try:
+        if step.given is not None:
+            return as_formal(step.given.value(values, FORMAL))
+        if step.action is None or isinstance(step.action.value, Closer):
+            return unknown(ball)
+        return as_formal(step.action.value(*args, *step.extra))
+    except IRRATIONAL:
+        return unknown(ball)
 
 
-def is_wide(value: Any) -> bool:
-    """Whether a fraction has grown so long that to reckon with it takes more time than it saves."""
+def as_formal(value: Any) -> Any:
+    """A value with Python's own numbers, and those of lines and circles, as formal ones."""
     if isinstance(value, tuple):
-        return any(is_wide(part) for part in value)
-    if isinstance(value, Exact):
-        return is_wide(value.real) or is_wide(value.imag)
-    whole = Fraction(value) if not isinstance(value, complex) else Fraction(0)
-    return max(whole.numerator.bit_length(), whole.denominator.bit_length()) > WIDEST
+        parts = map(as_formal, value)
+        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+    return Formal.of(value)
 
 
-def sharpened(value: Any, stated: Any) -> Any:
-    """A ball as narrow as a known fraction allows: of no width at all where that ends in binary."""
-    if stated is None or isinstance(value, float | complex):
+def unknown(ball: Any) -> Any:
+    """A value of the make of a ball of which nothing is known."""
+    if isinstance(ball, tuple):
+        parts = map(unknown, ball)
+        return type(ball)(*parts) if hasattr(ball, "_fields") else tuple(parts)
+    if not is_ball(ball):
+        return Formal.of(ball)
+    return letter(object()) if is_real_ball(ball) else point(object())
+
+
+def sharpened(value: Any, formal: Any) -> Any:
+    """A ball as narrow as what is formally known allows: of no width where that ends in binary."""
+    if isinstance(value, tuple):
+        parts = [sharpened(*both) for both in zip(value, formal, strict=True)]
+        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+    if not is_ball(value):
         return value
-    if isinstance(value, tuple):
-        parts = zip(value, stated, strict=True)
-        return type(value)(*(sharpened(*both) for both in parts))
-    from flint import acb, arb, fmpq
+    from flint import acb
 
-    exact = Exact.of(stated)
-    x, y = (arb(fmpq(part.numerator, part.denominator)) for part in (exact.real, exact.imag))
-    return acb(x, y) if isinstance(value, acb) else x
+    if is_real_ball(value):
+        return narrowed(value, formal)
+    return acb(narrowed(value.real, formal.real), narrowed(value.imag, formal.imag))
+
+
+def narrowed(ball: Any, formal: Formal) -> Any:
+    """A real ball, or the fraction that it holds."""
+    from flint import arb, fmpq
+
+    if (known := formal.constant) is None:
+        return ball
+    exact = arb(fmpq(known.real.numerator, known.real.denominator))
+    assert ball.overlaps(exact), "a ball holds the number that it is formally known to be"
+    return exact
+
+
+def is_real_ball(ball: Any) -> bool:
+    """Whether a ball is one of real numbers."""
+    from flint import arb
+
+    return isinstance(ball, arb)
 
 
 # --- decimals ------------------------------------------------------------------------------------

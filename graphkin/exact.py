@@ -101,7 +101,7 @@ class Rational(Kind):
         return Exact.of(1)
 
 
-def irrational(value: Any, other: Any = None) -> Any:
+def irrational(value: Any, *others: Any, **named: Any) -> Any:
     """A function whose values are not rational."""
     raise IrrationalError(f"a function of {value}")
 

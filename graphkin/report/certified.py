@@ -59,8 +59,8 @@ def certify(mechanism: Mechanism, found: Record, digits: int, targets: Any = Non
     The precision is raised until every number is decided, or by as much as is sensible.
     """
     certifier = Certifier.of(mechanism, targets)
-    for bits in precisions(digits):
-        printer = Printer(mechanism.scene, certifier.run(bits), digits)
+    for bits, narrowed in precisions(digits):
+        printer = Printer(mechanism.scene, certifier.run(bits, narrowed), digits)
         with ball_kind(bits).working():
             record = certified_record(found, printer)
         if not printer.undecided:
@@ -113,7 +113,7 @@ class Printer:
         if place is None:
             self.doubted(path, FAR)
             return None
-        return self.pair(path, place, target)
+        return self.pair(path, self.balls.narrowed(place, target), target)
 
     def lost(self, path: str, target: Target) -> None:
         """A number that was not found: some step before it is singular within the ball.
