@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import count
@@ -23,8 +24,21 @@ MOST = 48
 WIDEST = 2048
 """Bits above or below the fraction bar beyond which a number is no longer kept as a fraction."""
 
-Term = frozenset[tuple[int, int]]
-"""The letters of a term with their powers; those of directions are odd."""
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Letter:
+    """What stands for a number: a real one, or a direction; ``over`` is the inverse of a sum."""
+
+    number: int
+    direction: bool = False
+    over: Formal | None = None
+
+    def __lt__(self, other: Letter) -> bool:
+        return self.number < other.number
+
+
+Term = frozenset[tuple[Letter, int]]
+"""The letters of a term with their powers."""
 
 BARE: Term = frozenset()
 ZERO, UNIT = Exact(Fraction(0)), Exact(Fraction(1))
@@ -77,12 +91,8 @@ class Formal:
         return Formal.of(other).__sub__(self)
 
     def __mul__(self, other: Any) -> Formal:
-        found: dict[Term, Exact] = {}
-        for term, each in self.terms.items():
-            for by, factor in Formal.of(other).terms.items():
-                both = product(term, by)
-                found[both] = found.get(both, ZERO) + each * factor
-        return kept(Formal(found))
+        by = Formal.of(other)
+        return cancelled(self, by) or cancelled(by, self) or expanded(self, by)
 
     __rmul__ = __mul__
 
@@ -96,13 +106,12 @@ class Formal:
             ((term, each),) = by.terms.items()
             inverse = Formal({frozenset((name, -power) for name, power in term): UNIT / each})
             return self * inverse
-        ratio = self.leading / by.leading
-        if self.key == (by * ratio).key:
+        if (ratio := multiple(self, by)) is not None:
             return Formal.of(ratio)
         if not is_real(by):
             return self * by.conjugate() / (by * by.conjugate())
         scale: Fraction = 1 / (by.leading.real or by.leading.imag)
-        return self * letter(("over", (by * scale).key)) * scale
+        return self * over((by * scale).key) * scale
 
     def __rtruediv__(self, other: Any) -> Formal:
         return Formal.of(other).__truediv__(self)
@@ -114,7 +123,7 @@ class Formal:
         """The mirror image in the real axis."""
         return Formal(
             {
-                frozenset((n, -p if n % 2 else p) for n, p in term): each.conjugate()
+                frozenset((n, -p if n.direction else p) for n, p in term): each.conjugate()
                 for term, each in self.terms.items()
             }
         )
@@ -189,14 +198,16 @@ def below_zero(value: Formal) -> Any:
 
 
 @lru_cache(maxsize=4096)
-def number_of(name: Hashable, direction: bool) -> int:
-    """The number of the letter of a name. A name that is long unused may get another."""
-    return 2 * next(COUNT) + direction
-
-
 def letter(name: Hashable, direction: bool = False) -> Formal:
-    """The letter of a real number, or of a direction."""
-    return Formal({frozenset({(number_of(name, direction), 1)}): UNIT})
+    """The letter of a real number, or of a direction. One long unused may be followed by another
+    of its name."""
+    return Formal({frozenset({(Letter(next(COUNT), direction), 1)}): UNIT})
+
+
+@lru_cache(maxsize=4096)
+def over(key: frozenset[tuple[Term, Exact]]) -> Formal:
+    """The letter of the inverse of a real sum."""
+    return Formal({frozenset({(Letter(next(COUNT), over=Formal(dict(key))), 1)}): UNIT})
 
 
 def point(name: Hashable) -> Formal:
@@ -211,6 +222,45 @@ def kept(value: Formal) -> Formal:
     return letter(value.key) if is_real(value) else point(value.key)
 
 
+def expanded(one: Formal, other: Formal) -> Formal:
+    """The product, term by term."""
+    found: dict[Term, Exact] = {}
+    for term, each in one.terms.items():
+        for by, factor in other.terms.items():
+            both = product(term, by)
+            found[both] = found.get(both, ZERO) + each * factor
+    return kept(Formal(found))
+
+
+def cancelled(one: Formal, other: Formal) -> Formal | None:
+    """The product with the inverse of a sum that is the real or imaginary part of the other factor.
+
+    None where there is nothing to cancel.
+    """
+    inverses = [name for name, power in next(iter(other.terms), BARE) if name.over and power == 1]
+    for name in inverses:
+        if all((name, 1) in term for term in other.terms):
+            rest = Formal({term - {(name, 1)}: each for term, each in other.terms.items()})
+            ratios = [multiple(part, name.over) for part in (one.real, one.imag)]
+            if any(ratios):
+                parts = zip(ratios, (one.real, one.imag), strict=True)
+                x, y = (rest * r if r else expanded(part, other) for r, part in parts)
+                return x + y * 1j
+    return None
+
+
+def multiple(value: Formal, of: Formal | None) -> Exact | None:
+    """How many times a polynomial is another; None where it is not, or is nothing."""
+    if not value.terms or of is None:
+        return None
+    ratio = value.leading / of.leading
+    return (
+        ratio
+        if value.key == Formal({t: each * ratio for t, each in of.terms.items()}).key
+        else None
+    )
+
+
 def is_real(value: Formal) -> bool:
     """Whether a polynomial is its own mirror image."""
     return value.key == value.conjugate().key
@@ -223,7 +273,7 @@ def is_wide(value: Exact) -> bool:
 
 
 def product(one: Term, other: Term) -> Term:
-    """The letters of a product."""
+    """The letters of a product of terms."""
     if not one or not other:
         return one or other
     powers = dict(one)

@@ -22,6 +22,7 @@ from tests.mechanisms import HEAD, mechanism_of
 
 COMPARED = ("position", "velocity", "acceleration", "omega", "epsilon")
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+MECHANISMS = Path(__file__).parents[1] / "scenes"
 CRANK = """
 {time}
 [frame]
