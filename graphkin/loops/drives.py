@@ -11,6 +11,7 @@ import numpy as np
 from graphkin.errors import Problem, StructureError
 from graphkin.loops.bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vectors import Turnings
+from graphkin.scene.cycles import turned as whole_turned
 from graphkin.scene.model import Driver, Scene
 
 
@@ -76,7 +77,7 @@ def drives_of(
             turned_by = turned.angle[driver.link] - turned.angle[driver.against]
             leaning[:, d] = np.angle(line) + turned_by
             aim[:, d] = numbers.direction(driver.position)
-            given[:, d] = numbers.si(driver.position)
+            given[:, d] = numbers.si(whole_turned(scene, driver))
         else:
             selects[d, turned.count + driven_slide(d, driver, guides)] = 1
             aim[:, d] = numbers.si(driver.position)

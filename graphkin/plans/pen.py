@@ -10,6 +10,7 @@ from graphkin.arithmetic import FLOAT
 from graphkin.errors import ClosureError
 from graphkin.plans.branches import block_of, side_of, way_of
 from graphkin.plans.links import Base
+from graphkin.scene.cycles import turned
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.steps.effect import Effect
 from graphkin.steps.program import CONTACT, Drive, Given, Part, Plane, Program, Step, Target
@@ -200,11 +201,11 @@ class Pen:
         return self.drives[number]
 
     def driven_angle(self, driver: Driver) -> int:
-        """The angle of a turning driver in radians, as written and not reduced."""
+        """The angle of a turning driver in radians, whole turns counted."""
         drive, number = self.drive(driver), self.scene.drivers.index(driver)
         if drive.angle is None:
             with self.on(Part.SHAPE, Plane.NUMBERS):
-                angle = self.given("number", driver.position, name="angle", d=number)
+                angle = self.given("number", turned(self.scene, driver), name="angle", d=number)
             self.drives[number] = drive._replace(angle=angle)
             return angle
         return drive.angle

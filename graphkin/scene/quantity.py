@@ -11,7 +11,7 @@ from typing import Any
 
 from graphkin.arithmetic import FLOAT, Kind, Point, Real
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Tree, names, parse, size
+from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Pair, Tree, names, parse, size
 from graphkin.scene.findings import shown
 from graphkin.scene.reckon import UnreckonableError, differentiated, reckon
 
@@ -116,6 +116,11 @@ class Quantity:
     def negative(self) -> Quantity:
         """The same number with the other sign."""
         return Quantity(f"-({self.text})", Minus(self.tree), self.unit, self.place)
+
+    def less(self, number: int) -> Quantity:
+        """The same number less a whole one in its unit."""
+        tree = Pair("-", self.tree, Number(Fraction(number)))
+        return Quantity(f"({self.text}) - {number}", tree, self.unit, self.place)
 
     def problem(self, what: str, values: Mapping[str, Any]) -> Problem:
         """What is wrong with this number, with the parameters it was reckoned with."""
