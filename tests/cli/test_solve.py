@@ -225,9 +225,28 @@ def test_a_witness_that_disagrees_gives_status_1(run: Run, monkeypatch: pytest.M
     result = run("solve", "pump", "--json")
     assert result.exit_code == 1
     assert json.loads(result.stdout)["witness"]["agrees"] is False
-    assert "DOES NOT AGREE" in result.stderr
+    assert json.loads(result.stdout)["witness"]["branches_not_held"] == ["B"]
+    assert "DOES NOT AGREE: the numbers differ: largest difference 5.0e-01" in result.stderr
     assert "points.D.velocity" in result.stderr
     assert run("check", "pump").exit_code == 1
+
+
+def test_a_branch_that_does_not_hold_is_told_as_it_is_stated(
+    run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Numbers within their limit are not called different; the sheets refuse for the same cause."""
+    from graphkin.mechanism import Mechanism
+    from graphkin.steps.solution import Verdict
+
+    verdict = Verdict(False, 1.1e-14, "links.3.epsilon", 1e-9, 0.0, 0.0, ("B", "5"))
+    monkeypatch.setattr(Mechanism, "witness", lambda self, solution: verdict)
+    stated = 'B = "right of A-O2", 5 = "forward"'
+    agree = "the numbers agree: largest difference 1.1e-14 at links.3.epsilon, limit 1.0e-09"
+    said = run("solve", "pump").stderr
+    assert f"DOES NOT AGREE: {agree}; does not hold of [branches]: {stated}" in said
+    refused = run("sheet", "pump", "-o", tmp_path).stderr
+    assert f"branches: {stated} does not hold by the vector loops" in refused
+    assert "differ" not in refused
 
 
 def test_a_witness_that_cannot_judge_gives_status_1(

@@ -169,3 +169,16 @@ def test_a_number_that_cannot_be_read_is_told_once(broken_crank: Breaker) -> Non
 def test_points_without_count(broken_crank: Breaker) -> None:
     (problem,) = broken_crank("\n".join(f"P{i} = [{i}, 0]" for i in range(201)))
     assert problem.found == "201 points"
+
+
+def test_a_point_on_the_axis_may_be_written_before_its_end(crank):
+    early = crank('O-M = 1\nO-D = 2\nM = "on O-D"\nD-M-E = 90\nM-E = 3')
+    late = crank('O-D = 2\nO-M = 1\nM = "on O-D"\nD-M-E = 90\nM-E = 3')
+    assert early.points == late.points == ("O", "D", "M", "E")
+    assert [str(each) for each in early.placings] == [str(each) for each in late.placings]
+
+
+def test_a_point_beside_the_axis_must_be_written_after_its_end(broken_crank):
+    for words in ("left of O-D", "beyond O on O-D"):
+        said = "".join(map(str, broken_crank(f'O-M = 1\nO-D = 2\nD-M = 2\nM = "{words}"')))
+        assert "write O-D above the other lengths" in said

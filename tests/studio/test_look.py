@@ -224,7 +224,8 @@ def test_a_route_that_does_not_agree_is_said_aloud_and_nothing_is_handed_out(mon
     verdict = seen()["verdict"]
     assert not verdict["agrees"]
     assert "0.25" in verdict["words"]
-    assert "velocity of D; B" in verdict["words"]
+    assert "velocity of D" in verdict["words"]
+    assert 'B = "right of A-O2"' in verdict["words"]
     with pytest.raises(WitnessError):
         hand_out(load("pump"))
 
