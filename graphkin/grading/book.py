@@ -113,7 +113,7 @@ def graded_class(
     others = wrong_variants(graded, expected)
     suspected = {each.students[0] for each in others}
     graded = [unguessed(g) if g.taker.student.id in suspected else g for g in graded]
-    twice = copies([each for each in graded if each.present])
+    twice = copies(graded, expected)
     result = Result(tuple(graded), others, twice, unsure(graded, expected))
     return Class(result, tuple(expected))
 

@@ -1,111 +1,191 @@
-"""Evidence for the lecturer: sets that were handed in twice.
+"""Evidence for the lecturer: two students who handed in the same digits.
 
-Nothing here changes a mark. Odds say how much better the suspicion explains the answers than
-chance does, chance being told by the class itself: how often two of it agree.
+How likely is it that either of them wrote just these digits alone? From the own drawing, with
+any pencil, a crank laid off badly, lengths read to whole or half millimetres, mistakes; in fields
+where both are wrong from a misunderstanding that both have, which is held certain. Which of the
+fields agree is counted as a choice, and so is the pair among all pairs of the class.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations
+from math import comb, log, pi
 from typing import Any
 
+from graphkin.grading.keys import Keys, distinct, read_of
+from graphkin.grading.likeness import PENCILS, fit, told_odds
 from graphkin.grading.model import Graded, Status, Suspicion
+from graphkin.grading.standard import Expectation
 
 FEW = 3
 """Fewer fields tell nothing."""
-STRONG = 20.0
-"""Odds from which a copy is reported, after they are divided by the number of pairs."""
+STRONG = 1000.0
+"""Odds from which a copy is reported, all that was looked through counted."""
 RARE = 0.01
-"""How often two wrong numbers agree by chance where nothing is known yet."""
+"""How often two numbers agree by chance where nothing is known yet."""
 KNOWN = 10.0
 """How many answers that is worth."""
 CROWD = 12
-"""So many with one value make it a common mistake and no copy."""
+"""So many with one value are no evidence of copies."""
+Pair = tuple[int, int]
 
 
-def copies(graded: Sequence[Graded]) -> tuple[Suspicion, ...]:
-    """Students with the same values in fields where at least one of them is wrong.
+@dataclass(frozen=True)
+class Sheet:
+    """A student's numbers, how far each may be rounded, which are wrong, and the own variant."""
 
-    Fields that only follow from a segment beside them count once, and common mistakes little.
+    answers: Any
+    rounding: Any
+    wrong: Any
+    variant: int
+
+    @property
+    def is_read(self) -> Any:
+        """The fields that hold a number."""
+        import numpy as np
+
+        return ~np.isnan(self.answers)
+
+
+def copies(graded: Sequence[Graded], standards: Sequence[Expectation]) -> tuple[Suspicion, ...]:
+    """Students who handed in the same digits: two, or more of whom any two did in all the fields
+    that are named; the odds are those of the weakest two.
     """
-    if not graded:
+    present = [i for i, each in enumerate(graded) if each.present]
+    if len(present) < 2:
         return ()
-    shared: dict[tuple[int, int], dict[str, float]] = defaultdict(dict)
-    for field in copied_fields(graded[0]):
-        for pair, chance in agreeing(graded, field):
-            shared[pair][field] = chance
-    pairs = len(graded) * (len(graded) - 1) / 2
-    found: dict[tuple[int, int], tuple[float, tuple[str, ...]]] = {}
-    for pair, chances in shared.items():
-        odds = 1 / pairs
-        for chance in chances.values():
-            odds /= chance
-        if len(chances) >= FEW and odds >= STRONG:
-            found[pair] = odds, tuple(chances)
+    own, mine = distinct(standards)
+    keys = Keys.of(own)
+    sheets = {i: sheet(graded[i], keys, mine[id(standards[i])]) for i in present}
+    pairs = log(len(present) * (len(present) - 1) / 2)
+    strong: dict[Pair, float] = {}
+    fields: dict[Pair, tuple[int, ...]] = {}
+    for pair, chances in agreeing(sheets, keys).items():
+        if len(chances) >= FEW and -sum(map(log, chances.values())) - pairs >= log(STRONG):
+            odds = told(pair, sheets, keys, tuple(chances)) - pairs
+            if odds >= log(STRONG):
+                strong[pair], fields[pair] = odds, tuple(chances)
     return tuple(
         Suspicion(
             tuple(graded[who].taker.student.id for who in group),
-            *strongest(found, group),
+            tuple(keys.fields[place] for place in common),
+            told_odds(odds),
         )
-        for group in groups(found)
+        for group, common, odds in named(strong, fields, sheets, keys, pairs)
     )
 
 
-def copied_fields(graded: Graded) -> list[str]:
-    """The fields that tell of copies: numbers that do not follow from a segment beside them."""
-    names = [mark.item.field for mark in graded.marks]
-    return [
-        mark.item.field
-        for mark in graded.marks
-        if mark.item.what != "sense" and f"{mark.item.field}_mm" not in names
-    ]
+def sheet(graded: Graded, keys: Keys, variant: int) -> Sheet:
+    """What a student handed in, as numbers; each at least as coarse as lengths are read."""
+    import numpy as np
+
+    answers, digits = read_of(graded, keys)
+    marks = {mark.item.field: mark for mark in graded.marks}
+    wrong = np.array([marks[field].status is not Status.RIGHT for field in keys.fields])
+    answers[~keys.known(variant)] = np.nan
+    return Sheet(answers, np.maximum(digits, keys.reading(variant)), wrong, variant)
 
 
-def agreeing(graded: Sequence[Graded], field: str) -> list[tuple[tuple[int, int], float]]:
-    """The pairs with the same value in a field, one of them wrong, and how likely that is."""
-    same: dict[float, list[int]] = defaultdict(list)
-    wrong = set()
-    for who, each in enumerate(graded):
-        mark = each.mark(field)
-        if mark.answer.value is not None and mark.answer.value != 0:
-            same[mark.answer.value].append(who)
-            if mark.status is not Status.RIGHT:
-                wrong.add(who)
-    answered = sum(map(len, same.values()))
-    found = []
-    for group in same.values():
-        if 1 < len(group) <= CROWD:
-            chance = (len(group) - 2 + KNOWN * RARE) / (answered - 2 + KNOWN)
-            found += [
-                ((a, b), chance) for a, b in combinations(group, 2) if a in wrong or b in wrong
-            ]
+def agreeing(sheets: Mapping[int, Sheet], keys: Keys) -> dict[Pair, dict[int, float]]:
+    """The pairs with the same digits, in which fields, and how likely the class makes that."""
+    found: dict[Pair, dict[int, float]] = defaultdict(dict)
+    for place in range(len(keys.fields)):
+        same: dict[float, list[int]] = defaultdict(list)
+        for who, each in sheets.items():
+            if each.answers[place] and each.is_read[place]:
+                same[float(each.answers[place])].append(who)
+        answered = sum(map(len, same.values()))
+        for group in same.values():
+            if 1 < len(group) <= CROWD:
+                chance = (len(group) - 2 + KNOWN * RARE) / (answered - 2 + KNOWN)
+                for pair in combinations(group, 2):
+                    found[pair][place] = chance
     return found
 
 
-def groups(pairs: Mapping[tuple[int, int], Any]) -> list[tuple[int, ...]]:
-    """The students whom pairs join, group by group."""
-    leader: dict[int, int] = {}
+def told(pair: Pair, sheets: Mapping[int, Sheet], keys: Keys, places: Sequence[int]) -> float:
+    """How much likelier the same digits in some fields are by a copy of just these fields than by
+    chance, as a logarithm: by the chance of whoever is the less likely to have written them.
+    """
+    import numpy as np
 
-    def lead(who: int) -> int:
-        while leader.setdefault(who, who) != who:
-            who = leader[who]
-        return who
-
-    for a, b in pairs:
-        first, second = sorted((lead(a), lead(b)))
-        leader[second] = first
-    found: dict[int, list[int]] = defaultdict(list)
-    for who in sorted(leader):
-        found[lead(who)].append(who)
-    return [tuple(group) for group in found.values()]
+    one, other = (sheets[who] for who in pair)
+    agree = np.zeros(len(keys.fields), dtype=bool)
+    agree[list(places)] = True
+    both = int((one.is_read & other.is_read).sum())
+    choice = log(both + 1) + log(comb(both, len(places)))
+    shared = agree & one.wrong & other.wrong
+    alone = min(by_oneself(each, keys, agree & ~shared) for each in (one, other))
+    return -alone - misunderstood(one, other, keys, shared) - choice - log(2)
 
 
-def strongest(
-    pairs: Mapping[tuple[int, int], tuple[float, tuple[str, ...]]], group: tuple[int, ...]
-) -> tuple[tuple[str, ...], float]:
-    """The fields and the odds of the strongest pair of a group."""
-    inside = [found for (a, b), found in pairs.items() if a in group and b in group]
-    odds, fields = max(inside)
-    return fields, odds
+def by_oneself(each: Sheet, keys: Keys, read: Any) -> float:
+    """How likely a student writes just these digits from the own drawing, as a logarithm."""
+    import numpy as np
+
+    if not read.any():
+        return 0.0
+    rounding = each.rounding[read]
+    found = fit(each.answers[read], rounding, keys.key(each.variant, read))
+    return min(0.0, float(found.likelihood + np.log(2 * rounding).sum()))
+
+
+def misunderstood(one: Sheet, other: Sheet, keys: Keys, read: Any) -> float:
+    """How likely two write the same digits who misunderstood the same: as far as pencils like
+    theirs do, and their data, as a logarithm.
+    """
+    import numpy as np
+
+    if not read.any():
+        return 0.0
+    finest = min(pencil_of(each, keys) for each in (one, other))
+    apart = keys.sizes[one.variant][read] - keys.sizes[other.variant][read]
+    rounding = np.maximum(one.rounding, other.rounding)[read]
+    spread = 2 * finest**2 * keys.key(one.variant, read).spread
+    spread = spread + np.diag(2 * rounding**2 / 3 + apart**2)
+    density = -0.5 * np.linalg.slogdet(2 * pi * spread)[1]
+    return min(0.0, float(density + np.log(2 * rounding).sum()))
+
+
+def pencil_of(each: Sheet, keys: Keys) -> float:
+    """How coarse a student's pencil is by what is right; the finest where little is."""
+    read = each.is_read & ~each.wrong
+    if read.sum() < FEW:
+        return PENCILS[0]
+    key = keys.key(each.variant, read)
+    return fit(each.answers[read], each.rounding[read], key).pencil
+
+
+def named(
+    strong: Mapping[Pair, float],
+    fields: Mapping[Pair, tuple[int, ...]],
+    sheets: Mapping[int, Sheet],
+    keys: Keys,
+    pairs: float,
+) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], float]]:
+    """Who is named together, in which fields, with which odds as a logarithm: the strongest pair
+    first, and whoever agrees so strongly with each of its members in the fields of all.
+    """
+    left = dict(sorted(strong.items(), key=lambda item: -item[1]))
+    while left:
+        pair, odds = next(iter(left.items()))
+        group, common = pair, fields[pair]
+        for who in sorted({who for each in left for who in each} - set(pair)):
+            joined = [(min(who, each), max(who, each)) for each in group]
+            if not all(each in left for each in joined):
+                continue
+            less = tuple(p for p in common if all(p in fields[each] for each in joined))
+            grown = tuple(sorted((*group, who)))
+            weakest = (
+                min(told(each, sheets, keys, less) - pairs for each in combinations(grown, 2))
+                if len(less) >= FEW
+                else 0.0
+            )
+            if weakest >= log(STRONG):
+                group, common, odds = grown, less, weakest
+        for each in combinations(group, 2):
+            left.pop(each, None)
+        yield group, common, odds

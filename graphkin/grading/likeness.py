@@ -1,84 +1,112 @@
 """How likely answers are that somebody read off the drawing of given data.
 
-The errors of a drawing go together as its construction says: a crank laid off too far moves every
-answer. Nobody's pencil is known, so the one that suits the answers best is taken, down to the
-digits that are written; what no drawing of these data makes is a mistake, of any size.
+The errors of a drawing go together as its construction says, and a crank that is laid off badly
+moves every answer. Nobody's pencil is known: fine ones and coarse ones are held equally likely.
+What no drawing of these data makes is a mistake, of any size.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import log, pi
+from math import exp, log, pi
 from typing import Any
 
 from graphkin.grading.diagnosis import ASTRAY, HALF
+from graphkin.grading.model import SURE
 
 MISTAKES = 0.1
 """The share of answers that are mistakes."""
 FAR = 5.0
-"""An answer so many deviations from the key is one."""
-FINEST = 0.1
-"""No drawing is finer than this part of the forgiven pencil; what agrees to the digits is."""
+"""An answer so many deviations from the key is one where it is judged by itself."""
+PENCILS = tuple(0.1 * 2**i for i in range(8))
+"""How much coarser pencils are than the one that is forgiven."""
+LAID_OFF = 5.0
+"""The deviation, in degrees, of cranks that are laid off badly."""
 
 
 @dataclass(frozen=True)
 class Key:
-    """Right answers as sizes, places with their sign, and the covariance of their errors."""
+    """Right answers as sizes, places with their sign, and how drawings of them are off.
+
+    ``spread`` is the covariance of the forgiven pencil's errors, ``noise`` that of reading and
+    computing; ``cranks`` how far each crank moves them by a degree.
+    """
 
     sizes: Any
     spread: Any
+    noise: Any
+    cranks: Any
     places: Any
 
 
 @dataclass(frozen=True)
 class Fit:
-    """How likely answers are by a key, as a logarithm, and which of them are no mistakes."""
+    """How likely answers are by a key, as a logarithm, which of them are no mistakes, and the
+    likeliest pencil, in times of the forgiven one.
+    """
 
     likelihood: float
     fits: Any
+    pencil: float
 
 
-def fit(answers: Any, rounding: Any, key: Key) -> Fit:
+def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
     """The likeliest reading of some answers, each rounded by so much: which of them are mistakes.
 
-    The answer that is least like the others is taken for a mistake as long as that is likelier.
+    The answer that is least like the others is taken for a mistake as long as that is likelier:
+    from all of them on, from those near the key, and from each of some ``starts``.
     """
     import numpy as np
 
-    spread = key.spread + np.diag(rounding**2 / 3)
+    noise = key.noise + np.diag(rounding**2 / 3)
+    noise = noise + LAID_OFF**2 * key.cranks.T @ key.cranks
     off = answers - key.sizes
     astray = log(MISTAKES) + scattered(answers, key)
-    fits = abs(off) <= FAR * np.sqrt(np.diag(spread))
-    best, worst = judged(off, spread, astray, fits)
+    near = abs(off) <= FAR * np.sqrt(np.diag(key.spread + noise))
+    tried = {tuple(each): each for each in (np.ones_like(near), near, *starts)}
+    found = [cleared(off, key.spread, noise, astray, each) for each in tried.values()]
+    return max(found, key=lambda each: each.likelihood)
+
+
+def cleared(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> Fit:
+    """The fit without mistakes, which are taken out one by one."""
+    best, worst = judged(off, spread, noise, astray, fits)
     while worst is not None:
-        fewer = fits.copy()
+        fewer = best.fits.copy()
         fewer[worst] = False
-        found, next_worst = judged(off, spread, astray, fewer)
-        if found <= best:
+        found, worst = judged(off, spread, noise, astray, fewer)
+        if found.likelihood <= best.likelihood:
             break
-        best, worst, fits = found, next_worst, fewer
-    return Fit(best, fits)
+        best = found
+    return best
 
 
-def judged(off: Any, spread: Any, astray: Any, fits: Any) -> tuple[float, int | None]:
-    """The likelihood where just these answers are drawn, and which of them is least like them."""
+def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[Fit, int | None]:
+    """The fit where just these answers are drawn, and which of them is least like the others."""
     import numpy as np
 
     places = np.flatnonzero(fits)
     lost = float(astray[~fits].sum())
     if not len(places):
-        return lost, None
-    own = spread[np.ix_(places, places)]
-    scale = np.sqrt(np.diag(own))
-    inverse = np.linalg.inv(own / np.outer(scale, scale) + 1e-9 * np.eye(len(places)))
-    apart = off[places] / scale
-    pulled = inverse @ apart
-    count = len(places)
-    pencil = max(float(apart @ pulled) / count, FINEST**2)
-    size = -np.linalg.slogdet(inverse)[1] + 2 * np.log(scale).sum()
-    square = float(apart @ pulled) / pencil
-    drawn = -0.5 * (square + count * log(2 * pi * pencil) + size) + count * log(1 - MISTAKES)
-    return float(drawn) + lost, int(places[(pulled**2 / np.diag(inverse)).argmax()])
+        return Fit(lost, fits, PENCILS[0]), None
+    own = np.ix_(places, places)
+    scale = np.sqrt(np.diag(spread)[places] + np.diag(noise)[places])
+    square = np.outer(scale, scale)
+    lower = np.linalg.cholesky(noise[own] / square + 1e-9 * np.eye(len(places)))
+    inverse = np.linalg.inv(lower)
+    wide, axes = np.linalg.eigh(inverse @ (spread[own] / square) @ inverse.T)
+    apart = axes.T @ inverse @ (off[places] / scale)
+    variances = 1 + np.multiply.outer(np.square(PENCILS), np.maximum(wide, 0.0))
+    size = np.log(variances).sum(axis=1) + 2 * np.log(np.diag(lower) * scale).sum()
+    each = -0.5 * ((apart**2 / variances).sum(axis=1) + len(places) * log(2 * pi) + size)
+    likely = int(each.argmax())
+    drawn = each[likely] + log(np.exp(each - each[likely]).mean())
+    back = (axes.T @ inverse).T
+    pulled = back @ (apart / variances[likely])
+    alone = (back**2 / variances[likely]).sum(axis=1)
+    worst = int(places[(pulled**2 / alone).argmax()])
+    whole = float(drawn) + len(places) * log(1 - MISTAKES) + lost
+    return Fit(whole, fits, PENCILS[likely]), worst
 
 
 def scattered(answers: Any, key: Key) -> Any:
@@ -90,3 +118,8 @@ def scattered(answers: Any, key: Key) -> Any:
     size = -np.log(pi * HALF * sizes * (1 + apart**2))
     away = (answers - key.sizes) / ASTRAY
     return np.where(key.places, -np.log(pi * ASTRAY * (1 + away**2)), size)
+
+
+def told_odds(logarithm: float) -> float:
+    """Odds as they are reported: no surer than any model of hands and pencils is."""
+    return exp(min(logarithm, log(SURE)))

@@ -143,11 +143,16 @@ class Graded:
         return next(mark for mark in self.marks if mark.item.field == name)
 
 
+SURE = 10_000.0
+"""The largest odds that are reported: no model of hands and pencils is surer than that."""
+
+
 @dataclass(frozen=True, slots=True)
 class Suspicion:
     """Evidence for the lecturer: answers that fit another's data, or were handed in twice.
 
-    ``students`` are ids; ``fields`` what fits, ``odds`` how much better than chance.
+    ``students`` are ids; ``fields`` what fits, ``odds`` how much better than chance, ``SURE`` at
+    most.
     """
 
     students: tuple[str, ...]

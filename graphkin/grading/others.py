@@ -7,27 +7,24 @@ one pencil explains, or to the very digits. Whoever else is in the class matters
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import exp, log
+from math import log
 from typing import Any
 
-from graphkin.grading.likeness import FAR, Key, fit
-from graphkin.grading.model import Answer, Graded, Suspicion
-from graphkin.grading.numbers import NUMBER, rounding
+from graphkin.grading.keys import Keys, distinct, read_of
+from graphkin.grading.likeness import FAR, fit, told_odds
+from graphkin.grading.model import Graded, Suspicion
 from graphkin.grading.standard import Expectation
-from graphkin.pencil.pencil import STRAIGHT
 
 FEW = 3
 """Fewer fields tell nothing."""
 STRONG = 1000.0
-"""Odds from which a wrong variant is reported, after they are divided by the number of others."""
+"""Odds from which a wrong variant is reported, all that was looked through counted."""
 EXPLAINED = 1000.0
 """Odds of a slip from which an answer is its own, and no evidence but where digits agree."""
 TRIED = 3
 """Variants that are looked at closely: those nearest to the answers, each answer by itself."""
-MOST = 600.0
-"""The largest logarithm of odds that is told."""
 
 
 def wrong_variants(
@@ -38,78 +35,28 @@ def wrong_variants(
     ``standards`` holds what each was marked against, in the same order; those who handed in
     nothing have data, too.
     """
-    if not standards or len(numeric_fields(standards[0])) < FEW:
+    if not standards or len(standards[0].tolerance) < FEW:
         return ()
     own, mine = distinct(standards)
     keys = Keys.of(own)
     theirs: dict[int, list[str]] = defaultdict(list)
     for each, standard in zip(graded, standards, strict=True):
         theirs[mine[id(standard)]].append(each.taker.student.id)
+    choices = log(max(1, len(own) - 1) * max(1, sum(each.present for each in graded)))
     found = []
     for each, standard in zip(graded, standards, strict=True):
         tells = each.present and len(own) > 1
         best = best_other(each, keys, mine[id(standard)]) if tells else None
-        if best is not None:
+        if best is not None and best.odds - choices >= log(STRONG):
             ids = (each.taker.student.id, *theirs[best.other])
-            found.append(Suspicion(ids, best.fields, best.odds, best.of))
+            found.append(Suspicion(ids, best.fields, told_odds(best.odds - choices), best.of))
     return tuple(found)
-
-
-def numeric_fields(standard: Expectation) -> list[str]:
-    """The fields that are numbers, those left out that only follow from a segment beside them."""
-    fields = standard.tolerance
-    return [field for field in fields if f"{field}_mm" not in fields]
-
-
-def distinct(standards: Sequence[Expectation]) -> tuple[list[Expectation], Mapping[int, int]]:
-    """The standards without doubles, and the place of each among them."""
-    places: dict[int, int] = {}
-    own: list[Expectation] = []
-    for each in standards:
-        if id(each) not in places:
-            places[id(each)] = len(own)
-            own.append(each)
-    return own, places
-
-
-@dataclass(frozen=True)
-class Keys:
-    """The keys of all variants, a row for each: sizes, deviations of a drawing, and covariances."""
-
-    fields: tuple[str, ...]
-    places: Any
-    sizes: Any
-    deviations: Any
-    standards: Sequence[Expectation]
-
-    @classmethod
-    def of(cls, standards: Sequence[Expectation]) -> Keys:
-        """Those of some variants."""
-        import numpy as np
-
-        fields = tuple(numeric_fields(standards[0]))
-        places = np.array([standards[0].item[f].what == "place" for f in fields])
-        keys = np.array([[each.key[f] for f in fields] for each in standards])
-        sizes = np.where(places, keys, abs(keys))
-        allowed = [[each.tolerance[f] for f in fields] for each in standards]
-        deviations = np.array([[np.hypot(t.pencil, t.ruler) for t in row] for row in allowed])
-        return cls(fields, places, sizes, deviations / STRAIGHT, standards)
-
-    def key(self, variant: int, read: Any) -> Key:
-        """The key of a variant in the fields that are read, with the errors of pencil and ruler."""
-        import numpy as np
-
-        standard = self.standards[variant]
-        names = list(standard.tolerance)
-        order = [names.index(f) for f, is_read in zip(self.fields, read, strict=True) if is_read]
-        rulers = np.array([standard.tolerance[names[i]].ruler for i in order]) / STRAIGHT
-        spread = standard.spread[np.ix_(order, order)] + np.diag(rulers**2)
-        return Key(self.sizes[variant][read], spread, self.places[read])
 
 
 @dataclass(frozen=True)
 class Best:
-    """The other variant that some answers fit, in which fields of how many, and the odds."""
+    """The other variant that some answers fit, in which fields of how many, and how much likelier
+    than the own, as a logarithm."""
 
     other: int
     fields: tuple[str, ...]
@@ -118,47 +65,27 @@ class Best:
 
 
 def best_other(graded: Graded, keys: Keys, mine: int) -> Best | None:
-    """The other variant that a student's answers fit far better than the own; None for most."""
+    """The other variant that a student's answers fit best; None where it is the own."""
     import numpy as np
 
     answers, digits = read_of(graded, keys)
-    slipped = np.array([graded.mark(f).odds >= EXPLAINED for f in keys.fields])
-    near, found = nearest(answers, digits, keys, mine), None
-    others = len(keys.sizes) - 1
-    for other in near:
+    marks = {mark.item.field: mark for mark in graded.marks}
+    slipped = np.array([marks[field].odds >= EXPLAINED for field in keys.fields])
+    found = None
+    for other in nearest(answers, digits, keys, mine):
         agree = abs(answers - keys.sizes[other]) <= 1.01 * digits
-        known = np.isfinite(keys.deviations[mine]) & np.isfinite(keys.deviations[other])
+        known = keys.known(mine) & keys.known(other)
         read = ~np.isnan(answers) & known & (~slipped | agree)
         if read.sum() < FEW:
             continue
         theirs = fit(answers[read], digits[read], keys.key(other, read))
-        own = fit(answers[read], digits[read], keys.key(mine, read))
-        odds = exp(min(theirs.likelihood - own.likelihood - log(others), MOST))
-        if odds >= STRONG and theirs.fits.sum() >= FEW and (found is None or odds > found.odds):
-            names = [f for f, is_read in zip(keys.fields, read, strict=True) if is_read]
-            fields = tuple(f for f, fits in zip(names, theirs.fits, strict=True) if fits)
+        own = fit(answers[read], digits[read], keys.key(mine, read), theirs.fits)
+        odds = theirs.likelihood - own.likelihood
+        if theirs.fits.sum() >= FEW and (found is None or odds > found.odds):
+            fits = np.flatnonzero(read)[theirs.fits]
+            fields = tuple(keys.fields[place] for place in fits)
             found = Best(int(other), fields, int((~np.isnan(answers)).sum()), odds)
     return found
-
-
-def read_of(graded: Graded, keys: Keys) -> tuple[Any, Any]:
-    """A student's answers as sizes, places with their sign, and how far each may be rounded."""
-    import numpy as np
-
-    given = [graded.mark(field).answer for field in keys.fields]
-    values = np.array([float("nan") if a.value is None else a.value for a in given])
-    digits = np.array([0.0 if a.value is None else coarseness(a) * abs(a.value) for a in given])
-    return np.where(keys.places, values, abs(values)), digits
-
-
-def coarseness(answer: Answer) -> float:
-    """How far a number may be rounded, in parts of it; noughts at the end of a whole one may be no
-    digits of it: 50 may be 48.
-    """
-    found = NUMBER.match(answer.text.strip())
-    digits = found["digits"] if found is not None else ""
-    zeros = len(digits) - len(digits.rstrip("0")) if digits.isdigit() else 0
-    return float(rounding(answer) * 10**zeros)
 
 
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import isfinite, nan, radians
 from typing import Any
 
-from graphkin.arithmetic import FLOAT
+from graphkin.arithmetic import FLOAT, turn_by
 from graphkin.grading.probes import Probe, probes, targets_of
 from graphkin.grading.tolerance import (
     Errors,
@@ -22,7 +23,7 @@ from graphkin.pencil.marks import Paper
 from graphkin.pencil.original import Original, Scales, original
 from graphkin.pencil.pencil import Pencil
 from graphkin.scaling import scales
-from graphkin.steps.program import Program, Target
+from graphkin.steps.program import Drive, Program, Target
 from graphkin.steps.run import StepFailed, run
 
 NOTHING: Mapping[int, Any] = {}
@@ -37,6 +38,8 @@ class Expectation:
     tolerance: Mapping[str, Tolerance]
     spread: Any = field(default=None, compare=False)
     """The covariance of the pencil's errors of the fields that have a tolerance, in their order."""
+    cranks: Any = field(default=None, compare=False)
+    """How far the same fields go for each crank that is laid off by a degree too much."""
 
     @cached_property
     def item(self) -> Mapping[str, Item]:
@@ -149,7 +152,28 @@ class Standard:
     @cached_property
     def expectation(self) -> Expectation:
         """What is expected, for reports."""
-        return Expectation(self.items, self.key, self.tolerance, self.pencil.together)
+        return Expectation(self.items, self.key, self.tolerance, self.pencil.together, self.cranks)
+
+    @property
+    def cranks(self) -> Any:
+        """How far each field but senses goes where a crank is laid off by a degree too much, a row
+        for each that turns; sizes, as they are marked.
+        """
+        import numpy as np
+
+        values, rows = self.exact.trace.values, []
+        for drive in self.layout.program.drives:
+            if isinstance(values.get(drive.position), complex):
+                told = self.told(turned(values, drive, radians(1.0)))
+                rows.append([self.moved(field, told) for field in self.tolerance])
+        return np.array(rows).reshape(len(rows), len(self.tolerance))
+
+    def moved(self, field: str, told: Mapping[str, float]) -> float:
+        """How far a field lies from the key as it is told; zero where nothing is."""
+        right, value = self.key[field], told.get(field, nan)
+        if self.by_field[field].item.what != "place":
+            right, value = abs(right), abs(value)
+        return value - right if isfinite(value - right) else 0.0
 
     @property
     def paper(self) -> Paper:
@@ -200,6 +224,14 @@ class Standard:
         """Every field as the construction tells it with some values put in place of its own."""
         found = self.rerun(overrides, program)
         return self.read(found, paper) if found else {}
+
+
+def turned(values: Mapping[int, Any], drive: Drive, angle: float) -> dict[int, Any]:
+    """The direction of a crank that is laid off too far by an angle, in radians."""
+    found = {drive.position: values[drive.position] * turn_by(angle)}
+    if drive.angle is not None:
+        found[drive.angle] = values[drive.angle] + angle
+    return found
 
 
 def sign_of(probe: Probe, value: float) -> float:
