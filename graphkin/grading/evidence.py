@@ -9,10 +9,10 @@ fields agree is counted as a choice, and so is the pair among all pairs of the c
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import comb, log, pi
+from math import comb, inf, log, pi
 from typing import Any
 
 from graphkin.grading.keys import Keys, distinct, read_of
@@ -28,6 +28,8 @@ RARE = 0.01
 """How often two numbers agree by chance where nothing is known yet."""
 KNOWN = 10.0
 """How many answers that is worth."""
+ASTRAY = 0.02
+"""The share of students who draw another's data."""
 CROWD = 12
 """So many with one value are no evidence of copies."""
 Pair = tuple[int, int]
@@ -61,20 +63,26 @@ def copies(graded: Sequence[Graded], standards: Sequence[Expectation]) -> tuple[
     keys = Keys.of(own)
     sheets = {i: sheet(graded[i], keys, mine[id(standards[i])]) for i in present}
     pairs = log(len(present) * (len(present) - 1) / 2)
+
+    def odds_of(pair: Pair, places: tuple[int, ...]) -> float:
+        """The odds of two with the same digits in some fields, as a logarithm."""
+        return told(pair, sheets, keys, places) - pairs if len(places) >= FEW else -inf
+
     strong: dict[Pair, float] = {}
     fields: dict[Pair, tuple[int, ...]] = {}
     for pair, chances in agreeing(sheets, keys).items():
-        if len(chances) >= FEW and -sum(map(log, chances.values())) - pairs >= log(STRONG):
-            odds = told(pair, sheets, keys, tuple(chances)) - pairs
+        if -sum(map(log, chances.values())) - pairs >= log(STRONG):
+            fields[pair] = tuple(chances)
+            odds = odds_of(pair, fields[pair])
             if odds >= log(STRONG):
-                strong[pair], fields[pair] = odds, tuple(chances)
+                strong[pair] = odds
     return tuple(
         Suspicion(
             tuple(graded[who].taker.student.id for who in group),
             tuple(keys.fields[place] for place in common),
             told_odds(odds),
         )
-        for group, common, odds in named(strong, fields, sheets, keys, pairs)
+        for group, common, odds in named(strong, fields, odds_of)
     )
 
 
@@ -115,22 +123,39 @@ def told(pair: Pair, sheets: Mapping[int, Sheet], keys: Keys, places: Sequence[i
     one, other = (sheets[who] for who in pair)
     agree = np.zeros(len(keys.fields), dtype=bool)
     agree[list(places)] = True
-    both = int((one.is_read & other.is_read).sum())
-    choice = log(both + 1) + log(comb(both, len(places)))
     shared = agree & one.wrong & other.wrong
-    alone = min(by_oneself(each, keys, agree & ~shared) for each in (one, other))
+    ways = ((one, other), (other, one))
+    alone = min(by_oneself(*way, keys, agree & ~shared, ~agree) for way in ways)
+    measured = keys.beside == np.arange(len(keys.fields))
+    both, taken = (int((each & measured).sum()) for each in (one.is_read & other.is_read, agree))
+    choice = log(both + 1) + log(comb(both, taken))
     return -alone - misunderstood(one, other, keys, shared) - choice - log(2)
 
 
-def by_oneself(each: Sheet, keys: Keys, read: Any) -> float:
-    """How likely a student writes just these digits from the own drawing, as a logarithm."""
+def by_oneself(each: Sheet, other: Sheet, keys: Keys, read: Any, rest: Any) -> float:
+    """How likely a student writes just these digits without the other's, as a logarithm: from the
+    own drawing, or from a drawing of the other's data, which then the rest must fit as well.
+    """
     import numpy as np
 
     if not read.any():
         return 0.0
-    rounding = each.rounding[read]
-    found = fit(each.answers[read], rounding, keys.key(each.variant, read))
-    return min(0.0, float(found.likelihood + np.log(2 * rounding).sum()))
+    digits = float(np.log(2 * each.rounding[read]).sum())
+    own = likelihood(each, keys, each.variant, read)
+    if other.variant == each.variant:
+        return min(0.0, own + digits)
+    rest = rest & each.is_read & keys.known(other.variant)
+    astray = likelihood(each, keys, other.variant, read | rest)
+    astray -= likelihood(each, keys, each.variant, rest) + log(len(keys.sizes) / ASTRAY)
+    return min(0.0, float(np.logaddexp(own, astray)) + digits)
+
+
+def likelihood(each: Sheet, keys: Keys, variant: int, read: Any) -> float:
+    """How likely some of a student's answers are by the data of a variant, as a logarithm."""
+    if not read.any():
+        return 0.0
+    key = keys.key(variant, read)
+    return fit(each.answers[read], each.rounding[read], key).likelihood
 
 
 def misunderstood(one: Sheet, other: Sheet, keys: Keys, read: Any) -> float:
@@ -162,30 +187,30 @@ def pencil_of(each: Sheet, keys: Keys) -> float:
 def named(
     strong: Mapping[Pair, float],
     fields: Mapping[Pair, tuple[int, ...]],
-    sheets: Mapping[int, Sheet],
-    keys: Keys,
-    pairs: float,
+    odds_of: Callable[[Pair, tuple[int, ...]], float],
 ) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], float]]:
     """Who is named together, in which fields, with which odds as a logarithm: the strongest pair
-    first, and whoever agrees so strongly with each of its members in the fields of all.
+    first, and whoever agrees as strongly with each of them in the fields of all.
+
+    Who shares with one of them only what these share is not named: it was theirs already.
     """
     left = dict(sorted(strong.items(), key=lambda item: -item[1]))
     while left:
         pair, odds = next(iter(left.items()))
-        group, common = pair, fields[pair]
-        for who in sorted({who for each in left for who in each} - set(pair)):
+        group: tuple[int, ...] = pair
+        common = fields[pair]
+        for who in sorted({who for each in left for who in each}.difference(group)):
             joined = [(min(who, each), max(who, each)) for each in group]
-            if not all(each in left for each in joined):
-                continue
-            less = tuple(p for p in common if all(p in fields[each] for each in joined))
-            grown = tuple(sorted((*group, who)))
-            weakest = (
-                min(told(each, sheets, keys, less) - pairs for each in combinations(grown, 2))
-                if len(less) >= FEW
-                else 0.0
-            )
-            if weakest >= log(STRONG):
-                group, common, odds = grown, less, weakest
-        for each in combinations(group, 2):
-            left.pop(each, None)
+            if all(each in left for each in joined):
+                less = tuple(p for p in common if all(p in fields[each] for each in joined))
+                grown = tuple(sorted((*group, who)))
+                weakest = min(odds_of(each, less) for each in combinations(grown, 2))
+                if weakest >= log(STRONG):
+                    group, common, odds = grown, less, weakest
+        within = {place for each in combinations(group, 2) for place in fields[each]}
+        left = {
+            each: value
+            for each, value in left.items()
+            if set(each).isdisjoint(group) or not within.issuperset(fields[each])
+        }
         yield group, common, odds

@@ -26,10 +26,12 @@ class Keys:
     """The keys of all variants, a row for each: sizes, deviations of a drawing, covariances.
 
     ``rulers`` are the deviations of a reading; ``beside`` the place of each field's own segment,
-    else of itself.
+    else of itself; ``plans`` tell of which plan's scale a value is computed: 1 of velocities, 2 of
+    accelerations, 0 for what is measured.
     """
 
     fields: tuple[str, ...]
+    plans: Any
     places: Any
     beside: Any
     sizes: Any
@@ -46,13 +48,15 @@ class Keys:
         places = np.array([standards[0].item[f].what == "place" for f in fields])
         at = {field: place for place, field in enumerate(fields)}
         beside = np.array([at.get(f"{f}_mm", place) for f, place in at.items()])
+        units = [standards[0].item[f].unit for f in fields]
+        plans = np.array([0 if unit == "mm" else 1 + ("²" in unit) for unit in units])
         keys = np.array([[each.key[f] for f in fields] for each in standards])
         allowed = [[each.tolerance[f] for f in fields] for each in standards]
         deviations = np.array([[np.hypot(t.pencil, t.ruler) for t in row] for row in allowed])
         rulers = np.array([[t.ruler for t in row] for row in allowed])
         sizes = np.where(places, keys, abs(keys))
         deviations, rulers = deviations / STRAIGHT, rulers / STRAIGHT
-        return cls(fields, places, beside, sizes, deviations, rulers, standards)
+        return cls(fields, plans, places, beside, sizes, deviations, rulers, standards)
 
     def key(self, variant: int, read: Any) -> Key:
         """The key of a variant in the fields that are read, with the errors of pencil and ruler."""

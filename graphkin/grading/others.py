@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from math import log
 from typing import Any
 
+from graphkin.grading.diagnosis import SHARE
 from graphkin.grading.keys import Keys, distinct, read_of
 from graphkin.grading.likeness import FAR, fit, told_odds
 from graphkin.grading.model import Graded, Suspicion
@@ -79,13 +80,32 @@ def best_other(graded: Graded, keys: Keys, mine: int) -> Best | None:
         if read.sum() < FEW:
             continue
         theirs = fit(answers[read], digits[read], keys.key(other, read))
-        own = fit(answers[read], digits[read], keys.key(mine, read), theirs.fits)
-        odds = theirs.likelihood - own.likelihood
+        odds = theirs.likelihood - by_own(answers, digits, keys, mine, read, theirs.fits)
         if theirs.fits.sum() >= FEW and (found is None or odds > found.odds):
             fits = np.flatnonzero(read)[theirs.fits]
             fields = tuple(keys.fields[place] for place in fits)
             found = Best(int(other), fields, int((~np.isnan(answers)).sum()), odds)
     return found
+
+
+def by_own(answers: Any, digits: Any, keys: Keys, mine: int, read: Any, theirs: Any) -> float:
+    """How likely answers are by the own data, as a logarithm: as they stand, or with the values of
+    both plans computed by scales of one's own.
+    """
+    import numpy as np
+
+    key = keys.key(mine, read)
+    given, rounded = answers[read], digits[read]
+    found = fit(given, rounded, key, theirs).likelihood
+    times = np.ones(len(given))
+    for plan in (1, 2):
+        values = keys.plans[read] == plan
+        if values.sum() >= FEW:
+            times[values] = np.median(given[values] / key.sizes[values])
+    if not (times > 0).all():
+        return found
+    scaled = fit(given / times, rounded / times, key, theirs).likelihood
+    return max(found, scaled - float(np.log(times).sum()) + log(SHARE))
 
 
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
