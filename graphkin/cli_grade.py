@@ -66,6 +66,13 @@ SHOWN = 10
     type=click.IntRange(1, 1024),
     help="Processes that mark at once; by default one, all cores for more than a hundred variants.",
 )
+@click.option(
+    "--release",
+    "released",
+    metavar="ID",
+    multiple=True,
+    help="A student whose mark is given although the lab holds it (hold = true); repeatable.",
+)
 @click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
 @click.pass_context
 def grade(
@@ -78,6 +85,7 @@ def grade(
     gradebooks: tuple[Path, ...],
     column: str | None,
     jobs: int | None,
+    released: tuple[str, ...],
     force: bool,
 ) -> None:
     """Mark the answers of a class.
@@ -97,11 +105,15 @@ def grade(
     earlier values, and against slips known by name. Writes marks.csv, a feedback page for each
     student, a report on the class, and fills in gradebooks.
 
+    Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
+    another's get no mark until you decide: mark again with --force and --release ID.
+
     \b
     Examples:
       graphkin grade class answers.csv -o report
       graphkin grade class answers.xlsx -o report --gradebook moodle.csv --column "Lab 3"
       graphkin grade class answers.csv -o report --force
+      graphkin grade class answers.csv -o report --force --release 0042 --release 0057
 
     \b
     Exit status: 0; 1 when some cells cannot be read; 2 when nothing was marked.
@@ -117,10 +129,16 @@ def grade(
         raise click.UsageError("--gradebook: two files of the same name", context)
     opened = open_class(folder)
     ids = {taker.student.id: taker.code for taker in opened.takers}
+    strangers = [who for who in released if who not in ids]
+    if strangers:
+        raise click.UsageError(
+            f"--release: no student of this class: {', '.join(map(repr, strangers))}", context
+        )
     codes = {code: who for who, code in ids.items()}
     given = read_answers(answers, opened.book.form, ids, codes)
     words = words_of(opened, lang)
-    found = graded_class(opened.book, opened.takers, given.of, jobs or usual_jobs(opened))
+    processes = jobs or usual_jobs(opened)
+    found = graded_class(opened.book, opened.takers, given.of, processes, released)
     files = all_files(opened, found, given, words, kinds, report or folder / "report")
     spoken = words_in(TERMINAL)
     books = filled_books(gradebooks, column, found, spoken)
@@ -190,7 +208,9 @@ def filled_books(
 
     files: dict[str, bytes] = {}
     ids = [each.taker.student.id for each in found.result.graded]
-    waiting = [each.taker.student.id for each in found.result.graded if each.pending]
+    graded = found.result.graded
+    held = [each.taker.student.id for each in graded if each.held]
+    waiting = [each.taker.student.id for each in graded if each.pending and not each.held]
     for path in gradebooks:
         book = filled_gradebook(path, points_by_id(found), column, ids)
         files[gradebook_name(path)] = book.data
@@ -204,7 +224,8 @@ def filled_books(
         if book.replaced:
             amounts = {"count": str(book.replaced), "column": book.column}
             complain(words("class.replaced", file=path.name, **amounts))
-        for key, who in (("class.not_in", book.absent), ("class.waits", waiting)):
+        kept = (("class.not_in", book.absent), ("class.waits", waiting), ("class.held_back", held))
+        for key, who in kept:
             tell_some([words(key, file=path.name, who=each) for each in who], words)
     return files
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property, partial
 
 from graphkin.grading.evidence import copies
@@ -102,8 +103,12 @@ def graded_class(
     takers: Iterable[Taker],
     answers: Mapping[str, Given],
     jobs: int = 1,
+    released: Collection[str] = (),
 ) -> Class:
-    """The marks of a whole class, by the ids of its students, with what only a class can tell."""
+    """The marks of a whole class, by the ids of its students, with what only a class can tell.
+
+    Where the rubric holds marks, those of ``released`` are not held.
+    """
     every = [(taker, handed_in(answers.get(taker.student.id))) for taker in takers]
     order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
     marked = spread(book, [every[i] for i in order], jobs)
@@ -111,18 +116,33 @@ def graded_class(
     graded = [each for each, _ in found]
     expected = shared(found)
     others = wrong_variants(graded, expected)
-    suspected = {each.students[0] for each in others}
-    graded = [unguessed(g) if g.taker.student.id in suspected else g for g in graded]
     twice = copies(graded, expected)
+    fits = {each.students[0]: each.fields for each in others}
+    flagged = {*fits, *(who for each in twice for who in each.students)}
+    held = flagged.difference(released) if book.lab.rubric.hold else set()
+    graded = [
+        replace(
+            unguessed(each, fits[who]) if (who := each.taker.student.id) in fits else each,
+            held=who in held,
+        )
+        for each in graded
+    ]
     result = Result(tuple(graded), others, twice, unsure(graded, expected))
     return Class(result, tuple(expected))
 
 
-def unguessed(graded: Graded) -> Graded:
-    """A student whose answers fit other data, without the slips that explain them by chance and
-    earned nothing.
+def unguessed(graded: Graded, fits: Sequence[str]) -> Graded:
+    """A student whose answers fit other data in some fields: there nothing follows from own values;
+    slips that explain an answer by chance and earned nothing go.
     """
-    return replace(graded, marks=tuple(map(without_slip, graded.marks)))
+    return replace(graded, marks=tuple(unfollowed(without_slip(m), fits) for m in graded.marks))
+
+
+def unfollowed(mark: Mark, fits: Sequence[str]) -> Mark:
+    """A mark without what follows from own values, where the answer fits another's data."""
+    if mark.status is not Status.FOLLOWS or mark.item.field.removesuffix("_sense") not in fits:
+        return mark
+    return replace(mark, status=Status.WRONG, earned=Fraction(), source="")
 
 
 def without_slip(mark: Mark) -> Mark:

@@ -155,7 +155,7 @@ def likelihood(each: Sheet, keys: Keys, variant: int, read: Any) -> float:
     if not read.any():
         return 0.0
     key = keys.key(variant, read)
-    return fit(each.answers[read], each.rounding[read], key).likelihood
+    return float(fit(each.answers[read], each.rounding[read], key).likelihood)
 
 
 def misunderstood(one: Sheet, other: Sheet, keys: Keys, read: Any) -> float:

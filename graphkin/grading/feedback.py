@@ -42,13 +42,18 @@ def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> s
     body = [f"<h1>{escaped(words('feedback.title'))}</h1>", f"<p>{escaped(title)}<br>"]
     body.append(f"{escaped(' – '.join(filter(None, (student.name or student.id, student.group))))}")
     body.append(f"<br>{escaped(settings_words(graded, words))}</p>")
-    if graded.present:
+    if is_shown(graded):
         body.append(f'<p class="total">{marked_up(total(graded, words))}</p>')
     body += [f"<p>{marked_up(note)}</p>" for note in notes(graded, words)]
-    if graded.present:
+    if is_shown(graded):
         body += feedback_table(rows(graded, words), words)
         body.append(f'<p class="small">{marked_up(how(rubric, words))}</p>')
     return page(f"{title} – {student.name or student.id}", words.language, body)
+
+
+def is_shown(graded: Graded) -> bool:
+    """Whether a student sees marks: something was handed in, and nothing is held."""
+    return graded.present and not graded.held
 
 
 def total(graded: Graded, words: Words) -> str:
@@ -65,6 +70,8 @@ def notes(graded: Graded, words: Words) -> list[str]:
     """What is said of the whole form: that there is none, or what waits for a decision."""
     if not graded.present:
         return [words("feedback.absent")]
+    if graded.held:
+        return [words("feedback.held")]
     waiting = [mark.item for mark in graded.marks if mark.points and not is_decided(mark)]
     if not waiting:
         return []
@@ -158,11 +165,11 @@ def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> It
     settings = escape(settings_words(graded, words))
     if settings:
         yield text_block(settings, LETTER)
-    if graded.present:
+    if is_shown(graded):
         yield text_block(total(graded, words), 3.5)
     for note in notes(graded, words):
         yield text_block(note, LETTER)
-    if not graded.present:
+    if not is_shown(graded):
         return
     yield head_block(words)
     for row in rows(graded, words):

@@ -65,10 +65,9 @@ class Keys:
         standard, rulers = self.standards[variant], self.rulers[variant][read]
         beside, sizes = self.beside[read], self.sizes[variant][read]
         shared = np.where(beside[:, None] == beside, np.outer(rulers, rulers), 0.0)
-        computed = beside != np.flatnonzero(read)
-        noise = shared + np.diag(np.where(computed, COMPUTED * sizes, 0.0) ** 2)
-        spread = standard.spread[np.ix_(read, read)]
-        return Key(sizes, spread, noise, standard.cranks[:, read], self.places[read])
+        spread = standard.spread[np.ix_(read, read)] + shared
+        computed = np.where(beside != np.flatnonzero(read), COMPUTED * sizes, 0.0)
+        return Key(sizes, spread, computed, standard.cranks[:, read], self.places[read])
 
     def reading(self, variant: int) -> Any:
         """How far readings may be rounded: lengths to half a millimetre, as fine as a ruler is held

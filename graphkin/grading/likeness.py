@@ -18,7 +18,7 @@ MISTAKES = 0.1
 """The share of answers that are mistakes."""
 FAR = 5.0
 """An answer so many deviations from the key is one where it is judged by itself."""
-PENCILS = tuple(0.1 * 2**i for i in range(8))
+PENCILS = tuple(0.1 * 2.0**i for i in range(8))
 """How much coarser pencils are than the one that is forgiven."""
 LAID_OFF = 5.0
 """The deviation, in degrees, of cranks that are laid off badly."""
@@ -28,13 +28,14 @@ LAID_OFF = 5.0
 class Key:
     """Right answers as sizes, places with their sign, and how drawings of them are off.
 
-    ``spread`` is the covariance of the forgiven pencil's errors, ``noise`` that of reading and
-    computing; ``cranks`` how far each crank moves them by a degree.
+    ``spread`` is the covariance of the errors of the forgiven pencil and ruler, ``computed`` the
+    deviation of what is computed from a reading; ``cranks`` how far each crank moves them by a
+    degree.
     """
 
     sizes: Any
     spread: Any
-    noise: Any
+    computed: Any
     cranks: Any
     places: Any
 
@@ -58,14 +59,27 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
     """
     import numpy as np
 
-    noise = key.noise + np.diag(rounding**2 / 3)
-    noise = noise + LAID_OFF**2 * key.cranks.T @ key.cranks
+    noise = noise_of(rounding, key)
     off = answers - key.sizes
     astray = log(MISTAKES) + scattered(answers, key)
     near = abs(off) <= FAR * np.sqrt(np.diag(key.spread + noise))
     tried = {tuple(each): each for each in (np.ones_like(near), near, *starts)}
     found = [cleared(off, key.spread, noise, astray, each) for each in tried.values()]
     return max(found, key=lambda each: each.likelihood)
+
+
+def noise_of(rounding: Any, key: Key) -> Any:
+    """The covariance of what is no pencil's error: digits, computing, and badly laid-off cranks."""
+    import numpy as np
+
+    return np.diag(key.computed**2 + rounding**2 / 3) + LAID_OFF**2 * key.cranks.T @ key.cranks
+
+
+def drawn(answers: Any, rounding: Any, key: Key, fits: Any) -> float:
+    """How likely answers are where just some of them are no mistakes, as a logarithm."""
+    astray = log(MISTAKES) + scattered(answers, key)
+    noise = noise_of(rounding, key)
+    return judged(answers - key.sizes, key.spread, noise, astray, fits)[0].likelihood
 
 
 def cleared(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> Fit:
@@ -122,4 +136,4 @@ def scattered(answers: Any, key: Key) -> Any:
 
 def told_odds(logarithm: float) -> float:
     """Odds as they are reported: no surer than any model of hands and pencils is."""
-    return exp(min(logarithm, log(SURE)))
+    return min(exp(min(logarithm, log(SURE))), SURE)

@@ -100,11 +100,15 @@ class Taker:
 
 @dataclass(frozen=True, slots=True)
 class Graded:
-    """A student with the mark of each field, in the order of the form."""
+    """A student with the mark of each field, in the order of the form.
+
+    ``held`` tells that they are kept back until the lecturer has decided whose answers these are.
+    """
 
     taker: Taker
     marks: tuple[Mark, ...]
     present: bool = True
+    held: bool = False
 
     @property
     def earned(self) -> Fraction:

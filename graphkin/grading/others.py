@@ -14,16 +14,18 @@ from typing import Any
 
 from graphkin.grading.diagnosis import SHARE
 from graphkin.grading.keys import Keys, distinct, read_of
-from graphkin.grading.likeness import FAR, fit, told_odds
+from graphkin.grading.likeness import FAR, drawn, fit, told_odds
 from graphkin.grading.model import Graded, Suspicion
 from graphkin.grading.standard import Expectation
 
 FEW = 3
 """Fewer fields tell nothing."""
-STRONG = 1000.0
+STRONG = 100.0
 """Odds from which a wrong variant is reported, all that was looked through counted."""
 EXPLAINED = 1000.0
 """Odds of a slip from which an answer is its own, and no evidence but where digits agree."""
+ODD = 1.25
+"""A scale of one's own is at least so many times too large or too small."""
 TRIED = 3
 """Variants that are looked at closely: those nearest to the answers, each answer by itself."""
 
@@ -47,8 +49,9 @@ def wrong_variants(
     found = []
     for each, standard in zip(graded, standards, strict=True):
         tells = each.present and len(own) > 1
-        best = best_other(each, keys, mine[id(standard)]) if tells else None
-        if best is not None and best.odds - choices >= log(STRONG):
+        enough = choices + log(STRONG)
+        best = best_other(each, keys, mine[id(standard)], enough) if tells else None
+        if best is not None:
             ids = (each.taker.student.id, *theirs[best.other])
             found.append(Suspicion(ids, best.fields, told_odds(best.odds - choices), best.of))
     return tuple(found)
@@ -65,8 +68,10 @@ class Best:
     odds: float
 
 
-def best_other(graded: Graded, keys: Keys, mine: int) -> Best | None:
-    """The other variant that a student's answers fit best; None where it is the own."""
+def best_other(graded: Graded, keys: Keys, mine: int, enough: float) -> Best | None:
+    """The other variant that a student's answers fit best; None where none fits so much better than
+    the own as is ``enough``, a logarithm.
+    """
     import numpy as np
 
     answers, digits = read_of(graded, keys)
@@ -79,9 +84,14 @@ def best_other(graded: Graded, keys: Keys, mine: int) -> Best | None:
         read = ~np.isnan(answers) & known & (~slipped | agree)
         if read.sum() < FEW:
             continue
-        theirs = fit(answers[read], digits[read], keys.key(other, read))
+        given, rounded = answers[read], digits[read]
+        theirs = fit(given, rounded, keys.key(other, read))
+        plain = drawn(given, rounded, keys.key(mine, read), theirs.fits)
+        if theirs.likelihood - plain < enough:
+            continue
         odds = theirs.likelihood - by_own(answers, digits, keys, mine, read, theirs.fits)
-        if theirs.fits.sum() >= FEW and (found is None or odds > found.odds):
+        fitting = theirs.fits.sum() >= FEW and odds >= enough
+        if fitting and (found is None or odds > found.odds):
             fits = np.flatnonzero(read)[theirs.fits]
             fields = tuple(keys.fields[place] for place in fits)
             found = Best(int(other), fields, int((~np.isnan(answers)).sum()), odds)
@@ -100,9 +110,10 @@ def by_own(answers: Any, digits: Any, keys: Keys, mine: int, read: Any, theirs: 
     times = np.ones(len(given))
     for plan in (1, 2):
         values = keys.plans[read] == plan
-        if values.sum() >= FEW:
-            times[values] = np.median(given[values] / key.sizes[values])
-    if not (times > 0).all():
+        ratio = np.median(given[values] / key.sizes[values]) if values.sum() >= FEW else 1.0
+        if ratio > 0 and abs(log(ratio)) >= log(ODD):
+            times[values] = ratio
+    if (times == 1).all():
         return found
     scaled = fit(given / times, rounded / times, key, theirs).likelihood
     return max(found, scaled - float(np.log(times).sum()) + log(SHARE))

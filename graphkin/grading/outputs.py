@@ -91,9 +91,9 @@ def gradebook_name(path: Path) -> str:
 
 
 def points_by_id(found: Class) -> dict[str, Fraction]:
-    """The points of those who handed in and for whom nothing waits, for a gradebook."""
+    """The points of those who handed in and for whom nothing waits or is held, for a gradebook."""
     return {
         each.taker.student.id: each.earned
         for each in found.result.graded
-        if each.present and not each.pending
+        if each.present and not each.pending and not each.held
     }

@@ -9,7 +9,7 @@ from statistics import mean, median
 
 from graphkin.grading.answers import Answers, Unread
 from graphkin.grading.html import RIGHT, page
-from graphkin.grading.model import Graded, Result, Suspicion, Taker
+from graphkin.grading.model import SURE, Graded, Result, Suspicion, Taker
 from graphkin.grading.numbers import shown
 from graphkin.grading.pictures import pictures, slip_counts
 from graphkin.grading.rows import SLIPS, points_words
@@ -95,6 +95,9 @@ def evidence_sections(result: Result, words: Words) -> Iterator[str]:
     yield from lines_section(
         words("class.copies"), (copies_words(each, names, words) for each in result.copies)
     )
+    held = held_line(result, words)
+    if held:
+        yield f"<p>{escape(held)}</p>"
     if result.wrong_variants or result.copies:
         yield f'<p class="small">{escape(words("class.evidence"))}</p>'
 
@@ -118,8 +121,15 @@ def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
         text = wrong_variant_words(found, names, words)
         amounts = (each.earned, each.decided, each.spared)
         earned, points, spared = (points_words(amount, words) for amount in amounts)
-        text += f"; {words('class.stays', earned=earned, points=points)}"
+        key = "class.held" if each.held else "class.stays"
+        text += f"; {words(key, earned=earned, points=points)}"
         yield f"{text}, {words('class.spared', spared=spared)}" if each.spared else text
+
+
+def held_line(result: Result, words: Words) -> str:
+    """Whose marks are held, and how that is decided; empty where nobody's are."""
+    held = [name_of(each) for each in result.graded if each.held]
+    return words("class.held_row", who=words("list_mark").join(held)) if held else ""
 
 
 def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
@@ -153,8 +163,10 @@ def some(names: Sequence[str], words: Words) -> str:
 
 
 def odds_words(odds: float, words: Words) -> str:
-    """Odds with the one digit that they are worth."""
-    return words.significant(min(odds, 1e30), 1)
+    """Odds with the one digit that they are worth, and no surer than they can be."""
+    if odds >= SURE:
+        return words("class.at_least", odds=f"{SURE:.0f}")
+    return words.significant(odds, 1)
 
 
 def unread_lines(
@@ -218,3 +230,6 @@ def result_lines(result: Result, words: Words) -> Iterator[str]:
     yield from wrong_variant_lines(result, words)
     for each in result.copies:
         yield copies_words(each, names, words)
+    held = held_line(result, words)
+    if held:
+        yield held

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -34,31 +35,37 @@ def marks_table(result: Result) -> bytes:
     """A row for each student in the order of the class: points of each field, and why.
 
     ``of`` and ``percent`` are of the points that are decided; ``pending`` are those that wait;
-    ``evidence`` names whose data the answers fit better than the own.
+    ``evidence`` names whose data the answers fit better than the own, and who has the same values;
+    points and percent of who is held are empty, those of each field stay for the decision.
     """
     graded = result.graded
-    fits = {each.students[0]: f"fits {each.students[1]}" for each in result.wrong_variants}
+    fits: dict[str, list[str]] = defaultdict(list)
+    for each in result.wrong_variants:
+        fits[each.students[0]].append(f"fits {each.students[1]}")
+    for each in result.copies:
+        for who in each.students:
+            fits[who] += [f"same as {other}" for other in each.students if other != who]
     fields = [mark.item.field for mark in graded[0].marks if mark.points] if graded else []
     head = [*BEFORE, *fields, *(f"{name}{WHY}" for name in fields)]
     return written([head, *(marks_row(each, fields, fits) for each in graded)])
 
 
-def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, str]) -> list[str]:
+def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str]]) -> list[str]:
     """One student's row."""
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
-    share = graded.share
+    share = None if graded.held else graded.share
     return [
         str(student.row),
         "" if student.number is None else str(student.number),
         student.id,
         student.name,
         student.group,
-        number(graded.earned) if graded.present else "",
+        number(graded.earned) if graded.present and not graded.held else "",
         number(graded.decided),
         f"{float(100 * share):.1f}" if share is not None else "",
         number(graded.pending) if graded.pending else "",
-        fits.get(student.id, ""),
+        "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
         *(points_cell(marks[name]) if graded.present else "" for name in fields),
         *(reason(graded, name) if graded.present else "" for name in fields),
     ]

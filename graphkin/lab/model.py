@@ -74,7 +74,8 @@ class Rubric:
     ``follow`` is the share for what follows rightly from the student's own earlier values;
     ``slips`` the share for each slip by name; ``point`` and ``line`` the drawing error that is
     forgiven (mm, degrees); ``ruler`` the error of reading (mm); ``floor`` and ``cap`` the least
-    and the most tolerance, in parts of the value.
+    and the most tolerance, in parts of the value. ``hold`` keeps back the marks of students whose
+    answers seem to be another's, until the lecturer has decided.
     """
 
     points: Mapping[str, Fraction] = field(default_factory=dict)
@@ -85,6 +86,7 @@ class Rubric:
     ruler: float = 0.25
     floor: float = 0.01
     cap: float = 0.25
+    hold: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -260,8 +260,9 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
     }
     if given["floor"] > given["cap"]:
         marking.findings.add(marking.at("floor"), f"{given['floor']:g} is above cap", "at most cap")
+    hold = marking.flag("hold")
     marking.finish()
-    return Rubric(points=points, slips=slips, **given)
+    return Rubric(points=points, slips=slips, hold=hold, **given)
 
 
 def number(table: Table, key: str, default: float, least: float, most: float) -> float:
