@@ -129,11 +129,10 @@ def grade(
         raise click.UsageError("--gradebook: two files of the same name", context)
     opened = open_class(folder)
     ids = {taker.student.id: taker.code for taker in opened.takers}
-    strangers = [who for who in released if who not in ids]
-    if strangers:
-        raise click.UsageError(
-            f"--release: no student of this class: {', '.join(map(repr, strangers))}", context
-        )
+    unknown = [who for who in released if who not in ids]
+    if unknown:
+        names = ", ".join(unknown)
+        raise click.UsageError(f"--release: {names} is no student of this class", context)
     codes = {code: who for who, code in ids.items()}
     given = read_answers(answers, opened.book.form, ids, codes)
     words = words_of(opened, lang)

@@ -1,4 +1,4 @@
-"""Classes of a hundred and twenty who draw by hand: honest ones of every kind, and some who copy."""
+"""Classes of 120 who draw by hand: honest ones of every kind, and some who copy."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def book_of(lab: str) -> Book:
 def takers_of(kind_own: bool, seed: int) -> tuple[Taker, ...]:
     """A class: each with data of the own, or whole numbers drawn for each."""
     rng = np.random.default_rng([seed, 1])
-    numbers = [Fraction(29 * i, 4 * SIZE // 4 - 1) + 1 for i in range(SIZE)]
+    numbers = [1 + Fraction(29 * i, SIZE - 1) for i in range(SIZE)]
     if not kind_own:
         numbers = [Fraction(int(n)) for n in rng.integers(1, 31, SIZE)]
     order = rng.permutation(SIZE)
