@@ -7,6 +7,7 @@ import errno
 import io
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -23,7 +24,7 @@ from graphkin.grading.feedback import feedback_html, feedback_pages
 from graphkin.grading.gradebook import GradebookError, filled
 from graphkin.grading.gradebook_csv import read_gradebook
 from graphkin.grading.model import Answer, Taker
-from graphkin.grading.outputs import Told, report_files
+from graphkin.grading.outputs import Told, points_by_id, report_files
 from graphkin.grading.rows import rows
 from graphkin.grading.tables import differences, marks_table, read_marks
 from graphkin.roster.languages import language_in
@@ -222,6 +223,55 @@ def test_of_several_empty_columns_just_these_are_named(tmp_path):
     assert '"Lab 1", "Lab 3"' in str(refused.value)
 
 
+# --- marks that are held ------------------------------------------------------------------------
+
+
+def held_class(*released: str) -> Class:
+    """One of three hands in the data of another's number; the lab holds such marks."""
+    lab = lab_of("pump")
+    book = replace(book_of("pump"), lab=replace(lab, rubric=replace(lab.rubric, hold=True)))
+    takers = [
+        Taker(Student(n, f"{n:04d}", n, f"Name {n}"), {"n": str(n)}, "ABCDEFGHI" + "JKL"[n % 3])
+        for n in (7, 13, 20)
+    ]
+    keys = {n: key_answers(marker_of("pump", n).standard) for n in (7, 20)}
+    answers = {"0007": keys[7], "0013": keys[20]}
+    return graded_class(book, takers, answers, released=released)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_held_mark_is_nowhere_until_it_is_released(language):
+    found, given_back = held_class(), held_class("0013")
+    assert [each.held for each in found.result.graded] == [False, True, False]
+    assert not any(each.held for each in given_back.result.graded)
+    assert set(points_by_id(found)) == {"0007"}
+    assert set(points_by_id(given_back)) == {"0007", "0013"}
+    made, after = files(found, language), files(given_back, language)
+    held, free = (read_marks(each["marks.csv"]) for each in (made, after))
+    assert held["0007"] == free["0007"]
+    assert held["0013"]["points"] == held["0013"]["percent"] == ""
+    assert held["0013"]["evidence"] == "fits 0020; held"
+    assert float(free["0013"]["points"]) > 0
+    assert free["0013"]["evidence"] == "fits 0020"
+    said = words(language)("feedback.held")
+    pages = [each["feedback/0013.html"].decode("utf-8") for each in (made, after)]
+    assert said in pages[0] and "<table" not in pages[0]
+    assert said not in pages[1] and "<table" in pages[1]
+    assert made["feedback/0007.html"] == after["feedback/0007.html"]
+    rubric, spoken = lab_of("pump").rubric, words(language)
+    drawn = [
+        feedback_pages(each.result.graded[1], "", rubric, spoken) for each in (found, given_back)
+    ]
+    assert ["'table'" in repr(pages) for pages in drawn] == [False, True]
+    report = made["class.html"].decode("utf-8")
+    assert "--release" in report
+    assert "--release" not in after["class.html"].decode("utf-8")
+
+
+def test_marks_are_held_only_where_the_lab_says_so():
+    assert not book_of("pump").lab.rubric.hold
+
+
 # --- the command --------------------------------------------------------------------------------
 
 
@@ -290,6 +340,30 @@ def test_a_gradebook_waits_for_points_that_wait(folder):
     found = run(folder, "--gradebook", str(folder / "canvas.csv"), "--lang", "en")
     assert "canvas.csv: 0001 has points that wait" in found.output
     assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == CANVAS
+
+
+def test_a_held_mark_goes_into_no_gradebook_until_it_is_released(folder):
+    """0001 hands in the data of 0002."""
+    lab = folder / "pump"
+    shutil.copytree(lab_of("pump").folder, lab)
+    with (lab / "lab.toml").open("a", encoding="utf-8") as text:
+        text.write("\n[marking]\nhold = true\n")
+    roster = str(folder / "roster.csv")
+    args = ["variants", str(lab), roster, "-o", str(folder / "class"), "--force"]
+    assert CliRunner().invoke(app, args).exit_code == 0
+    cells = {f: f"{v:.5g}" for f, v in marker_of("pump", 8).standard.key.items()}
+    table = [["id", *cells], ["0001", *cells.values()]]
+    (folder / "answers.csv").write_text("\n".join(map(",".join, table)), encoding="utf-8")
+    book = ("--gradebook", str(folder / "canvas.csv"))
+    found = run(folder, *book)
+    assert found.exit_code == 0, found.output
+    assert "the mark of 0001 is held" in found.output
+    assert "O'Neil, Ana (0001)" in found.output and "--release ID" in found.output
+    assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == CANVAS
+    assert run(folder, "--release", "0003").exit_code == 2
+    given_back = run(folder, *book, "--force", "--release", "0001")
+    assert given_back.exit_code == 0, given_back.output
+    assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") != CANVAS
 
 
 def test_two_gradebooks_of_one_name_are_refused(folder):
