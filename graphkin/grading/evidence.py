@@ -3,12 +3,13 @@
 How likely is it that either of them wrote just these digits alone? From the own drawing, with
 any pencil, a crank laid off badly, lengths read to whole or half millimetres, mistakes; in fields
 where both are wrong from a misunderstanding that both have, which is held certain. Which of the
-fields agree is counted as a choice, and so is the pair among all pairs of the class.
+fields agree is counted as a choice, and so is the pair among all pairs with the same data, or with
+other data.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -22,7 +23,7 @@ from graphkin.grading.standard import Expectation
 
 FEW = 3
 """Fewer fields tell nothing."""
-STRONG = 1000.0
+STRONG = 100.0
 """Odds from which a copy is reported, all that was looked through counted."""
 RARE = 0.01
 """How often two numbers agree by chance where nothing is known yet."""
@@ -62,16 +63,24 @@ def copies(graded: Sequence[Graded], standards: Sequence[Expectation]) -> tuple[
     own, mine = distinct(standards)
     keys = Keys.of(own)
     sheets = {i: sheet(graded[i], keys, mine[id(standards[i])]) for i in present}
-    pairs = log(len(present) * (len(present) - 1) / 2)
+    alike = sum(comb(count, 2) for count in Counter(s.variant for s in sheets.values()).values())
+    pairs = {True: alike, False: comb(len(present), 2) - alike}
+
+    def needed(pair: Pair) -> float:
+        """What counts for the choice of a pair: half of those who copy have the same data."""
+        one, other = (sheets[who].variant for who in pair)
+        return log(2 * pairs[one == other])
 
     def odds_of(pair: Pair, places: tuple[int, ...]) -> float:
         """The odds of two with the same digits in some fields, as a logarithm."""
-        return told(pair, sheets, keys, places) - pairs if len(places) >= FEW else -inf
+        if len(places) < FEW:
+            return -inf
+        return told(pair, sheets, keys, places) - needed(pair)
 
     strong: dict[Pair, float] = {}
     fields: dict[Pair, tuple[int, ...]] = {}
     for pair, chances in agreeing(sheets, keys).items():
-        if -sum(map(log, chances.values())) - pairs >= log(STRONG):
+        if -sum(map(log, chances.values())) - needed(pair) >= log(STRONG):
             fields[pair] = tuple(chances)
             odds = odds_of(pair, fields[pair])
             if odds >= log(STRONG):

@@ -86,14 +86,14 @@ def test_everything_that_is_stated_is_read(mine):
             "[fair]\ncrossing = 10\nsegment = 2.5\ntriangle = [0.1, 3]\n"
             "[marks]\nv_D_mm = 2\nv_BA = 0.5\n"
             "[marking]\nfollow = 0.7\npoint = 0.6\nline = 0.4\nruler = 0.3\nfloor = 0.02\n"
-            "cap = 0.3\n[marking.slips]\nrpm_as_rad = 0.5\n"
+            "cap = 0.3\nhold = true\n[marking.slips]\nrpm_as_rad = 0.5\n"
         )
     )
     assert lab.rule == Ranges("M 26", {"n": Range(Fraction(3), Fraction(21), Fraction(2))}, 7)
     assert lab.fair == Fair(10, 2.5, (0.1, 3))
     points = {"v_D_mm": Fraction(2), "v_BA": Fraction(1, 2)}
     slips = {"rpm_as_rad": 0.5}
-    assert lab.rubric == Rubric(points, 0.7, slips, 0.6, 0.4, 0.3, 0.02, 0.3)
+    assert lab.rubric == Rubric(points, 0.7, slips, 0.6, 0.4, 0.3, 0.02, 0.3, hold=True)
 
 
 WRONG = {
@@ -120,6 +120,7 @@ WRONG = {
     RULE + "[marks]\nv_D = -1\n": "marks.v_D: -1; expected points",
     RULE + "[marks]\nv_D = true\n": "marks.v_D: true; expected a number",
     RULE + "[marking]\nfloor = 0.3\n": "marking.floor: 0.3 is above cap",
+    RULE + "[marking]\nhold = 1\n": "marking.hold: 1; expected true or false",
     RULE + "[marking]\ncap = 2.5\n": "marking.cap: 2.5; expected a number from 0 to 1",
     RULE
     + "[marking]\nslips = { opposite = 2 }\n": "slips.opposite: 2; expected a number from 0 to 1",
