@@ -120,7 +120,7 @@ def test_who_else_hands_in_changes_nothing():
     assert alone[0].odds > STRONG
 
 
-def test_a_suspected_row_keeps_its_marks_and_loses_guessed_slips():
+def test_a_suspected_row_loses_what_follows_where_it_fits_and_guessed_slips():
     """Its slips explain it by chance: they are told to nobody, counted nowhere."""
     takers = [taker(n) for n in NUMBERS]
     marks = {
@@ -131,9 +131,13 @@ def test_a_suspected_row_keeps_its_marks_and_loses_guessed_slips():
     answers = {f"s{n:03d}": key_answers(marker_of("pump", shifted(n, 2)).standard) for n in NUMBERS}
     found = graded_class(book_of("pump"), takers, answers).result
     assert len(found.wrong_variants) == len(NUMBERS)
+    fits = {each.students[0]: each.fields for each in found.wrong_variants}
     for each in found.graded:
         before = marks[each.taker.student.number]
-        assert each.earned == before.earned
+        for mark, old in zip(each.marks, before.marks, strict=True):
+            fitting = mark.item.field.removesuffix("_sense") in fits[each.taker.student.id]
+            lost = fitting and old.status is Status.FOLLOWS
+            assert mark.earned == (0 if lost else old.earned)
         paid = [m for m in each.marks if m.slip]
         assert all(m.status is Status.SLIP and m.earned for m in paid)
     assert any(m.slip and not m.earned for each in marks.values() for m in each.marks)
@@ -141,7 +145,10 @@ def test_a_suspected_row_keeps_its_marks_and_loses_guessed_slips():
 
 
 def test_the_lecturer_is_told_what_a_suspected_row_earned_by_slips_and_following():
-    answers = {"s007": key_answers(marker_of("pump", 13).standard)}
+    mine = marker_of("pump", 7).standard
+    scale = mine.key["a_D"] / mine.key["a_D_mm"]
+    drawn_wrong = given({"a_D_mm": 50.0, "a_D": 50.0 * scale})
+    answers = {"s007": key_answers(marker_of("pump", 13).standard) | drawn_wrong}
     found = graded_class(book_of("pump"), [taker(n) for n in NUMBERS], answers).result
     (graded,) = [each for each in found.graded if each.present]
     assert 0 < graded.spared <= graded.earned
