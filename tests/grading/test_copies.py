@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from graphkin.grading.evidence import copies
+from graphkin.grading.keys import Keys
+from graphkin.grading.likeness import PENCILS, fit
 from graphkin.grading.model import SURE, Status
 from graphkin.grading.report import odds_words
 from graphkin.text import words
@@ -31,7 +33,7 @@ from tests.grading.classes import (
     sheet_of,
     takers_of,
     written,
-)
+)from tests.grading.students import marker_of
 
 ORDINARY = HONEST[1]
 
@@ -57,6 +59,22 @@ def test_a_crank_laid_off_badly_is_not_the_data_of_a_neighbour():
         found = hand.drawn(lab, bad, sheet_of(lab, taker.settings["n"]), rng, 0.1, ruler=0.1)
         answers[taker.student.id] = {f: written(f, value, 3) for f, value in found.items()}
     assert named(marked(lab, kind, 0, answers)) == []
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_a_crank_laid_off_badly_is_no_coarse_pencil(lab):
+    """Three degrees too far and all else exact: no answer is a mistake, the pencil is the finest."""
+    standard = marker_of(lab, 7).standard
+    keys = Keys.of([standard.expectation])
+    given = hand.data(lab, 7)
+    bad = replace(given, angle=given.angle + 3)
+    found = hand.key(lab, bad, (standard.scales.kL, standard.scales.kv))
+    values = np.array([found[field] for field in keys.fields])
+    answers = np.where(keys.places, values, abs(values))
+    read = np.ones(len(answers), dtype=bool)
+    told = fit(answers, 1e-3 * abs(answers), keys.key(0, read))
+    assert told.fits.all()
+    assert told.pencil == PENCILS[0]
 
 
 @pytest.mark.parametrize(("lab", "way", "least"), [
