@@ -33,7 +33,8 @@ from tests.grading.classes import (
     sheet_of,
     takers_of,
     written,
-)from tests.grading.students import marker_of
+)
+from tests.grading.students import marker_of
 
 ORDINARY = HONEST[1]
 
@@ -63,7 +64,7 @@ def test_a_crank_laid_off_badly_is_not_the_data_of_a_neighbour():
 
 @pytest.mark.parametrize("lab", LABS)
 def test_a_crank_laid_off_badly_is_no_coarse_pencil(lab):
-    """Three degrees too far and all else exact: no answer is a mistake, the pencil is the finest."""
+    """Three degrees too far, all else exact: no answer is a mistake, the pencil the finest."""
     standard = marker_of(lab, 7).standard
     keys = Keys.of([standard.expectation])
     given = hand.data(lab, 7)
