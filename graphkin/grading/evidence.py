@@ -31,6 +31,8 @@ KNOWN = 10.0
 """How many answers that is worth."""
 ASTRAY = 0.02
 """The share of students who draw another's data."""
+FINE = 1e-6
+"""No number is written more finely than this part of it."""
 CROWD = 12
 """So many with one value are no evidence of copies."""
 Pair = tuple[int, int]
@@ -103,7 +105,8 @@ def sheet(graded: Graded, keys: Keys, variant: int) -> Sheet:
     marks = {mark.item.field: mark for mark in graded.marks}
     wrong = np.array([marks[field].status is not Status.RIGHT for field in keys.fields])
     answers[~keys.known(variant)] = np.nan
-    return Sheet(answers, np.maximum(digits, keys.reading(variant)), wrong, variant)
+    least = np.maximum(keys.reading(variant), FINE * np.nan_to_num(abs(answers)))
+    return Sheet(answers, np.maximum(digits, least), wrong, variant)
 
 
 def agreeing(sheets: Mapping[int, Sheet], keys: Keys) -> dict[Pair, dict[int, float]]:

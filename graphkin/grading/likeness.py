@@ -20,6 +20,8 @@ FAR = 5.0
 """An answer so many deviations from the key is one where it is judged by itself."""
 PENCILS = tuple(0.1 * 2.0**i for i in range(8))
 """How much coarser pencils are than the one that is forgiven."""
+SURELY = 1e-24
+"""No answer is surer than that, as a variance, however it is drawn and read."""
 LAID_OFF = 5.0
 """The deviation, in degrees, of cranks that are laid off badly."""
 
@@ -104,7 +106,7 @@ def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[F
     if not len(places):
         return Fit(lost, fits, PENCILS[0]), None
     own = np.ix_(places, places)
-    scale = np.sqrt(np.diag(spread)[places] + np.diag(noise)[places])
+    scale = np.sqrt(np.maximum(np.diag(spread + noise)[places], SURELY))
     square = np.outer(scale, scale)
     lower = np.linalg.cholesky(noise[own] / square + 1e-9 * np.eye(len(places)))
     inverse = np.linalg.inv(lower)
