@@ -15,9 +15,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import exp, inf, log, pi, sqrt
 
-from graphkin.grading.follow import ROUNDED, drawing_error
+from graphkin.grading.follow import drawing_error
 from graphkin.grading.model import Answer
 from graphkin.grading.numbers import rounding
+from graphkin.grading.relations import ROUNDED
 from graphkin.grading.slips import UNITS_TAKEN, Slip
 from graphkin.grading.standard import Standard
 from graphkin.lab.slip_names import NAMES
@@ -49,6 +50,11 @@ LIKELY = 1.5
 SENSE = 6.0
 """How much likelier a reversed sense is where a slip reverses it: else it seldom is wrong."""
 
+AGAINST = 0.1
+"""How likely a sense is that is contrary to what a slip tells."""
+Sources = Mapping[str, tuple[str, ...]]
+NOTHING: Sources = {}
+
 
 @dataclass(frozen=True, slots=True)
 class Found:
@@ -65,10 +71,14 @@ def diagnosed(
     answers: Mapping[str, Answer],
     wrong: tuple[str, ...],
     right: tuple[str, ...],
+    sources: Sources = NOTHING,
 ) -> dict[str, Found]:
-    """For each wrong field the likeliest slip that explains it, if one does better than chance."""
-    tried = [judged(standard, slip, answers, wrong, right) for slip in every]
-    tried += own_scales(standard, answers, wrong, right)
+    """For each wrong field the likeliest slip that explains it, if one does better than chance.
+
+    ``sources`` are the own values from which wrong fields are computed.
+    """
+    tried = [judged(standard, slip, answers, wrong, right, sources) for slip in every]
+    tried += own_scales(standard, answers, wrong, right, sources)
     best: dict[str, Found] = {}
     for found in tried:
         for field in found.fields if found.odds >= LIKELY else ():
@@ -106,27 +116,28 @@ def judged(
     answers: Mapping[str, Answer],
     wrong: tuple[str, ...],
     right: tuple[str, ...],
+    sources: Sources = NOTHING,
+    given: tuple[str, ...] = (),
 ) -> Found:
-    """What a slip explains, and how well."""
-    hit: list[str] = []
-    odds = share(slip)
+    """What a slip explains, and how well; what is computed from that, or from what is ``given``
+    as explained, is no further evidence.
+    """
     if slip.name == "sense_reversed":
         fields = tuple(field for field in wrong if field in slip.values)
         return Found(slip, fields, LIKELY if fields else 0.0)
-    for field in wrong:
-        if field not in slip.values:
-            continue
-        ratio = likelihood(standard, slip, field, answers)
-        if ratio > 0:
-            hit.append(field)
-            odds *= ratio
-        elif slip.whole:
-            odds *= MISSED
+    told = [field for field in wrong if field in slip.values]
+    ratios = {field: likelihood(standard, slip, field, answers) for field in told}
+    hit = tuple(field for field, ratio in ratios.items() if ratio > 0)
     if not hit:
         return Found(slip, (), 0.0)
+    odds, explained = share(slip), {*hit, *given}
+    for field in hit:
+        odds *= 1.0 if explained.intersection(sources.get(field, ())) else ratios[field]
     if slip.whole:
-        odds *= UNTOUCHED ** sum(field in slip.values for field in right)
-    return Found(slip, tuple(hit), min(odds, inf))
+        odds *= MISSED ** (len(told) - len(hit))
+        untouched = (f for f in right if f in slip.values)
+        odds *= UNTOUCHED ** sum(not likelihood(standard, slip, f, answers) for f in untouched)
+    return Found(slip, hit, min(odds, inf))
 
 
 def share(slip: Slip) -> float:
@@ -149,6 +160,8 @@ def likelihood(standard: Standard, slip: Slip, field: str, answers: Mapping[str,
         return hit_density(answer - told, allowed) / scattered
     size, right = abs(told), abs(standard.key[field])
     drawn = hit_ratio(abs(answer), size, allowed, right)
+    if is_against(standard, slip, field, answers):
+        drawn *= AGAINST
     own = own_length(standard, field, answers)
     if not own:
         return drawn
@@ -157,6 +170,13 @@ def likelihood(standard: Standard, slip: Slip, field: str, answers: Mapping[str,
         return float(drawn > 0)
     size *= own / told_length(standard, slip, field)
     return max(hit_ratio(abs(answer), size, near * size, right), ELSEWISE * drawn)
+
+
+def is_against(standard: Standard, slip: Slip, field: str, answers: Mapping[str, Answer]) -> bool:
+    """Whether the sense of a rate was stated contrary to what a slip leaves of it, or makes."""
+    sense = f"{field}_sense"
+    stated = answers[sense].value if sense in answers else None
+    return bool(stated) and stated == -slip.values.get(sense, standard.key[sense])
 
 
 def hit_ratio(answer: float, size: float, allowed: float, right: float) -> float:
@@ -201,12 +221,13 @@ def by_chance(size: float, right: float) -> float:
 def slip_error(standard: Standard, slip: Slip, field: str, told: float) -> float:
     """How far an answer may lie from what a slip tells."""
     item, right = standard.by_field[field].item, abs(standard.key[field])
-    if slip.whole and item.unit == "mm":
-        return drawing_error(standard, field, told)
+    drawn = drawing_error(standard, field, told) if slip.whole else 0.0
+    if item.unit == "mm" and slip.whole:
+        return drawn
     if item.what == "place":
         return standard.tolerance[field].value
     part = standard.tolerance[field].value / right if right else ROUNDED
-    return abs(told) * min(part, WIDEST)
+    return max(drawn, abs(told) * min(part, WIDEST))
 
 
 # --- a scale of one's own -----------------------------------------------------------------------
@@ -217,20 +238,23 @@ def own_scales(
     answers: Mapping[str, Answer],
     wrong: tuple[str, ...],
     right: tuple[str, ...],
+    sources: Sources,
 ) -> Iterator[Found]:
     """Scales that nobody foresaw: several values off by the same factor, accelerations perhaps by
     its square. A value beside its own segment, which is right, gives the factor and speaks for
     nothing; others must hit.
     """
     values = [field for field in wrong if is_scaled(standard, field, right)]
-    for first in values if len(values) > 1 else ():
+    roots = [field for field in values if not set(values).intersection(sources.get(field, ()))]
+    for first in roots if len(values) > 1 else ():
         factor = factor_of(standard, first, answers)
         if not factor:
             continue
         others = tuple(field for field in values if field != first)
         for power in (1, 2) if is_velocity(standard, first) else (1,):
             told = {f: scaled_by(standard, f, factor, power) for f in values}
-            found = judged(standard, Slip("wrong_scale", False, told), answers, others, ())
+            slip = Slip("wrong_scale", False, told)
+            found = judged(standard, slip, answers, others, (), sources, (first,))
             if found.fields:
                 yield Found(found.slip, (first, *found.fields), found.odds)
 

@@ -1,160 +1,131 @@
 """What follows from a student's own values: later fields told by the own earlier ones.
 
-At the level of formulas a value is the own segment times the scale, a rate the own relative vector
-over the bar, a normal component v²/l. At the level of the drawing the own length, laid off in the
-true direction, takes the place of ours, and the construction is run again from it.
+At the level of formulas it is what the relations of the form make of them. At the level of the
+drawing the own length, laid off in the true direction, takes the place of ours, and the
+construction is run again from it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import chain
+from math import isnan
 from typing import Any
 
-from graphkin.grading.model import Answer
-from graphkin.grading.probes import Probe
+from graphkin.grading.model import BLANK, Answer
+from graphkin.grading.numbers import rounding
+from graphkin.grading.probes import RATES
+from graphkin.grading.relations import Following, Own, computed, si
 from graphkin.grading.standard import Standard
-from graphkin.steps.program import Plane
 
 EASY = 0.1
 """Part of the right value below which an own value, or what follows from it, is too easy."""
 WILD = 30.0
 """How many times the right value an own value may be and still be followed."""
-ROUNDED = 0.005
-"""Share by which a value that is only reckoned may be rounded."""
 SPAN = (0.5, 2.0)
 """Between which times of the key's a tolerance grows with what it belongs to."""
-
-
-@dataclass(frozen=True, slots=True)
-class Following:
-    """A value that a field would have, after the own value of another, and how near it must be."""
-
-    field: str
-    source: str
-    value: float
-    tolerance: float
+ALIKE = 1e-9
+"""Vectors that differ by no more than this share are the same."""
+SENSE = "_sense"
+Answers = Mapping[str, Answer]
 
 
 def followings(
-    standard: Standard, answers: Mapping[str, Answer], wrong: tuple[str, ...]
+    standard: Standard, answers: Answers, wrong: tuple[str, ...], right: tuple[str, ...]
 ) -> Iterator[Following]:
-    """All that follows for wrong fields from a student's own wrong values."""
-    own = {field: float(answers[field].value or 0.0) for field in wrong}
-    numbers = {field: value for field, value in own.items() if is_number(standard, field)}
-    sources = {field: v for field, v in numbers.items() if is_fit(standard, field, v)}
-    for following in by_formula(standard, sources, wrong):
-        if not too_easy(standard, following):
-            yield following
-    for following in by_drawing(standard, sources, wrong):
-        if not too_easy(standard, following):
-            yield following
+    """All that follows for wrong fields from own values: by formula from right ones too, which are
+    named after wrong ones; by drawing from wrong ones. Of a wrong sense its rate's size as well.
+    """
+    sources = {field: own_value(standard, answers, field) for field in numbers(standard, wrong)}
+    sources = {field: value for field, value in sources.items() if is_fit(standard, field, value)}
+    known = (*sources, *numbers(standard, right))
+    sized = (field.removesuffix(SENSE) for field in wrong if field.endswith(SENSE))
+    fields = (*wrong, *(field for field in sized if field in right))
+    told = chain(by_formula(standard, answers, known, wrong), by_drawing(standard, sources, fields))
+    return (each for each in told if not too_easy(standard, answers, each))
 
 
-def is_number(standard: Standard, field: str) -> bool:
-    """Whether a field is the size of a vector, or a rate."""
-    return standard.by_field[field].item.what in ("segment", "value")
+def rightly(
+    standard: Standard, answers: Answers, wrong: tuple[str, ...], right: tuple[str, ...]
+) -> dict[str, Following]:
+    """What follows, for fields off the key, by formula from nothing but right own values; or from
+    values that follow from those in turn.
+    """
+    found: dict[str, Following] = {}
+    while True:
+        known = numbers(standard, (*right, *found))
+        rest = tuple(field for field in wrong if field not in found)
+        told = by_formula(standard, answers, known, rest)
+        more = {each.field: each for each in told if is_hit(standard, each, answers)}
+        if not more:
+            return found
+        found |= more
+
+
+def is_hit(standard: Standard, following: Following, answers: Answers) -> bool:
+    """Whether an answer is what follows."""
+    value = float(answers[following.field].value or 0.0)
+    item = standard.by_field[following.field].item
+    if item.what == "sense":
+        return value == following.value
+    if item.what == "place":
+        return abs(value - following.value) <= following.tolerance
+    return abs(abs(value) - abs(following.value)) <= following.tolerance
+
+
+def by_formula(
+    standard: Standard, answers: Answers, known: Sequence[str], fields: tuple[str, ...]
+) -> Iterator[Following]:
+    """What the relations of the form make of known own values."""
+    own = {
+        field: Own(si(standard, field, size(answers, field)), rounding(answers[field]), field)
+        for field in known
+    }
+    for field in numbers(standard, fields):
+        for following in computed(standard, own, field, rounding(answers[field])):
+            first = sorted(following.sources, key=known.index)
+            yield replace(following, sources=tuple(first))
+
+
+def numbers(standard: Standard, fields: tuple[str, ...]) -> list[str]:
+    """Those of some fields that are the size of a vector, or a rate."""
+    return [f for f in fields if standard.by_field[f].item.what in ("segment", "value")]
+
+
+def size(answers: Answers, field: str) -> float:
+    """The size of an answer that was read."""
+    return abs(answers[field].value or 0.0)
+
+
+def own_value(standard: Standard, answers: Answers, field: str) -> float:
+    """An own value: of a rate with the own sense, with the key's where none was stated."""
+    sense = answers.get(f"{field}{SENSE}", BLANK).value
+    return size(answers, field) * (sense or (1.0 if standard.key[field] >= 0 else -1.0))
 
 
 def is_fit(standard: Standard, field: str, value: float) -> bool:
-    """Whether an own value may be followed: neither nearly nought nor wild."""
+    """Whether an own value may be followed: neither nearly zero nor wild."""
     right = abs(standard.key[field])
     return EASY * right <= abs(value) <= WILD * right and abs(value) > 0
 
 
-def too_easy(standard: Standard, following: Following) -> bool:
-    """Whether what follows is nearly nought, so that a wrong start made the work trivial."""
-    item = standard.by_field[following.field].item
+def too_easy(standard: Standard, answers: Answers, following: Following) -> bool:
+    """Whether what follows is nearly zero, so that a wrong start made the work trivial.
+
+    What has passed through zero and was told to turn the other way is not.
+    """
+    field, value = following.field, following.value
+    item, right = standard.by_field[field].item, standard.key[field]
     if item.what == "sense":
-        return following.value == 0
+        return value == 0
     if item.what == "place":
-        return following.value != following.value
-    size, right = abs(following.value), abs(standard.key[following.field])
-    return not (size >= EASY * right and size > following.tolerance)
-
-
-# --- formulas ---------------------------------------------------------------------------------
-
-
-def by_formula(
-    standard: Standard, sources: Mapping[str, float], wrong: tuple[str, ...]
-) -> Iterator[Following]:
-    """Values that are reckoned from an own segment or an own vector."""
-    for field in wrong:
-        probe = standard.by_field[field]
-        if probe.item.what != "value":
-            continue
-        for source, value in reckoned(standard, probe, sources):
-            yield Following(field, source, value, reckoning_error(standard, value))
-
-
-def reckoning_error(standard: Standard, value: float) -> float:
-    """How far a reckoned value may be off."""
-    return max(standard.rubric.floor, ROUNDED) * abs(value)
-
-
-def reckoned(
-    standard: Standard, probe: Probe, sources: Mapping[str, float]
-) -> Iterator[tuple[str, float]]:
-    """Each own field from which one is reckoned, with what comes out."""
-    if probe.vector:
-        segment = f"{probe.item.field}_mm"
-        if segment in sources:
-            yield segment, sources[segment] * standard.paper.millimetre(probe.plane)
-        yield from normal_from(standard, probe, sources)
-    else:
-        yield from rate_from(standard, probe, sources)
-
-
-def si(standard: Standard, field: str, value: float) -> float:
-    """An own size of a vector in SI, from its segment or as it was reckoned."""
-    probe = standard.by_field[field]
-    return value * (standard.paper.millimetre(probe.plane) if probe.item.unit == "mm" else 1.0)
-
-
-def normal_from(
-    standard: Standard, probe: Probe, sources: Mapping[str, float]
-) -> Iterator[tuple[str, float]]:
-    """A normal component from the own relative velocity: v²/l."""
-    found = normal_step(standard, probe)
-    if found is None:
-        return
-    p, q, tail, tip = found
-    values = standard.exact.trace.values
-    bar = abs(values[q] - values[p])
-    for field, value in sources.items():
-        steps = standard.by_field[field].steps
-        if standard.by_field[field].vector and set(steps) == {tail, tip}:
-            yield field, si(standard, field, value) ** 2 / bar
-
-
-def normal_step(standard: Standard, probe: Probe) -> tuple[int, ...] | None:
-    """The bar and the images from which a normal component is reckoned; None for others."""
-    steps = standard.mechanism.program.steps
-    lay_off = steps[probe.step]
-    for arg in lay_off.args:
-        action = steps[arg].action
-        if action is not None and action.key == "normal" and probe.plane is Plane.ACCELERATIONS:
-            return steps[arg].args
-    return None
-
-
-def rate_from(
-    standard: Standard, probe: Probe, sources: Mapping[str, float]
-) -> Iterator[tuple[str, float]]:
-    """A rate from the own relative vector over the bar: of an acceleration its tangential part."""
-    step, values = standard.mechanism.program.steps[probe.step], standard.exact.trace.values
-    if len(step.args) != 4:
-        return
-    p, q, tail, tip = step.args
-    bar = abs(values[q] - values[p])
-    tails = {tail, standard.exact.tails.get(probe.step, tail)}
-    if step.action is not None and step.action.key == "epsilon":
-        tails = tails - {tail} if len(tails) > 1 else tails
-    for field, value in sources.items():
-        steps = standard.by_field[field].steps
-        if standard.by_field[field].vector and steps[-1] == tip and steps[0] in tails:
-            yield field, si(standard, field, value) / bar
+        return isnan(value)
+    if abs(value) <= following.tolerance:
+        return True
+    sense = answers.get(f"{field}{SENSE}", BLANK).value or 0.0
+    turned = value * right < 0 < value * sense
+    return abs(value) < EASY * abs(right) and not turned
 
 
 # --- the drawing --------------------------------------------------------------------------------
@@ -164,60 +135,110 @@ def by_drawing(
     standard: Standard, sources: Mapping[str, float], wrong: tuple[str, ...]
 ) -> Iterator[Following]:
     """What the construction tells from each own length by itself, and from all of them."""
+    values = standard.exact.trace.values
     single = {field: put_in_place(standard, field, value) for field, value in sources.items()}
     single = {field: overrides for field, overrides in single.items() if overrides}
     seen: list[Mapping[int, Any]] = []
-    for field, overrides in (*single.items(), *together(single)):
-        if overrides in seen:
-            continue
+    own = [((field,), overrides) for field, overrides in single.items()]
+    for fields, overrides in (*own, *together(single)):
+        given = [{*standard.by_field[field].steps} for field in fields]
+        for found in reruns(standard, overrides) if overrides not in seen else ():
+            told = standard.read(found)
+            for other in wrong:
+                steps = {*standard.by_field[other].steps}
+                if steps not in given and any(found[step] != values[step] for step in steps):
+                    for value in (told[other], *closing(standard, other, found, told[other])):
+                        error = drawing_error(standard, other, value)
+                        yield Following(other, fields, value, error, drawn=True)
         seen.append(overrides)
-        told = standard.told(overrides)
-        below = descendants(standard, overrides)
-        for other in wrong:
-            probe = standard.by_field[other]
-            if other in told and probe.step in below and probe.step not in overrides:
-                value = told[other]
-                yield Following(other, field, value, drawing_error(standard, other, value))
 
 
-def together(single: Mapping[str, Mapping[int, Any]]) -> Iterator[tuple[str, Mapping[int, Any]]]:
-    """All own lengths at once, under the name of the first."""
+def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping[int, Any]]:
+    """The construction run again from own lengths; and with the Coriolis components that are
+    computed from its velocities as they are measured, though these no longer lie along the guide.
+    """
+    steps, values = standard.mechanism.program.steps, standard.exact.trace.values
+    found = standard.rerun(overrides)
+    if not found:
+        return
+    yield found
+    measured: dict[int, Any] = {}
+    for number in standard.needed:
+        action = steps[number].action
+        if action is None or action.key != "coriolis" or number in overrides or not values[number]:
+            continue
+        rate, tail, tip = steps[number].args
+        times = (
+            found[rate]
+            / values[rate]
+            * abs((found[tip] - found[tail]) / (values[tip] - values[tail]))
+        )
+        measured[number] = times * values[number]
+    if any(abs(value - found[n]) > ALIKE * abs(value) for n, value in measured.items()):
+        again = standard.rerun({**overrides, **measured})
+        if again:
+            yield again
+
+
+def closing(
+    standard: Standard, field: str, found: Mapping[int, Any], told: float
+) -> Iterator[float]:
+    """A rate over the bar, or a speed along a guide, from the whole vector that closes the plan:
+    with an own length that is measured, though it no longer lies as it should.
+    """
+    probe = standard.by_field[field]
+    step = standard.mechanism.program.steps[probe.step]
+    key = step.action.key if step.action is not None else ""
+    if probe.vector or probe.item.what != "value" or key not in (*RATES, "part-along"):
+        return
+    *line, tail, tip = step.args
+    start = standard.exact.tails.get(probe.step, tail)
+    bar = abs(found[line[1]] - found[line[0]]) if key in RATES else 1.0
+    length = float(abs(found[tip] - found[start]) / bar)
+    yield length if told >= 0 else -length
+
+
+def together(
+    single: Mapping[str, Mapping[int, Any]],
+) -> Iterator[tuple[tuple[str, ...], Mapping[int, Any]]]:
+    """All own lengths at once, the first of those that replace the same."""
     if len(single) > 1:
         merged: dict[int, Any] = {}
         for overrides in reversed(list(single.values())):
             merged |= overrides
-        yield next(iter(single)), merged
+        yield tuple(single), merged
 
 
 def put_in_place(standard: Standard, field: str, value: float) -> dict[int, Any]:
-    """The steps that an own value replaces: the tip of a vector, a rate and its normals."""
+    """The steps that an own value replaces: the end of a vector that is drawn last; a rate or the
+    speed of a block, and the components that are computed with it.
+    """
     probe, values = standard.by_field[field], standard.exact.trace.values
     if probe.vector:
-        tail, tip = (values[step] for step in probe.steps)
-        right = abs(tip - tail)
-        return {probe.step: tail + (tip - tail) * (abs(si(standard, field, value)) / right)}
-    if probe.item.quantity not in ("omega", "epsilon"):
+        first, last = min(probe.steps), max(probe.steps)
+        arrow = values[last] - values[first]
+        return {last: values[first] + arrow * (si(standard, field, value) / abs(arrow))}
+    if probe.item.quantity not in (*RATES, "slide speed"):
         return {}
-    right = values[probe.step]
-    own = abs(value) if right >= 0 else -abs(value)
-    return {probe.step: own, **normals_of(standard, probe.step, own)}
+    ratio = value / values[probe.step]
+    return {probe.step: value, **components_with(standard, probe.step, ratio)}
 
 
-def normals_of(standard: Standard, rate: int, own: float) -> dict[int, Any]:
-    """The normal components that are reckoned as ω²·l with the own angular velocity."""
+def components_with(standard: Standard, number: int, ratio: float) -> dict[int, Any]:
+    """The components that are computed with a rate or a speed so many times the right one: normal
+    ones as ω²·l, Coriolis components as 2·ω·v. Those that use its step follow by themselves.
+    """
     steps, values = standard.mechanism.program.steps, standard.exact.trace.values
-    args = steps[rate].args
+    args = steps[number].args
     found: dict[int, Any] = {}
-    for number in standard.needed:
-        action = steps[number].action
-        if action is not None and action.key == "normal" and steps[number].args == args:
-            found[number] = own * own * (values[args[0]] - values[args[1]])
+    for other in standard.needed:
+        action = steps[other].action
+        key = action.key if action is not None else ""
+        if key == "normal" and steps[other].args == args:
+            found[other] = ratio * ratio * values[other]
+        elif key == "coriolis" and steps[other].args[1:] == args[1:]:
+            found[other] = ratio * values[other]
     return found
-
-
-def descendants(standard: Standard, overrides: Mapping[int, Any]) -> frozenset[int]:
-    """The steps that hang on some steps."""
-    return frozenset().union(*(standard.layout.below(number) for number in overrides))
 
 
 def drawing_error(standard: Standard, field: str, value: float) -> float:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from graphkin.grading.model import Status
 from graphkin.grading.rows import COLUMNS, HEADS, Row
 from graphkin.paper.tags import marked_up
 from graphkin.text import Words
@@ -75,7 +74,7 @@ def feedback_table(rows: Sequence[Row], words: Words) -> list[str]:
     for row in rows:
         kind, why = row.status.value, marked_up(row.why)
         texts = [marked_up(cell) for cell in row.cells]
-        if row.status is Status.RIGHT:
+        if row.why == words("feedback.right"):
             texts[-1] = f'<span class="{kind}">{why}</span> {texts[-1]}'
             found.append(f'<tr class="told-end">{cells(texts, names)}</tr>')
             continue

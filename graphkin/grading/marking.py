@@ -10,8 +10,9 @@ from math import hypot, isnan
 from graphkin.grading.construction_slips import constructions
 from graphkin.grading.diagnosis import Found, diagnosed
 from graphkin.grading.field_slips import of_fields
-from graphkin.grading.follow import Following, followings
+from graphkin.grading.follow import followings, is_hit, rightly
 from graphkin.grading.model import BLANK, Answer, Graded, Mark, Status, Taker
+from graphkin.grading.relations import Following
 from graphkin.grading.slips import Slip
 from graphkin.grading.standard import Standard
 from graphkin.lab.asking import worth
@@ -40,63 +41,64 @@ class Marker:
         given = with_senses(self.standard, answers)
         torn = {field for field in self.standard.key if is_torn(self.standard, field, given)}
         read = [f for f in self.standard.key if given[f].is_read and f not in torn]
-        right = tuple(field for field in read if is_right(self.standard, field, given))
-        wrong = tuple(field for field in read if field not in right)
-        followed = self.followed(given, wrong)
-        slipped = self.slipped(given, wrong, right)
-        marks = []
-        spent: dict[str, str] = {}
+        by_key = tuple(field for field in read if is_right(self.standard, field, given))
+        off = tuple(field for field in read if field not in by_key)
+        computed = rightly(self.standard, given, off, by_key)
+        right = (*by_key, *computed)
+        wrong = tuple(field for field in off if field not in computed)
+        followed = self.followed(given, wrong, right)
+        slipped = self.slipped(given, wrong, right, followed)
+        marks: dict[str, Mark] = {}
+        paid: dict[str, str] = {}
         for item in self.standard.items:
-            worth = self.points(item, taker.compute)
-            mark = self.first_mark(item, given[item.field], right, worth)
-            if item.field in wrong:
-                mark = self.lesser(mark, followed.get(item.field), slipped.get(item.field), spent)
-            marks.append(replace(mark, torn=item.field in torn))
-        return Graded(taker, tuple(marks), present)
+            points = self.worth(item.field, taker.compute)
+            mark = self.first_mark(item, given[item.field], right, points)
+            if item.field in computed:
+                mark = replace(mark, source=computed[item.field].sources[0])
+            elif item.field in wrong:
+                mark = self.lesser(mark, followed.get(item.field), slipped, paid, taker.compute)
+            marks[item.field] = replace(mark, torn=item.field in torn)
+        return Graded(taker, tuple(marks.values()), present)
 
     def followed(
-        self, answers: Mapping[str, Answer], wrong: tuple[str, ...]
+        self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
     ) -> dict[str, Following]:
-        """For each wrong field that follows from an own value, from which."""
+        """For each wrong field that follows from own values, from which; nothing in a circle.
+
+        A sense follows only where the size of the same rate does, from the same values.
+        """
         if not wrong or not self.standard.rubric.follow:
             return {}
+        told = followings(self.standard, answers, wrong, right)
+        hits = [following for following in told if is_hit(self.standard, following, answers)]
+        sized = {(following.field, following.sources) for following in hits}
         found: dict[str, Following] = {}
-        told = list(followings(self.standard, answers, wrong))
-        for following in told:
-            if following.field not in found and is_hit(self.standard, following, answers):
-                found[following.field] = following
-        return self.with_their_senses(found, told, answers)
-
-    def with_their_senses(
-        self,
-        found: dict[str, Following],
-        told: list[Following],
-        answers: Mapping[str, Answer],
-    ) -> dict[str, Following]:
-        """A sense follows only where the size of the same rate does, from the same value."""
-        kept = {field: f for field, f in found.items() if not field.endswith(SENSE)}
-        for following in told:
-            sized = kept.get(following.field.removesuffix(SENSE))
-            if (
-                following.field.endswith(SENSE)
-                and sized is not None
-                and sized.source == following.source
-                and is_hit(self.standard, following, answers)
-            ):
-                kept[following.field] = following
-        return kept
+        for following in hits:
+            field, sources = following.field, following.sources
+            rate = field.removesuffix(SENSE)
+            if rate != field and (rate, sources) not in sized:
+                continue
+            if field in wrong and field not in found and not is_circular(found, following):
+                found[field] = following
+        return found
 
     def slipped(
-        self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
+        self,
+        answers: Mapping[str, Answer],
+        wrong: tuple[str, ...],
+        right: tuple[str, ...],
+        followed: Mapping[str, Following],
     ) -> dict[str, Found]:
         """For each wrong field the slip that explains it."""
         if not wrong:
             return {}
-        return diagnosed(self.standard, self.slips, answers, wrong, right)
+        sources = {field: each.sources for field, each in followed.items() if not each.drawn}
+        return diagnosed(self.standard, self.slips, answers, wrong, right, sources)
 
-    def points(self, item: Item, computed: tuple[str, ...]) -> Fraction:
+    def worth(self, field: str, computed: tuple[str, ...]) -> Fraction:
         """What a field is worth: a segment too short to be measured leaves its points to the value
         that is computed."""
+        item = self.standard.by_field[field].item
         return worth(item, self.standard.rubric.points, computed) or NONE
 
     def first_mark(
@@ -122,31 +124,47 @@ class Marker:
         )
 
     def lesser(
-        self, mark: Mark, follows: Following | None, found: Found | None, spent: dict[str, str]
+        self,
+        mark: Mark,
+        follows: Following | None,
+        slipped: Mapping[str, Found],
+        paid: dict[str, str],
+        compute: tuple[str, ...],
     ) -> Mark:
         """The share of a wrong answer: that of its slip, or of what follows, the larger.
 
-        A slip of the construction costs its share once: what else it makes wrong follows from it.
-        A slip for which the rubric has no share earns nothing. ``spent`` gathers the field at which
-        each slip was paid for.
+        A slip is paid for once, at the first field with points that it explains; whatever else it
+        explains follows from it. A slip for which the rubric has no share earns nothing. ``paid``
+        gathers the field at which each was paid for.
         """
-        rubric = self.standard.rubric
-        slip_share, paid_at = 0.0, ""
-        if found is not None:
-            slip_share = rubric.slips.get(found.slip.name, 0.0)
-            again = found.slip.whole and mark.item.what != "sense"
-            if again and 0 < slip_share < rubric.follow:
-                paid_at = spent.get(found.slip.name, "")
-                slip_share = rubric.follow if paid_at else slip_share
-        follow_share = rubric.follow if follows is not None else 0.0
-        if follows is not None and follow_share >= slip_share:
-            earned = mark.points * Fraction(str(follow_share))
-            mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=follows.source)
+        rubric, field = self.standard.rubric, mark.item.field
+        found = slipped.get(field)
+        name = found.slip.name if found is not None else ""
+        share, paid_at = rubric.slips.get(name, 0.0), paid.get(name, "")
+        if follows is not None and name and not paid_at and mark.points:
+            same = [f for f in follows.sources if f in slipped and slipped[f].slip.name == name]
+            if same and (share or not any(self.worth(f, compute) for f in same)):
+                follows = None
+        if share and paid_at:
+            share = max(share, rubric.follow)
+        if follows is not None and rubric.follow >= share:
+            earned = mark.points * Fraction(str(rubric.follow))
+            mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=follows.sources[0])
         elif found is not None:
-            spent.setdefault(found.slip.name, mark.item.field)
-            earned = mark.points * Fraction(str(slip_share))
-            mark = replace(mark, status=Status.SLIP, earned=earned, source=paid_at)
-        return mark if found is None else replace(mark, slip=found.slip.name, odds=found.odds)
+            if mark.points:
+                paid.setdefault(name, field)
+            earned, source = mark.points * Fraction(str(share)), paid_at if share else ""
+            mark = replace(mark, status=Status.SLIP, earned=earned, source=source)
+        return mark if found is None else replace(mark, slip=name, odds=found.odds)
+
+
+def is_circular(found: Mapping[str, Following], following: Following) -> bool:
+    """Whether a value from which one would follow follows from that one itself."""
+    sources = list(following.sources)
+    for source in sources:
+        if source in found:
+            sources += [each for each in found[source].sources if each not in sources]
+    return following.field in sources
 
 
 def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, Answer]:
@@ -191,14 +209,3 @@ def sense_is_open(standard: Standard, field: str) -> bool:
         return standard.key[field] == 0
     allowed = standard.tolerance[sized]
     return abs(standard.key[sized]) <= max(allowed.value, hypot(allowed.pencil, allowed.ruler))
-
-
-def is_hit(standard: Standard, following: Following, answers: Mapping[str, Answer]) -> bool:
-    """Whether an answer is what follows."""
-    value = float(answers[following.field].value or 0.0)
-    item = standard.by_field[following.field].item
-    if item.what == "sense":
-        return value == following.value
-    if item.what == "place":
-        return abs(value - following.value) <= following.tolerance
-    return abs(abs(value) - abs(following.value)) <= following.tolerance

@@ -55,9 +55,9 @@ class Mark:
     """What one field earned, of ``points``, and why.
 
     ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
-    field's unit; ``source`` is the field from whose own value the answer follows, or at which its
-    slip was paid for, ``slip`` the name of the mistake that gives it, ``odds`` how much better that
-    explains it than chance;
+    field's unit; ``source`` is the field from whose own value the answer follows, rightly where it
+    is right but not by the key, or at which its slip was paid for; ``slip`` the name of the mistake
+    that gives it, ``odds`` how much better that explains it than chance;
     ``torn`` tells of a sense that the sign of its own value contradicts.
     """
 

@@ -190,6 +190,8 @@ def why(graded: Graded, mark: Mark, words: Words) -> str:
     if mark.status is Status.UNREADABLE:
         reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words)
         return words("feedback.unreadable", why=reason)
+    if mark.status is Status.RIGHT and mark.source:
+        return words("feedback.right_by", source=graded.mark(mark.source).item.symbol)
     if mark.status in PLAIN:
         return words(PLAIN[mark.status])
     if mark.torn:

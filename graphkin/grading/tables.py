@@ -77,11 +77,13 @@ def points_cell(mark: Mark) -> str:
 
 
 def reason(graded: Graded, name: str) -> str:
-    """What was found of a field, in plain words: right, follows v_BA_mm, slip rpm_as_rad, slip
-    rpm_as_rad paid at v_D.
+    """What was found of a field, in plain words: right, right from v_BA, follows v_BA_mm, slip
+    rpm_as_rad, slip rpm_as_rad paid at v_D.
     """
     mark = graded.mark(name)
     source, paid = mark.source, ""
+    if mark.status is Status.RIGHT and source:
+        source = f"from {source}"
     if mark.status is Status.SLIP and source:
         source, paid = "", f"paid at {source}"
     torn = "contradicts its sign" if mark.torn else ""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
 from functools import lru_cache
 from math import isnan
 from pathlib import Path
@@ -13,8 +15,9 @@ import numpy as np
 from graphkin.grading.book import Book
 from graphkin.grading.marking import Marker
 from graphkin.grading.model import Answer, Taker
-from graphkin.grading.standard import Standard
+from graphkin.grading.standard import Standard, standard
 from graphkin.grading.tolerance import joint_drawings
+from graphkin.lab.items import items
 from graphkin.lab.model import Lab
 from graphkin.lab.read import read_lab
 from graphkin.pencil.pencil import STRAIGHT, Pencil
@@ -23,6 +26,7 @@ from graphkin.roster.model import Student
 LABS = ("pump", "pump-collinear", "slotted-lever", "offset-slider-crank")
 RULER = 0.25
 """Millimetres within which 95 of 100 readings lie."""
+NO_POINTS: Mapping[str, Fraction] = {}
 
 
 @lru_cache
@@ -42,6 +46,21 @@ def book_of(name: str) -> Book:
 def marker_of(name: str, n: int) -> Marker:
     """What marks the variant of a student's number."""
     return book_of(name).marker({"n": str(n)})
+
+
+def marker_with(
+    name: str,
+    fields: tuple[str, ...],
+    n: int = 7,
+    points: Mapping[str, Fraction] = NO_POINTS,
+    **changes: object,
+) -> Marker:
+    """A marker of a shipped lab whose rubric asks for more fields, or gives other ``points``."""
+    lab = lab_of(name)
+    every = {**lab.rubric.points, **dict.fromkeys(fields, Fraction(2)), **points}
+    rubric = replace(lab.rubric, points=every, **changes)
+    mechanism = book_of(name).mechanism({"n": str(n)})
+    return Marker(standard(mechanism, items(mechanism, replace(lab, rubric=rubric)), rubric))
 
 
 def taker(n: int = 7, who: str = "") -> Taker:

@@ -12,7 +12,7 @@ from graphkin.grading.feedback import feedback_html, feedback_pages, notes, tota
 from graphkin.grading.model import Answer, Graded, Mark, Result, Status
 from graphkin.grading.report import summary
 from graphkin.grading.rows import rows, times
-from graphkin.grading.tables import marks_table, read_marks
+from graphkin.grading.tables import marks_table, read_marks, reason
 from graphkin.paper.marks import Text
 from graphkin.paper.richtext import plain
 from graphkin.text import LANGUAGES, words
@@ -65,6 +65,20 @@ def test_what_is_hardly_over_is_not_one_time_off(language, said):
     assert found.mark("v_D_mm").earned == 0
     assert said in why(found, "v_D_mm", language)
     assert not re.search(r"\d", why(found, "v_D_mm", language))
+
+
+@pytest.mark.parametrize(
+    ("language", "said"), [("ro", "corect: urmează"), ("en", "right: it"), ("it", "giusto: segue")]
+)
+def test_what_is_right_by_an_own_right_value_says_by_which(language, said):
+    """The piston's velocity at the edge of its tolerance, over a scale that is read roughly."""
+    own = key("v_D_mm") + 0.99 * tolerance("v_D_mm")
+    speed = 1.009 * own * key("v_D") / key("v_D_mm")
+    assert speed > key("v_D") + tolerance("v_D")
+    found = graded(given({"v_D_mm": own, "v_D": speed}))
+    assert found.mark("v_D").earned == found.mark("v_D").points
+    assert why(found, "v_D", language).startswith(said)
+    assert reason(found, "v_D") == "right from v_D_mm"
 
 
 def test_what_is_somewhat_over_is_told_beside_what_is_allowed():

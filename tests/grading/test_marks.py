@@ -12,24 +12,13 @@ from graphkin.grading.marking import Marker
 from graphkin.grading.model import Answer, Status
 from graphkin.grading.numbers import read_answer
 from graphkin.grading.rows import SLIPS
-from graphkin.grading.standard import Standard, standard
-from graphkin.lab.items import items
-from graphkin.lab.model import Lab, Rubric
+from graphkin.grading.standard import Standard
+from graphkin.lab.model import Rubric
 from graphkin.lab.slip_names import NAMES
 from graphkin.text import LANGUAGES, words
-from tests.grading.students import LABS, book_of, given, key_answers, lab_of, marker_of, taker
+from tests.grading.students import LABS, given, key_answers, marker_of, marker_with, taker
 
 MORE = ("v_BA_mm", "v_BA", "a_BA_nu_mm", "a_BA_nu", "a_BA_tau_mm", "a_BA_tau")
-
-
-def marker_with(name: str, fields: tuple[str, ...], n: int = 7, **changes: object) -> Marker:
-    """A marker of a shipped lab whose rubric asks for more fields."""
-    lab = lab_of(name)
-    points = {**lab.rubric.points, **dict.fromkeys(fields, Fraction(2))}
-    rubric = replace(lab.rubric, points=points, **changes)
-    wider: Lab = replace(lab, rubric=rubric)
-    mechanism = book_of(name).mechanism({"n": str(n)})
-    return Marker(standard(mechanism, items(mechanism, wider), rubric))
 
 
 def marked(marker: Marker, **changes: float) -> dict[str, object]:
@@ -141,6 +130,88 @@ def test_points_of_a_segment_too_short_to_be_measured_go_to_the_value():
     assert graded.mark("a_D_mm").points == 0
 
 
+def test_a_rate_follows_rightly_from_a_right_velocity_at_the_edge_of_its_tolerance():
+    """ω = v/l with the own v, which is right, over a bar that was measured half a percent short."""
+    marker = marker_of("slotted-lever", 7)
+    found = marker.standard
+    speed = found.key["v_A3"] + 0.98 * found.tolerance["v_A3"].value
+    own = speed * found.key["omega_3"] / found.key["v_A3"] / 0.995
+    assert own > found.key["omega_3"] + found.tolerance["omega_3"].value
+    mark = marked(marker, v_A3=speed, omega_3=own)["omega_3"]
+    assert (mark.status, mark.source) == (Status.RIGHT, "v_A3")
+    assert mark.earned == mark.points
+    alone = marked(marker, omega_3=own)["omega_3"]
+    assert alone.earned == 0
+
+
+CORIOLIS = ("a_AA3_cor_mm", "a_AA3_cor")
+
+
+@pytest.mark.parametrize(("omega", "speed"), [(1.4, 1.0), (1.0, 0.7), (1.4, 0.8)])
+@pytest.mark.parametrize("field", ["v_slide_2", "v_AA3"])
+def test_the_coriolis_component_follows_from_own_values(field, omega, speed):
+    """a = 2·ω·v of the own ω and the own v, as it is computed and as it is laid off."""
+    marker = marker_with("slotted-lever", ("v_AA3", *CORIOLIS))
+    found = marker.standard
+    own = 2 * omega * abs(found.key["omega_3"]) * speed * found.key["v_slide_2"]
+    values = {"omega_3": omega * found.key["omega_3"], field: speed * found.key["v_slide_2"]}
+    length = 1000 * own / found.paper.accelerations
+    marks = marked(marker, **values, a_AA3_cor=own, a_AA3_cor_mm=length)
+    for name in CORIOLIS:
+        assert marks[name].status is Status.FOLLOWS, name
+        assert marks[name].source in (*values, "a_AA3_cor_mm")
+    wrong = marked(marker, **values, a_AA3_cor=2 * own)
+    assert wrong["a_AA3_cor"].earned == 0
+
+
+def test_what_is_drawn_with_an_own_coriolis_component_follows():
+    """A block's speed that was misread by a third: the lever's acceleration is right for it."""
+    marker = marker_of("slotted-lever", 7)
+    found = marker.standard
+    values = found.exact.trace.values
+    program = found.mechanism.program
+    step = next(n for n, s in enumerate(program.steps) if s.action and s.action.key == "coriolis")
+    told = found.told({step: 1.5 * values[step]})
+    own = {"v_slide_2": 1.5 * found.key["v_slide_2"]}
+    marks = marked(marker, **{f: v for f, v in told.items() if f[0] in "ae"}, **own)
+    lost = {f for f, mark in marks.items() if mark.status in (Status.WRONG, Status.SLIP)}
+    assert lost == {"v_slide_2"}
+    assert marks["a_A3_mm"].source == "v_slide_2"
+
+
+def test_nothing_follows_in_a_circle():
+    """Segment and value of a component agree, and both are wrong: one of them is paid for."""
+    marker = marker_with("pump", MORE)
+    length = 1.5 * marker.standard.key["a_BA_nu_mm"]
+    value = length * marker.standard.paper.accelerations / 1000
+    found = marked(marker, a_BA_nu_mm=length, a_BA_nu=value)
+    assert found["a_BA_nu_mm"].earned == 0
+    assert found["a_BA_nu"].status is Status.FOLLOWS
+
+
+def test_what_turns_the_other_way_from_own_values_is_no_power_of_ten():
+    """An own acceleration from which ε comes out a tenth of its size, the other way."""
+    marker = marker_of("pump", 12)
+    found = marker.standard
+    step, values = found.by_field["a_D_mm"].step, found.exact.trace.values
+
+    def told(factor: float) -> dict[str, float]:
+        return found.told({step: factor * values[step]})
+
+    right, other = found.key["epsilon_4"], told(1.1)["epsilon_4"]
+    factor = 1 + 0.1 * (-1.098 * right) / (other - right)
+    own = told(factor)
+    assert own["epsilon_4"] / right == pytest.approx(-0.098)
+    fields = ("a_D_mm", "a_D", "epsilon_4", "epsilon_4_sense")
+    marks = marked(marker, **{field: own[field] for field in fields})
+    for name in fields[1:]:
+        assert marks[name].status is Status.FOLLOWS, name
+    alone = marked(marker, epsilon_4=0.1 * right, epsilon_4_sense=-own["epsilon_4_sense"])
+    assert alone["epsilon_4"].slip == "power_of_ten"
+    against = marked(marker, epsilon_4=0.1 * right, epsilon_4_sense=own["epsilon_4_sense"])
+    assert against["epsilon_4"].slip == ""
+
+
 # --- slips --------------------------------------------------------------------------------------
 
 
@@ -203,6 +274,38 @@ def test_rev_per_minute_taken_for_rad_per_second_cost_their_share_once():
     shares = [found[f].earned / found[f].points for f in slip.values if found[f].points]
     assert sorted(shares)[0] == Fraction("0.5")
     assert set(sorted(shares)[1:]) == {Fraction("0.8")}
+
+
+def test_a_slip_is_paid_for_once_whatever_way_it_was_made():
+    """Rev/min for rad/s where the plan keeps its scales: v grows with the ratio, a with its square,
+    and what is turned round by a crank that turns the other way is paid for by the first sense.
+    """
+    marker = marker_of("slotted-lever", 7)
+    key, ratio = marker.standard.key, 30 / pi
+    values = [f for f in key if not f.endswith(("_mm", "_sense"))]
+    powers = {f: 2 if f[0] in "ae" else 1 for f in values}
+    found = marked(marker, **{f: key[f] * ratio ** powers[f] for f in values})
+    shares = [found[f].earned / found[f].points for f in values]
+    assert shares == [Fraction("0.5"), *[Fraction("0.8")] * (len(values) - 1)]
+    slip = next(s for s in marker.slips if s.name == "driver_reversed")
+    found = marked(marker, **slip.values)
+    assert len(slip.values) == 3
+    shares = [found[f].earned / found[f].points for f in key if f in slip.values]
+    assert shares == [Fraction("0.5"), Fraction("0.8"), Fraction("0.8")]
+
+
+@pytest.mark.parametrize("share", [0.5, None])
+def test_a_slip_is_paid_for_at_the_first_field_with_points(share):
+    """Coriolis left out, and no points for the lever's acceleration, from which all follows."""
+    slips = {"coriolis_missing": share} if share else {}
+    free = {"a_A3_mm": Fraction(), "a_A3": Fraction(), "a_slide_2": Fraction()}
+    marker = marker_with("slotted-lever", (), points=free, slips=slips)
+    slip = next(s for s in marker.slips if s.name == "coriolis_missing")
+    found = marked(marker, **slip.values)
+    assert found["a_A3_mm"].earned == found["a_A3_mm"].points == 0
+    paid, *others = [m for f, m in found.items() if m.slip == slip.name and m.points]
+    assert paid.earned / paid.points == Fraction(str(share or 0))
+    assert {m.earned / m.points for m in others} == {Fraction("0.8")} if share else others
 
 
 def test_a_slip_without_a_share_earns_nothing():
