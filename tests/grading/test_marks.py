@@ -180,13 +180,17 @@ def test_what_is_drawn_with_an_own_coriolis_component_follows():
 
 
 def test_nothing_follows_in_a_circle():
-    """Segment and value of a component agree, and both are wrong: one of them is paid for."""
-    marker = marker_with("pump", MORE)
-    length = 1.5 * marker.standard.key["a_BA_nu_mm"]
-    value = length * marker.standard.paper.accelerations / 1000
-    found = marked(marker, a_BA_nu_mm=length, a_BA_nu=value)
-    assert found["a_BA_nu_mm"].earned == 0
-    assert found["a_BA_nu"].status is Status.FOLLOWS
+    """The lever's pin and its tangential component end in the same point, which is wrong: either
+    follows from the other, and one of them is paid for.
+    """
+    marker = marker_with("slotted-lever", ("a_A3_tau_mm",), n=2)
+    found = marker.standard
+    step, right = found.by_field["a_A3_mm"].step, found.key["a_A3_mm"]
+    factor = 1 + 2 * found.tolerance["a_A3_mm"].value / right
+    told = found.told({step: factor * found.exact.trace.values[step]})
+    fields = ("a_A3_mm", "a_A3_tau_mm")
+    marks = marked(marker, **{field: told[field] for field in fields})
+    assert {marks[field].status for field in fields} == {Status.FOLLOWS, Status.WRONG}
 
 
 def test_what_turns_the_other_way_from_own_values_is_no_power_of_ten():
@@ -295,17 +299,19 @@ def test_a_slip_is_paid_for_once_whatever_way_it_was_made():
 
 
 @pytest.mark.parametrize("share", [0.5, None])
-def test_a_slip_is_paid_for_at_the_first_field_with_points(share):
-    """Coriolis left out, and no points for the lever's acceleration, from which all follows."""
+@pytest.mark.parametrize("free", [("a_A3_mm", "a_A3"), ("a_C_mm", "a_C", "a_A3_mm", "a_A3")])
+def test_a_slip_is_paid_for_at_the_first_field_with_points(free, share):
+    """Coriolis left out, and no points for accelerations from which others follow."""
     slips = {"coriolis_missing": share} if share else {}
-    free = {"a_A3_mm": Fraction(), "a_A3": Fraction(), "a_slide_2": Fraction()}
-    marker = marker_with("slotted-lever", (), points=free, slips=slips)
+    points = dict.fromkeys(free, Fraction())
+    marker = marker_with("slotted-lever", (), points=points, slips=slips)
     slip = next(s for s in marker.slips if s.name == "coriolis_missing")
     found = marked(marker, **slip.values)
-    assert found["a_A3_mm"].earned == found["a_A3_mm"].points == 0
+    assert {found[field].slip for field in free} == {slip.name}
     paid, *others = [m for f, m in found.items() if m.slip == slip.name and m.points]
     assert paid.earned / paid.points == Fraction(str(share or 0))
-    assert {m.earned / m.points for m in others} == {Fraction("0.8")} if share else others
+    if share:
+        assert {m.earned / m.points for m in others} == {Fraction("0.8")}
 
 
 def test_a_slip_without_a_share_earns_nothing():
