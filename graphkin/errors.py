@@ -25,11 +25,18 @@ class Problem:
         return "; ".join(parts)
 
 
+MOST = 100
+"""Problems that one error carries."""
+MORE = Problem("", "and perhaps more problems")
+"""What stands for the problems beyond those."""
+
+
 class GraphkinError(Exception):
     """Base of every error that a user can mend; carries all problems found, not only the first."""
 
     def __init__(self, problems: Problem | Iterable[Problem]) -> None:
-        self.problems = (problems,) if isinstance(problems, Problem) else tuple(problems)
+        found = (problems,) if isinstance(problems, Problem) else tuple(problems)
+        self.problems = found if len(found) <= MOST else (*found[:MOST], MORE)
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
 

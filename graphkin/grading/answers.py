@@ -93,7 +93,7 @@ def read_answers(
         try:
             sheet = read_sheet(file, heads, None if files else reading.told)
         except RosterError as error:
-            reading.told.problems += error.problems
+            reading.told.extend(error.problems)
             continue
         reading.form(sheet, file.stem) if is_form(sheet) else reading.rows(sheet)
     reading.told.stop()

@@ -194,7 +194,7 @@ def read_range(table: Table, parameter: Parameter) -> Range | None:
         for key, value in (("min", least), ("max", found.value(len(found) - 1)), ("step", second)):
             wrong = out_of_range(parameter, value, table.at(key))
             if wrong:
-                table.findings.problems += wrong
+                table.findings.extend(wrong)
                 return None
         return found
     return None

@@ -15,15 +15,13 @@ from pathlib import Path
 
 from graphkin.errors import Problem
 from graphkin.roster.errors import RosterError
-from graphkin.scene.findings import visible
+from graphkin.scene.findings import Findings, visible
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
 MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
 """Rows, columns, and characters of one cell."""
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
-MOST_TOLD = 100
-"""Problems told at once."""
 ROW = re.compile(r", row (\d+)")
 """How a problem names its row."""
 ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
@@ -60,19 +58,12 @@ class Sheet:
         return f'{words}, column "{visible(column)}"' if column else words
 
 
-class Told:
+class Told(Findings):
     """Problems of a table, gathered so that all are told at once."""
 
     def __init__(self, name: str) -> None:
+        super().__init__()
         self.name = name
-        self.problems: list[Problem] = []
-
-    def add(self, place: str, found: str, expected: str = "", hint: str = "") -> None:
-        """Note one problem; with too many, stop."""
-        self.problems.append(Problem(place, found, expected, hint))
-        if len(self.problems) >= MOST_TOLD:
-            last = Problem(self.name, "and perhaps more problems")
-            raise RosterError([*sorted(self.problems, key=row_of), last])
 
     def stop(self) -> None:
         """Raise RosterError when anything was found, in the order of the rows."""

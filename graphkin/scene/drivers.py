@@ -116,7 +116,7 @@ def derivatives(
         speed = position.derivative(TIME)
         acceleration = speed.derivative(TIME)
     except SceneError as error:
-        measures.findings.extend(error)
+        measures.findings.extend(error.problems)
         return position, exact(0), exact(0)
     if measures.exists(speed):
         measures.exists(acceleration)

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphkin.errors import Problem, SceneError
+from graphkin.errors import MOST, Problem, SceneError
 
-MOST = 100
-"""Problems told at once; a file with more is not read further."""
 LISTED = 12
 
 
@@ -18,17 +16,16 @@ class Findings:
         self.problems: list[Problem] = []
 
     def add(self, place: str, found: str, expected: str = "", hint: str = "") -> None:
-        """Note one problem, unless it was noted before; with too many, stop."""
-        problem = Problem(place, found, expected, hint)
-        if problem not in self.problems:
-            self.problems.append(problem)
-        if len(self.problems) >= MOST:
-            self.problems.append(Problem("", "and perhaps more problems"))
-            self.stop()
+        """Note one problem."""
+        self.extend([Problem(place, found, expected, hint)])
 
-    def extend(self, error: SceneError) -> None:
-        """Note the problems of an error that was raised further in."""
-        self.problems.extend(error.problems)
+    def extend(self, problems: Iterable[Problem]) -> None:
+        """Note problems that were not noted before; with more than an error carries, stop."""
+        for problem in problems:
+            if problem not in self.problems:
+                self.problems.append(problem)
+            if len(self.problems) > MOST:
+                self.stop()
 
     def inside(self, place: str) -> bool:
         """Whether something was found at a place or within it."""
@@ -38,7 +35,7 @@ class Findings:
         )
 
     def stop(self) -> None:
-        """Raise SceneError when anything was found."""
+        """Raise an error when anything was found: SceneError, or that of the file at hand."""
         if self.problems:
             raise SceneError(self.problems)
 

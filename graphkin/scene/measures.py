@@ -113,7 +113,7 @@ class Measures:
         try:
             value = read.number(self.values)
         except SceneError as error:
-            self.findings.extend(error)
+            self.findings.extend(error.problems)
             return False
         tiny = positive and 0 < value * LARGEST < 1
         if tiny or abs(value) > LARGEST:

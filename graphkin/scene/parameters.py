@@ -46,7 +46,7 @@ def read_parameter(name: str, table: Table, place: str) -> Parameter:
     elif step and plain(step) <= 0:
         table.findings.add(table.at("step"), step.text, "a number above 0")
     else:
-        table.findings.problems += out_of_range(parameter, plain(value), place)
+        table.findings.extend(out_of_range(parameter, plain(value), place))
     return parameter
 
 
@@ -60,25 +60,24 @@ def rational(place: str, raw: object, findings: Findings) -> Quantity | None:
     """An exact number that uses no parameter; None, with a problem noted, when it is none."""
     try:
         read = quantity(raw, "", place)
-        if read.uses():
-            says = "is no number", "a number"
-            if not isinstance(read.tree, Name):
-                used = ", ".join(sorted(read.uses()))
-                says = f"uses {used}", "a number, without parameters"
-            findings.add(place, f"{shown(read.text)} {says[0]}", says[1])
-            return None
-        if isinstance(read.number({}), Fraction):
-            return read
-        findings.add(
-            place, f"{shown(read.text)} is not rational", "a whole number, decimal or fraction"
-        )
+        value = None if read.uses() else read.number({})
     except UnreadableError as error:
         found = "nothing" if raw is None else error.found
         comma = isinstance(raw, str) and "," in raw
         hint = "write a decimal point" if comma else error.hint
         findings.add(place, found, "a number", hint)
+        return None
     except SceneError as error:
-        findings.extend(error)
+        findings.extend(error.problems)
+        return None
+    if isinstance(value, Fraction):
+        return read
+    says = "is not rational", "a whole number, decimal or fraction"
+    if isinstance(read.tree, Name) and read.uses():
+        says = "is no number", "a number"
+    elif read.uses():
+        says = f"uses {', '.join(sorted(read.uses()))}", "a number, without parameters"
+    findings.add(place, f"{shown(read.text)} {says[0]}", says[1])
     return None
 
 
@@ -127,5 +126,5 @@ def set_values(
         read = rational(place, raw, findings)
         if read is not None:
             values[name] = plain(read)
-            findings.problems += out_of_range(parameters[name], values[name], place)
+            findings.extend(out_of_range(parameters[name], values[name], place))
     return values

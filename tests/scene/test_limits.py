@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.errors import Problem, SceneError
+from graphkin.errors import MORE, Problem, SceneError
 from graphkin.scene.faults import NUMBER, PARTS, PLAIN, VALUE
 from graphkin.scene.read import read_scene, read_text
 
@@ -109,11 +109,34 @@ def test_a_link_written_twice_is_named() -> None:
     assert str(wrong) == "line 4: links.2 is written twice; write it under one heading"
 
 
-def test_very_many_problems_are_cut_short() -> None:
+LONG_TABLES = {
+    "unknown keys": "".join(f"k{i} = {i}\n" for i in range(15000)),
+    "parameters": "[parameters]\n" + "".join(f'p{i} = "sqrt(2)"\n' for i in range(105)),
+    "divisions": "[parameters]\n" + "".join(f'p{i} = "1/0"\n' for i in range(105)),
+    "ranges": "[parameters]\n" + "".join(f"p{i} = {{ value = 3, max = 2 }}\n" for i in range(105)),
+    "lengths": f"{HEAD}[links.1]\n" + "".join(f'O-A{i} = "1/0"\n' for i in range(105)),
+}
+
+
+@pytest.mark.parametrize("name", LONG_TABLES)
+def test_very_many_problems_are_cut_short(name: str) -> None:
     with pytest.raises(SceneError) as caught:
-        read_text("".join(f"k{i} = {i}\n" for i in range(15000)), "hostile")
-    assert len(caught.value.problems) == 101
-    assert "more problems" in str(caught.value.problems[-1])
+        read_text(LONG_TABLES[name], "hostile")
+    problems = caught.value.problems
+    assert len(problems) == 101
+    assert len(set(problems)) == 101
+    assert "more problems" in str(problems[-1])
+
+
+@pytest.mark.parametrize(("found", "told"), [(100, 100), (101, 101), (5000, 101)])
+def test_an_error_carries_a_hundred_problems_and_says_that_there_are_more(
+    found: int, told: int
+) -> None:
+    error = SceneError(Problem(f"place {i}", "wrong") for i in range(found))
+    again = SceneError(error.problems)
+    assert len(error.problems) == told
+    assert again.problems == error.problems
+    assert (error.problems[-1] == MORE) == (found > 100)
 
 
 def test_a_long_chain_of_links_is_read() -> None:
