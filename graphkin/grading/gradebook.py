@@ -7,6 +7,7 @@ separators and ends of lines included, so that order, language, ids and unknown 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -34,7 +35,7 @@ class GradebookError(GraphkinError):
     """A gradebook that cannot be filled in."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Cell:
     """The characters of a cell as they stand in the file, and the text that they mean."""
 
@@ -131,17 +132,18 @@ def places(
     target = mark_column(book, [each.text for each in book.rows[0]], column)
     refuse_names(book, target, where)
     lines: dict[int, str] = {}
+    met: set[str] = set()
     twice: list[Problem] = []
     for line, row in enumerate(book.rows[1:], 1):
         who = key_of(row, where, marks)
         if who is None or is_possible(row):
             continue
-        if who in lines.values():
+        if who in met:
             twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
         lines[line] = who
+        met.add(who)
     if twice:
         raise GradebookError(twice)
-    met = set(lines.values())
     absent = tuple(who for who in marks if who not in met)
     before = {line: text_at(book.rows[line], target) for line in lines}
     replaced = sum(is_other(text, marks[lines[line]]) for line, text in before.items())
@@ -196,9 +198,8 @@ def is_possible(row: Sequence[Cell]) -> bool:
 
 def id_column(book: Table, marks: Collection[str]) -> int:
     """The column in which most cells are ids of the class, in whatever language it is named."""
-    width = len(book.rows[0])
-    counts = [sum(key_of(row, i, marks) is not None for row in book.rows[1:]) for i in range(width)]
-    best = max(range(width), key=lambda i: counts[i])
+    counts = Counter(i for row in book.rows[1:] for i, each in enumerate(row) if each.text in marks)
+    best = max(range(len(book.rows[0])), key=lambda i: counts[i])
     if not counts[best]:
         hint = "the ids of the class list must be those of one of its columns"
         raise GradebookError(Problem(book.name, "no column holds ids of this class", "", hint))
@@ -212,7 +213,10 @@ def mark_column(book: Table, head: Sequence[str], column: str | None) -> int:
         found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
         found = [i for i in found if not is_comment(head[i])] or found
     else:
-        found = [i for i in range(len(head)) if is_open(book, i)]
+        full = marked_columns(book)
+        found = [
+            i for i, name in enumerate(head) if name and i not in full and not is_comment(name)
+        ]
     if len(found) != 1:
         words = (
             f'"{column}" is {"several columns" if found else "no column"}'
@@ -227,13 +231,10 @@ def mark_column(book: Table, head: Sequence[str], column: str | None) -> int:
     return found[0]
 
 
-def is_open(book: Table, column: int) -> bool:
-    """Whether no student has a mark in a column, and it is none for comments."""
-    name = book.rows[0][column].text
-    if not name or is_comment(name):
-        return False
-    rows = [row for row in book.rows[1:] if not is_possible(row)]
-    return all(text_at(row, column) in EMPTY for row in rows)
+def marked_columns(book: Table) -> set[int]:
+    """The columns in which some student has something."""
+    rows = (row for row in book.rows[1:] if not is_possible(row))
+    return {i for row in rows for i, each in enumerate(row) if each.text not in EMPTY}
 
 
 def is_comment(head: str) -> bool:

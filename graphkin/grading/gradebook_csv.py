@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
+import re
 from pathlib import Path
 
 from graphkin.errors import Problem
 from graphkin.grading.gradebook import Cell, Gradebook, GradebookError
-from graphkin.roster.tables import SEPARATORS, bytes_of
+from graphkin.roster.tables import MOST_CELLS, bytes_of, separator_of, too_large
 
 BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 
@@ -21,11 +21,7 @@ def read_gradebook(path: Path) -> Gradebook:
         text = data[len(bom) :].decode(coding)
     except UnicodeDecodeError:
         text, coding = data.decode("cp1250", "surrogateescape"), "cp1250"
-    first = text.partition("\n")[0]
-    separator = max(
-        SEPARATORS,
-        key=lambda sign: (len(next(csv.reader([first], delimiter=sign), [])), sign == ","),
-    )
+    separator = separator_of(text)
     rows, ends = split(text, separator, path.name)
     if len(rows) < 2:
         raise GradebookError(Problem(path.name, "has no row below its head", "a gradebook"))
@@ -35,32 +31,34 @@ def read_gradebook(path: Path) -> Gradebook:
 def split(
     text: str, separator: str, name: str
 ) -> tuple[tuple[tuple[Cell, ...], ...], tuple[str, ...]]:
-    """The rows of cells of a text with their line ends; quotes and blanks stay as they are."""
+    """The rows of cells of a text with their line ends; quotes and blanks stay as they are.
+
+    Raises GradebookError for a quote that is never closed, or as soon as there are too many cells.
+    """
+    piece = re.compile(
+        rf'([^\S\r\n{separator}]*+"[^"]*+(?:""[^"]*+)*+")?+([^\r\n{separator}]*+)'
+        rf"({separator}|\r\n|\r|\n|\Z)"
+    )
     rows: list[tuple[Cell, ...]] = []
     ends: list[str] = []
     row: list[Cell] = []
-    start = at = 0
-    quoted = False
-    while at < len(text):
-        sign = text[at]
-        if sign == '"' and (quoted or not text[start:at].strip()):
-            quoted = not quoted
-        elif not quoted and sign == separator:
-            row.append(cell(text[start:at]))
-            start = at + 1
-        elif not quoted and sign in "\r\n":
-            end = "\r\n" if text[at : at + 2] == "\r\n" else sign
-            rows.append((*row, cell(text[start:at])))
+    for count, found in enumerate(piece.finditer(text), 1):
+        quoted, rest, end = found.groups("")
+        if count > MOST_CELLS:
+            raise GradebookError(too_large(name, f"more than {MOST_CELLS} cells").problems)
+        if not quoted and rest.lstrip().startswith('"'):
+            place = f"{name}, row {len(rows) + 1}"
+            raise GradebookError(
+                Problem(place, "a quote that is opened and never closed", 'a closing "')
+            )
+        if end or row or quoted or rest:
+            row.append(cell(quoted + rest))
+        if end != separator and row:
+            rows.append(tuple(row))
             ends.append(end)
-            row, at = [], at + len(end) - 1
-            start = at + 1
-        at += 1
-    if quoted:
-        found = "a quote that is opened and never closed"
-        raise GradebookError(Problem(f"{name}, row {len(rows) + 1}", found, 'a closing "'))
-    if row or start < len(text):
-        rows.append((*row, cell(text[start:])))
-        ends.append("")
+            row = []
+        if not end:
+            break
     return tuple(rows), tuple(ends)
 
 

@@ -1,7 +1,8 @@
 """The lecturer's own gradebook as XLSX, filled in: only the cells of the marks change.
 
-Formats, formulas and other sheets stay; marks are written as numbers. The same marks give the same
-bytes: the times in the file stay those of the export.
+They are written as numbers into the XML of their sheet. All else stays as it is, macros too; only
+the results that the file kept of formulas are left out, to be computed anew. The same marks give
+the same bytes: the times in the file stay those of the export.
 """
 
 from __future__ import annotations
@@ -10,23 +11,31 @@ import io
 import re
 import zipfile
 from collections.abc import Collection, Mapping
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from xml.parsers.expat import ExpatError
 
 from graphkin.errors import Problem
-from graphkin.grading.gradebook import Cell, Filled, GradebookError, filled, places
+from graphkin.grading.gradebook import (
+    Cell,
+    Filled,
+    GradebookError,
+    Places,
+    filled,
+    mark_text,
+    places,
+)
 from graphkin.grading.gradebook_csv import read_gradebook
 from graphkin.roster.errors import RosterError
-from graphkin.roster.tables import MOST_COLUMNS, MOST_ROWS, bytes_of
-from graphkin.roster.xlsx import cell_text, open_sheet, opened
+from graphkin.roster.tables import bytes_of
+from graphkin.roster.xlsx import cell_text, full_rows, open_sheet, opened, unreadable
 
 START = b"PK\x03\x04"
 """The first bytes of an XLSX, which is a ZIP file."""
-CORE, MODIFIED = "docProps/core.xml", re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
-DATE = (1980, 1, 1, 0, 0, 0)
-"""The time of every file within, the earliest that a ZIP can tell."""
+WORKBOOK = re.compile(r"xl/workbook[0-9]*\.xml")
+"""The part of the file that says how formulas are computed."""
 
 
 def filled_gradebook(
@@ -44,35 +53,40 @@ def filled_gradebook(
 
 @dataclass(frozen=True)
 class Workbook:
-    """An export as XLSX: its file, and the cells of the sheet that was open last."""
+    """An export as XLSX: its file, and the cells of the sheet that was open last.
+
+    A row that holds nothing has no cells. ``formulas`` are the places of formulas, by line and
+    column from 0; ``sheet`` and ``sheets`` the parts of the file that hold this and all sheets.
+    """
 
     name: str
     data: bytes
     rows: tuple[tuple[Cell, ...], ...]
+    formulas: frozenset[tuple[int, int]]
+    sheet: str
+    sheets: tuple[str, ...]
 
 
 def read_workbook(data: bytes, name: str) -> Workbook:
     """An export as it stands. Raises GradebookError where it is no table."""
-    sheet = open_sheet(to_change(data, name))
-    if sheet.max_row > MOST_ROWS or sheet.max_column > MOST_COLUMNS:
-        found = f"{sheet.max_row} rows, {sheet.max_column} columns"
-        expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns"
-        raise GradebookError(Problem(name, found, expected))
-    rows = tuple(
-        tuple(Cell(text, text.strip()) for text in map(cell_text, cells))
-        for cells in sheet.iter_rows()
-    )
-    if len(rows) < 2:
-        raise GradebookError(Problem(name, "has no row below its head", "a gradebook"))
-    return Workbook(name, data, rows)
-
-
-def to_change(data: bytes, name: str) -> Any:
-    """The workbook, to be changed. Raises GradebookError where it cannot be read."""
+    rows: list[tuple[Cell, ...]] = []
+    formulas: set[tuple[int, int]] = set()
     try:
-        return opened(data, name)
+        with opened(data, name, data_only=False) as book:
+            sheet = open_sheet(book)
+            for number, cells in full_rows(sheet, name):
+                rows += [()] * (number - 1 - len(rows))
+                formulas |= {(len(rows), i) for i, c in enumerate(cells) if c.data_type == "f"}
+                rows.append(tuple(Cell(text, text.strip()) for text in map(cell_text, cells)))
+            parts = tuple(each._worksheet_path for each in book.worksheets)
+            part = sheet._worksheet_path
     except RosterError as error:
         raise GradebookError(error.problems) from error
+    if not rows or not rows[0]:
+        raise GradebookError(Problem(name, "has nothing in its first row", "the names of columns"))
+    if len(rows) < 2:
+        raise GradebookError(Problem(name, "has no row below its head", "a gradebook"))
+    return Workbook(name, data, tuple(rows), frozenset(formulas), part, parts)
 
 
 def filled_workbook(
@@ -83,32 +97,46 @@ def filled_workbook(
 ) -> Filled:
     """The workbook with the marks in a column. Raises GradebookError where that cannot be told."""
     found = places(book, marks, column, ids)
-    workbook = to_change(book.data, book.name)
-    sheet = open_sheet(workbook)
-    for line, who in found.lines.items():
-        mark = round(marks[who], 2)
-        whole = mark.denominator == 1
-        sheet.cell(line + 1, found.column + 1).value = int(mark) if whole else float(mark)
-    written = io.BytesIO()
-    workbook.save(written)
-    data = with_times_of(book.data, written.getvalue())
+    refuse_formulas(book, found)
+    numbers = {
+        (line + 1, found.column + 1): mark_text(marks[who], comma=False)
+        for line, who in found.lines.items()
+    }
+    try:
+        data = with_cells(book, numbers)
+    except (ExpatError, ValueError) as error:
+        raise GradebookError(unreadable(book.name).problems) from error
     return Filled(data, found.head, len(found.lines), found.absent, found.worth, found.replaced)
 
 
-def with_times_of(before: bytes, after: bytes) -> bytes:
-    """A workbook with the time of its last change as in another, and no times of files."""
-    with zipfile.ZipFile(io.BytesIO(before)) as packed:
-        core = packed.read(CORE) if CORE in packed.namelist() else b""
-    was = MODIFIED.search(core)
-    time = was[0].rpartition(b">")[2] if was else b"1980-01-01T00:00:00Z"
+def refuse_formulas(book: Workbook, found: Places) -> None:
+    """Raise GradebookError where marks would take the place of formulas."""
+    wrong = [line for line in found.lines if (line, found.column) in book.formulas]
+    if wrong:
+        where = f"{book.name}, row {wrong[0] + 1}"
+        text = f'"{found.head}" holds a formula'
+        hint = "name another one with --column"
+        raise GradebookError(Problem(where, text, "a column for points", hint))
+
+
+def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:
+    """The file with numbers in cells of its sheet; all parts that need not change are copied."""
+    from graphkin.grading.sheet_xml import computed_anew, with_numbers
+
     found = io.BytesIO()
-    with (
-        zipfile.ZipFile(io.BytesIO(after)) as packed,
-        zipfile.ZipFile(found, "w", zipfile.ZIP_DEFLATED) as again,
-    ):
-        for name in packed.namelist():
-            content = packed.read(name)
-            if name == CORE:
-                content = MODIFIED.sub(rb"\g<1>" + time, content)
-            again.writestr(zipfile.ZipInfo(name, DATE), content, zipfile.ZIP_DEFLATED)
+    with zipfile.ZipFile(io.BytesIO(book.data)) as packed, zipfile.ZipFile(found, "w") as again:
+        changed = {}
+        for part in book.sheets if numbers else ():
+            xml = packed.read(part)
+            new = with_numbers(xml, numbers if part == book.sheet else {})
+            changed |= {part: new} if new != xml else {}
+        if changed.keys() - {book.sheet} or book.formulas:
+            changed |= {
+                part: computed_anew(packed.read(part))
+                for part in packed.namelist()
+                if changed and WORKBOOK.fullmatch(part)
+            }
+        for part in packed.infolist():
+            content = packed.read(part)
+            again.writestr(copy(part), changed.get(part.filename, content), part.compress_type)
     return found.getvalue()

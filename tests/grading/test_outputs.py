@@ -19,6 +19,7 @@ import pytest
 from click.testing import CliRunner
 
 from graphkin.cli import app
+from graphkin.grading import gradebook_csv
 from graphkin.grading.book import Class, graded_class
 from graphkin.grading.feedback import feedback_html, feedback_pages
 from graphkin.grading.gradebook import GradebookError, filled
@@ -29,6 +30,7 @@ from graphkin.grading.rows import rows
 from graphkin.grading.tables import differences, marks_table, read_marks
 from graphkin.roster.languages import language_in
 from graphkin.roster.model import Student
+from graphkin.roster.tables import SEPARATORS
 from graphkin.text import LANGUAGES, words
 from tests.grading.students import book_of, given, key_answers, lab_of, marker_of
 
@@ -200,6 +202,30 @@ def test_no_marks_leave_every_byte(tmp_path):
 def test_a_gradebook_that_cannot_be_filled_is_refused(tmp_path, text, column, words_found):
     with pytest.raises(GradebookError, match=words_found):
         filled(book(tmp_path, text), MARKS, column)
+
+
+def test_cells_of_a_gradebook_are_those_that_a_spreadsheet_reads(tmp_path):
+    """Against the csv module, on cells that hold quotes, separators and ends of lines."""
+    table = [["id", "x"], ['a";b', 'c"'], ['""', "d\ne;"], ['";"', " f"]]
+    for separator in SEPARATORS:
+        file = io.StringIO(newline="")
+        csv.writer(file, delimiter=separator).writerows(table)
+        text = file.getvalue()
+        opened = book(tmp_path, text)
+        read = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+        assert [[cell.text for cell in row] for row in opened.rows] == [
+            [cell.strip() for cell in row] for row in read
+        ]
+
+
+def test_a_gradebook_of_too_many_cells_is_not_read_to_its_end(tmp_path, monkeypatch):
+    seen = []
+    cell = gradebook_csv.cell
+    monkeypatch.setattr(gradebook_csv, "MOST_CELLS", 50)
+    monkeypatch.setattr(gradebook_csv, "cell", lambda raw: seen.append(raw) or cell(raw))
+    with pytest.raises(GradebookError, match="more than 50 cells"):
+        book(tmp_path, "id,mark\n" + "\n" * 1000)
+    assert len(seen) == 50
 
 
 @pytest.mark.parametrize("column", ["First name", "Surname", "ID number", "Institution"])
@@ -429,6 +455,7 @@ def dying(path, target):
     return rename(path, target)
 pathlib.Path.replace = dying
 from graphkin.cli import app
+from graphkin.grading import gradebook_csv
 app(sys.argv[1:])
 """
 
