@@ -9,18 +9,21 @@ import csv
 import io
 import re
 import unicodedata
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from graphkin.errors import Problem
 from graphkin.roster.errors import RosterError
 from graphkin.scene.findings import Findings, visible
+from graphkin.scene.limits import file_bytes
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
 MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
-"""Rows, columns, and characters of one cell."""
+"""Rows that are not empty, columns, and characters of one cell."""
+MOST_CELLS, LAST_ROW = 2_000_000, 1 << 20
+"""Cells of a table, rows times columns; the last row that a spreadsheet has."""
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
 ROW = re.compile(r", row (\d+)")
 """How a problem names its row."""
@@ -97,7 +100,7 @@ def read_sheet(path: Path, heads: Sequence[str] = (), told: Told | None = None) 
     else:
         text = text_of(data, path.name)
         separator = separator_of(text, heads)
-        rows = list(csv_rows(text, separator, told))
+        rows = csv_rows(text, separator, told)
     sheet = sheet_of(path.name, rows, separator, told)
     if own:
         told.stop()
@@ -107,8 +110,7 @@ def read_sheet(path: Path, heads: Sequence[str] = (), told: Told | None = None) 
 def bytes_of(path: Path) -> bytes:
     """The bytes of a file. Raises RosterError where there are none, or too many."""
     try:
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
+        data = file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "cannot be opened"
         raise RosterError(Problem(str(path), f"the table cannot be read: {reason}")) from None
@@ -136,9 +138,10 @@ def text_of(data: bytes, name: str) -> str:
     return text
 
 
-def separator_of(text: str, heads: Sequence[str]) -> str:
+def separator_of(text: str, heads: Sequence[str] = ()) -> str:
     """What stands between the cells, by the head: the sign that makes most known columns of it."""
-    first = next((line for line in text.splitlines() if line.strip(" ,;\t")), "")
+    first = next((line for line in io.StringIO(text, newline="") if line.strip(" ,;\t\r\n")), "")
+    first = first[: csv.field_size_limit()]
     known = {folded(head) for head in heads}
 
     def worth(separator: str) -> tuple[int, int]:
@@ -161,6 +164,8 @@ def csv_rows(text: str, separator: str, told: Told) -> Iterator[Row]:
             return
         if cells is None:
             return
+        if reader.line_num > LAST_ROW:
+            raise too_large(told.name, f"more than {LAST_ROW} lines")
         if reader.line_num > begins and any("\n" in c or "\r" in c for c in cells):
             found = f"a cell goes on to row {reader.line_num}"
             hint = "is a closing quote missing?"
@@ -181,32 +186,35 @@ def broken(message: str) -> tuple[str, str, str]:
     return f"cannot be read: {message}", "", ""
 
 
-def sheet_of(name: str, rows: Sequence[Row], separator: str, told: Told) -> Sheet:
+def too_large(name: str, found: str) -> RosterError:
+    """The error for a table beyond the limits, told as soon as it is found to be."""
+    expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells in all"
+    return RosterError(Problem(name, found, expected))
+
+
+def sheet_of(name: str, rows: Iterable[Row], separator: str, told: Told) -> Sheet:
     """A table of rows: the first that is not empty is its head, empty ones are left out."""
-    full = [
-        Row(r.line, tuple(map(tidy, r.cells)), r.numbers)
-        for r in rows
-        if any(c.strip() for c in r.cells)
-    ]
-    if not full:
+    body = (row for row in map(tidied, rows) if row.cells)
+    head = next(body, None)
+    if head is None:
         told.stop()
         raise RosterError(
             Problem(name, "the table is empty", "a head, then a row for each student")
         )
-    head, body = full[0], full[1:]
-    width = len(strip_end(head.cells))
-    if len(body) > MOST_ROWS or width > MOST_COLUMNS:
-        found = f"{len(body)} rows, {width} columns"
-        raise RosterError(Problem(name, found, f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns"))
-    twice = repeated([folded(cell) for cell in head.cells[:width] if cell])
-    for i, cell in enumerate(head.cells[:width]):
+    width = len(head.cells)
+    if width > MOST_COLUMNS:
+        raise too_large(name, f"{width} columns")
+    twice = repeated([folded(cell) for cell in head.cells if cell])
+    for i, cell in enumerate(head.cells):
         refuse_hidden(told, f"{name}, row {head.line}, column {i + 1}", cell)
         if folded(cell) in twice:
             told.add(f"{name}, row {head.line}", f'two columns are called "{visible(cell)}"', "one")
             twice.discard(folded(cell))
     rows_found = []
-    for row in body:
-        cells = strip_end(row.cells)
+    for count, row in enumerate(body, 1):
+        if count > MOST_ROWS or count * width > MOST_CELLS:
+            raise too_large(name, f"more than {count - 1} rows of {width} columns")
+        cells = row.cells
         if len(cells) > width:
             words = f"{len(cells)} cells, and the head has {width}"
             hint = f"a cell that holds {SEPARATORS[separator]} is written in quotes"
@@ -216,19 +224,20 @@ def sheet_of(name: str, rows: Sequence[Row], separator: str, told: Told) -> Shee
             refuse_hidden(told, f'{name}, row {row.line}, column "{visible(head.cells[i])}"', cell)
         whole = cells + ("",) * (width - len(cells))
         rows_found.append(Row(row.line, whole, row.numbers))
-    return Sheet(name, head.cells[:width], tuple(rows_found), separator)
+    return Sheet(name, head.cells, tuple(rows_found), separator)
+
+
+def tidied(row: Row) -> Row:
+    """A row of tidy cells, without the empty ones at its end."""
+    cells = [tidy(cell) for cell in row.cells]
+    while cells and not cells[-1]:
+        cells.pop()
+    return Row(row.line, tuple(cells), row.numbers)
 
 
 def tidy(cell: str) -> str:
     """A cell without blanks around it, in composed letters (NFC)."""
     return unicodedata.normalize("NFC", cell.strip().strip("\ufeff").strip())
-
-
-def strip_end(cells: tuple[str, ...]) -> tuple[str, ...]:
-    """Cells without the empty ones at their end."""
-    while cells and not cells[-1]:
-        cells = cells[:-1]
-    return cells
 
 
 def repeated(names: Sequence[str]) -> set[str]:
@@ -240,6 +249,7 @@ def refuse_hidden(told: Told, place: str, cell: str) -> None:
     """Note a cell with control or bidirectional characters, or one too long."""
     if len(cell) > LONGEST:
         told.add(place, f"{len(cell)} characters", f"at most {LONGEST}")
+        return
     for character in cell:
         if character not in "\n\r\t" and unicodedata.category(character) in ("Cc", "Cf", "Cs"):
             told.add(place, f"the control character {character!a}", "printable text")

@@ -5,38 +5,33 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import closing, contextmanager
 from datetime import date, datetime
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
+from warnings import catch_warnings, simplefilter
 
-from graphkin.errors import Problem
+from graphkin.errors import GraphkinError, Problem
 from graphkin.roster.errors import RosterError
 
 if TYPE_CHECKING:
     from graphkin.roster.tables import Row
 
-LARGEST = 256 * 1024 * 1024
-"""Bytes of an XLSX unpacked; more is a bomb."""
+LARGEST, MOST_ELEMENTS = 64 * 1024 * 1024, 1_000_000
+"""Bytes and XML elements of an XLSX unpacked; more is a bomb. A cell with a number has two."""
+BLOCK = 1 << 20
 PADDED = re.compile(r"0+")
 """A number format that shows leading zeros: 0000."""
 
 
 def xlsx_rows(data: bytes, name: str) -> Iterator[Row]:
     """The rows of the sheet that was open last; leading zeros that its format shows are kept."""
-    from graphkin.roster.tables import MOST_COLUMNS, MOST_ROWS, Row
+    from graphkin.roster.tables import Row
 
-    book = opened(data, name, read_only=True, data_only=True)
-    try:
-        rows = open_sheet(book).iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1)
-        for number, cells in enumerate(rows, 1):
+    with opened(data, name, data_only=True) as book:
+        for number, cells in full_rows(open_sheet(book), name):
             bare = frozenset(i for i, cell in enumerate(cells) if is_bare(cell))
             yield Row(number, tuple(map(cell_text, cells)), bare)
-    except RosterError:
-        raise
-    except Exception as error:
-        raise unreadable(name) from error
-    finally:
-        book.close()
 
 
 def open_sheet(book: Any) -> Any:
@@ -44,8 +39,26 @@ def open_sheet(book: Any) -> Any:
     return book.active if book.active is not None else book.worksheets[0]
 
 
-def opened(data: bytes, name: str, **how: bool) -> Any:
-    """The workbook, opened as openpyxl is told how to.
+def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
+    """The rows of a sheet that hold something, each with its number, which counts from 1.
+
+    Cells are those as far as the last of the row. Raises RosterError as soon as there are too many.
+    """
+    from graphkin.roster.tables import LAST_ROW, MOST_CELLS, too_large
+
+    sheet.reset_dimensions()  # what a file says of its size may be anything
+    count = 0
+    for number, cells in enumerate(sheet.iter_rows(), 1):
+        count += len(cells)
+        if number > LAST_ROW or count > MOST_CELLS:
+            raise too_large(name, f"{number} rows, and {count} cells as far as there")
+        if any(cell.value not in (None, "") for cell in cells):
+            yield number, cells
+
+
+@contextmanager
+def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
+    """The workbook, opened for reading row by row: values, or the formulas that give them.
 
     Raises RosterError where openpyxl is missing, or the file is no workbook.
     """
@@ -57,8 +70,14 @@ def opened(data: bytes, name: str, **how: bool) -> Any:
         raise RosterError(Problem(name, found, "the table saved as CSV UTF-8", hint)) from None
     try:
         refuse_bomb(data, name)
-        return load_workbook(io.BytesIO(data), **how)
-    except RosterError:
+        with catch_warnings():  # openpyxl names what it does not read: it is not written either
+            simplefilter("ignore")
+            book = load_workbook(
+                io.BytesIO(data), read_only=True, data_only=data_only, keep_links=False
+            )
+            with closing(book):
+                yield book
+    except GraphkinError:
         raise
     except Exception as error:
         raise unreadable(name) from error
@@ -66,10 +85,20 @@ def opened(data: bytes, name: str, **how: bool) -> Any:
 
 def refuse_bomb(data: bytes, name: str) -> None:
     """Raise RosterError where a file is far larger unpacked; BadZipFile where it is no ZIP."""
+    expected = f"at most {LARGEST >> 20} MiB and {MOST_ELEMENTS} XML elements"
     with zipfile.ZipFile(io.BytesIO(data)) as packed:
         size = sum(part.file_size for part in packed.infolist())
-    if size > LARGEST:
-        raise RosterError(Problem(name, "is far larger unpacked", f"{LARGEST >> 20} MiB"))
+        if size > LARGEST:
+            raise RosterError(Problem(name, "is far larger unpacked", expected))
+        elements = sum(map(elements_of, map(packed.open, packed.infolist())))
+    if elements > MOST_ELEMENTS:
+        raise RosterError(Problem(name, f"holds about {elements} XML elements", expected))
+
+
+def elements_of(part: IO[bytes]) -> int:
+    """About how many elements a part has, if it is XML: its tags that close none."""
+    blocks = iter(lambda: part.read(BLOCK), b"")
+    return sum(block.count(b"<") - block.count(b"</") for block in blocks)
 
 
 def unreadable(name: str) -> RosterError:

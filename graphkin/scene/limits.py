@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 import tomllib
+from errno import EINVAL
 from pathlib import Path
+from stat import S_ISDIR, S_ISREG
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.expression import unit_hint
@@ -24,12 +26,22 @@ WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
 def read_bytes(path: Path) -> bytes:
     """The bytes of a file, no more than a scene may have; SceneError when there are none."""
     try:
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
+        return file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "cannot be opened"
         raise SceneError(Problem(str(path), f"the scene cannot be read: {reason}")) from None
-    return data
+
+
+def file_bytes(path: Path, most: int) -> bytes:
+    """The bytes of a file, as far as ``most`` of them; nothing waits for a pipe or a device.
+
+    Raises OSError where there is no such file; ValueError for what can be no path.
+    """
+    mode = path.stat().st_mode
+    if not (S_ISREG(mode) or S_ISDIR(mode)):
+        raise OSError(EINVAL, "a pipe or a device is no file", str(path))
+    with path.open("rb") as stream:
+        return stream.read(most)
 
 
 def decoded(data: bytes) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -182,6 +183,13 @@ def test_bytes_that_are_no_text(written: Callable[[bytes], Path], data: bytes, f
 
 
 def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
-    for path in (tmp_path / "missing.toml", tmp_path, tmp_path / "a\x00b"):
+    for path in (tmp_path / "missing.toml", tmp_path, tmp_path / "a\x00b", Path(os.devnull)):
         with pytest.raises(SceneError, match="the scene cannot be read"):
             read_scene(path)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in folders there")
+def test_a_pipe_is_no_scene_and_nobody_waits_for_it(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "scene.toml")
+    with pytest.raises(SceneError, match="a pipe or a device is no file"):
+        read_scene(tmp_path / "scene.toml")
