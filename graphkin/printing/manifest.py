@@ -13,6 +13,7 @@ from typing import Any
 from graphkin.errors import Problem, SceneError
 from graphkin.lab.model import Lab
 from graphkin.roster.languages import language_in
+from graphkin.roster.written import safe
 from graphkin.variants.languages import languages
 from graphkin.variants.manifest import COPY, FORMAT, MANIFEST
 
@@ -72,7 +73,7 @@ def read_edition(folder: Path) -> Edition:
     if problems:
         raise SceneError(problems)
     own = languages(folder)
-    variants = [replace(each, language=own.get(each.id, "")) for each in variants]
+    variants = [replace(each, language=own.get(safe(each.id), "")) for each in variants]
     lab = replace(read_lab(folder / COPY), name=str(raw.get("lab", COPY)))
     scene = (folder / COPY / FILES[0]).read_text(encoding="utf-8-sig")
     return Edition(folder, lab, scene, tuple(variants))

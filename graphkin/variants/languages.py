@@ -6,13 +6,13 @@ from pathlib import Path
 
 from graphkin.roster.languages import HEADS
 from graphkin.roster.tables import columns, read_sheet
-from graphkin.roster.written import RUNS
 from graphkin.variants.manifest import TABLE
 
 
 def languages(folder: Path) -> dict[str, str]:
-    """What the table of a class folder says of each student's language, by id; nothing where it
-    has no such column, or where there is no table, which is needed for nothing else.
+    """What the table of a class folder says of each student's language, by id as it is written
+    there; nothing where it has no such column, or where there is no table, which is needed for
+    nothing else.
 
     Raises RosterError where the table cannot be read.
     """
@@ -22,10 +22,5 @@ def languages(folder: Path) -> dict[str, str]:
     where = columns(sheet, {"id": (), "language": HEADS})
     if len(where) < 2:
         return {}
-    rows = ((plain(row.cells[where["id"]]), row.cells[where["language"]]) for row in sheet.rows)
+    rows = ((row.cells[where["id"]], row.cells[where["language"]]) for row in sheet.rows)
     return {who: text for who, text in rows if text}
-
-
-def plain(cell: str) -> str:
-    """A cell without the sign by which no spreadsheet runs it."""
-    return cell[1:] if cell.startswith("'") and cell[1:].startswith(RUNS) else cell

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 import zipfile
+from pathlib import Path
 
 import openpyxl
 import pytest
@@ -12,11 +14,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from graphkin.errors import Problem
+from graphkin.roster import tables, xlsx
 from graphkin.roster.errors import RosterError
 from graphkin.roster.model import Student
 from graphkin.roster.read import NAMES, read_roster
-from graphkin.roster.tables import SEPARATORS, folded, read_sheet
-from graphkin.roster.written import csv_text, safe
+from graphkin.roster.tables import MOST_CELLS, SEPARATORS, folded, read_sheet
+from graphkin.roster.written import NUMBER, csv_text, safe
+from graphkin.roster.xlsx import xlsx_rows
 
 PLAIN = "number,id,name,group\n1,0042,Ann Lee,A\n2,0043,Bob Roe,B\n"
 READ = [
@@ -225,7 +229,16 @@ def test_no_bytes_are_more_than_told(saved, data):
         ("+cmd", "'+cmd"),
         ("@SUM(1)", "'@SUM(1)"),
         ("-x", "'-x"),
-        ("\t=1", "'\t=1"),
+        ("\t=1", "'\t'=1"),
+        ("b;=1+1", "b;'=1+1"),
+        ("b; @SUM(1)", "b; '@SUM(1)"),
+        ("a\n+cmd", "a\n'+cmd"),
+        ("＝1", "'＝1"),
+        (" =1", "' =1"),
+        (";=1", ";'=1"),
+        ('a;"=1"', 'a;"\'=1"'),
+        ("B-2; C", "B-2; C"),
+        ("x, -y", "x, -y"),
         ("-5", "-5"),
         ("+5.5", "+5.5"),
         ("-1,5", "-1,5"),
@@ -241,12 +254,17 @@ def test_formula_cells_are_escaped_and_numbers_stay(cell, written):
 
 @given(
     some.lists(
-        some.lists(some.text("ab,;\"' \n=é-5", min_size=1), min_size=2, max_size=3), min_size=1
+        some.lists(some.text("ab,;\"' \n=é-5+@\t", min_size=1), min_size=2, max_size=3), min_size=1
     )
 )
 def test_what_is_written_reads_back(rows):
+    """By any reader of CSV; and one that expects another separator finds no formula."""
     found = list(csv.reader(io.StringIO(csv_text(rows), newline=""), strict=True))
     assert found == [[safe(cell) for cell in row] for row in rows]
+    for separator in ",;\t":
+        for row in csv.reader(io.StringIO(csv_text(rows), newline=""), delimiter=separator):
+            runs = [cell for cell in row if cell.lstrip().startswith(("=", "+", "@", "-"))]
+            assert all(NUMBER.match(cell.lstrip()) for cell in runs), runs
 
 
 # --------------------------------------------------------------------------------------- XLSX
@@ -302,8 +320,124 @@ def test_a_broken_workbook_and_a_bomb_are_told(saved):
     assert "cannot be read as XLSX" in problems(saved(b"PK\x03\x04" + bytes(100), "r.xlsx"))[0]
     room = io.BytesIO()
     with zipfile.ZipFile(room, "w", zipfile.ZIP_DEFLATED) as packed:
-        packed.writestr("xl/workbook.xml", bytes(300 * 1024 * 1024))
+        packed.writestr("xl/workbook.xml", bytes(65 * 1024 * 1024))
     assert "far larger unpacked" in problems(saved(room.getvalue(), "r.xlsx"))[0]
+
+
+SHEET = '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
+TITLES = "<row><c t='inlineStr'><is><t>nr</t></is></c><c t='inlineStr'><is><t>id</t></is></c></row>"
+
+
+@pytest.fixture
+def packed(book):
+    """A workbook whose rows are given as XML, below a head with nr and id."""
+
+    def written(rows):
+        path = book([["a"]])
+        with zipfile.ZipFile(path) as was:
+            parts = {name: was.read(name) for name in was.namelist()}
+        parts["xl/worksheets/sheet1.xml"] = (
+            f"{SHEET}{TITLES}{rows}</sheetData></worksheet>".encode()
+        )
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as now:
+            for name, data in parts.items():
+                now.writestr(name, data)
+        return path
+
+    return written
+
+
+def test_a_stray_cell_far_below_costs_no_cells_between(packed):
+    """The last row of a spreadsheet is the 1 048 576th; what is empty above it makes no rows."""
+    rows = '<row r="2"><c/><c s="0"/></row><row r="1048576"><c><v>1</v></c><c><v>7</v></c></row>'
+    found = list(xlsx_rows(packed(rows).read_bytes(), "roster.xlsx"))
+    assert [(row.line, row.cells) for row in found] == [(1, ("nr", "id")), (1048576, ("1", "7"))]
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ('<row r="1001"><c><v>1</v></c></row>', "1001 rows"),
+        ("<row><c><v>1</v></c><c r='XFD2'><v>1</v></c></row>" * 200, "124 rows, and 2015234 cells"),
+        ("<row/>" * 1_000_000, "XML elements"),
+        ("<row><c><v>1</v></c></row>" * 333_333, "XML elements"),
+    ],
+)
+def test_a_workbook_far_too_large_is_not_read_to_its_end(packed, monkeypatch, rows, words):
+    """No more than the cells that a table may have are looked at."""
+    seen = []
+    monkeypatch.setattr(tables, "LAST_ROW", 1000)
+    monkeypatch.setattr(xlsx, "cell_text", lambda cell: seen.append(cell) or "")
+    (found,) = problems(packed(rows))
+    assert words in found
+    assert len(seen) <= MOST_CELLS
+
+
+def test_a_cell_of_very_many_characters_is_told_once(packed):
+    found = problems(packed(f"<row><c><v>1</v></c><c t='str'><v>{'x' * 100_000}</v></c></row>"))
+    assert found[0].endswith('column "id": 100000 characters; expected at most 4000')
+
+
+# ------------------------------------------------------------------------------------- too much
+
+
+def count_tidied(monkeypatch):
+    """Counts the cells that are looked at."""
+    seen = []
+    tidy = tables.tidy
+    monkeypatch.setattr(tables, "tidy", lambda cell: seen.append(cell) or tidy(cell))
+    return seen
+
+
+@pytest.mark.parametrize("count", [10_000, 40_000])
+def test_empty_cells_at_the_end_of_a_row_are_looked_at_once(saved, monkeypatch, count):
+    seen = count_tidied(monkeypatch)
+    (one,) = read_roster(saved("nr;id\n1;7" + ";" * count + "\n"), numbered=True)
+    assert one.id == "7"
+    assert len(seen) == 4 + count
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("nr;id\n" + "1;7\n" * 60, "more than 50 rows of 2 columns"),
+        ("nr;id" + ";x;y" * 50 + "\n" + "1;7\n" * 20, "more than 9 rows of 102 columns"),
+        ("nr;id\n" + "\n" * 200, "more than 100 lines"),
+        ("nr;id" + ";x" * 2000 + "\n1;2\n", "2002 columns"),
+    ],
+)
+def test_limits_of_rows_columns_and_lines_hold_while_a_table_is_read(
+    saved, monkeypatch, text, words
+):
+    for name, most in (("MOST_ROWS", 50), ("MOST_CELLS", 1000), ("LAST_ROW", 100)):
+        monkeypatch.setattr(tables, name, most)
+    seen = count_tidied(monkeypatch)
+    (found,) = problems(saved(text))
+    assert words in found
+    assert len(seen) <= 2002
+
+
+def test_rows_that_are_empty_do_not_count_and_are_not_kept(saved, monkeypatch):
+    monkeypatch.setattr(tables, "MOST_ROWS", 2)
+    text = "nr;id\n" + ";\n" * 500 + "1;a\n" + "\n" * 500 + "2;b\n;;\n"
+    assert [(s.row, s.id) for s in read_roster(saved(text), numbered=True)] == [
+        (502, "a"),
+        (1003, "b"),
+    ]
+
+
+@pytest.mark.parametrize("quote", ["", '"'])
+def test_a_head_longer_than_any_cell_is_told(saved, quote):
+    (found,) = problems(saved(f"nr,id,{quote}{'x' * 200_000}{quote}\n1,2,3\n"))
+    assert "row 1: a cell that is too long" in found
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in folders there")
+def test_a_pipe_is_no_table_and_nobody_waits_for_it(tmp_path):
+    os.mkfifo(tmp_path / "roster.csv")
+    (found,) = problems(tmp_path / "roster.csv")
+    assert "a pipe or a device is no file" in found
+    assert "a pipe or a device is no file" in problems(Path(os.devnull))[0]
 
 
 def test_without_openpyxl_the_message_helps(saved, monkeypatch):

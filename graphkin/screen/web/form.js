@@ -5,7 +5,7 @@ if (!form) return;
 const told = JSON.parse(form.dataset.form);
 const NUMBER = new RegExp("^(?:" + told.number + ")");
 const MISTYPED = new RegExp(told.mistyped);
-const RUNS = /^[=+\-@]/; // what a spreadsheet takes for a formula
+const RUNS = /(^|;[\s"]*)(?=[=+\-@])/g; // before what a spreadsheet takes for a formula
 const HEADS = ["field", "value"];
 const SHOWN = 30;
 const NAMED = 8; // fields that are named in one sentence
@@ -97,7 +97,7 @@ function recall() {
 
 // A cell that no spreadsheet runs, in quotes where it must be.
 function cell(text, read) {
-  const safe = !read && RUNS.test(text) ? `'${text}` : text;
+  const safe = read ? text : text.replace(RUNS, "$1'");
   return /[",;\t\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 }
 
@@ -157,7 +157,7 @@ function rowsOf(text) {
     else if (!quoted && sign === "\n") rows.push([""]);
     else row[row.length - 1] += sign;
   }
-  return rows.map((row) => row.map((text) => clean(text).replace(/^'(?=[=+\-@])/, "")));
+  return rows.map((row) => row.map((text) => clean(text).replace(/(^|;[\s"]*)'(?=[=+\-@])/g, "$1")));
 }
 
 async function open() {
