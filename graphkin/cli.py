@@ -13,7 +13,7 @@ from graphkin.cli_draw import accuracy, cycle, sheet
 from graphkin.cli_grade import grade
 from graphkin.cli_print import print_sheets
 from graphkin.cli_studio import studio
-from graphkin.console import FAILED, Desk, complain
+from graphkin.console import FAILED, Desk, complain, say
 from graphkin.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
     if as_json:
         import json
 
-        click.echo(json.dumps(explain_record(found), indent=2, ensure_ascii=False))
+        say(json.dumps(explain_record(found), indent=2, ensure_ascii=False))
     else:
         tell(explain_lines(found))
 
@@ -192,9 +192,9 @@ def solve(
     if as_json:
         import json
 
-        click.echo(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
+        say(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
     else:
-        click.echo(motion_words(mechanism.scene, solution, found, verdict))
+        say(motion_words(mechanism.scene, solution, found, verdict))
         tell(lines)
     uncertain = not_certified(found)
     if doubts(mechanism.scene, trace, solution, verdict) or uncertain:

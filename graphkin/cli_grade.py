@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.console import FAILED, complain
+from graphkin.console import FAILED, complain, say
 
 if TYPE_CHECKING:
     from graphkin.grading.answers import Answers
@@ -122,6 +122,7 @@ def grade(
     from graphkin.grading.book import graded_class
     from graphkin.grading.folder import open_class
     from graphkin.grading.report import result_lines
+    from graphkin.paper.files import write_all
     from graphkin.text import words as words_in
 
     kinds = kinds_of(formats, context)
@@ -141,14 +142,14 @@ def grade(
     files = all_files(opened, found, given, words, kinds, report or folder / "report")
     spoken = words_in(TERMINAL)
     books = filled_books(gradebooks, column, found, spoken)
-    written = put(report or folder / "report", {**files, **books}, force)
+    written = write_all(report or folder / "report", {**files, **books}, force)
     for line in result_lines(found.result, spoken):
-        click.echo(line)
+        say(line)
     changes(files, spoken)
     notes(opened, given, spoken)
-    click.echo("")
+    say("")
     for path in told_paths(written):
-        click.echo(path)
+        say(path)
     if given.unread:
         context.exit(FAILED)
 
@@ -214,7 +215,7 @@ def filled_books(
         book = filled_gradebook(path, points_by_id(found), column, ids)
         files[gradebook_name(path)] = book.data
         filled = words("class.filled", file=path.name, count=book.count, column=book.column)
-        click.echo(filled)
+        say(filled)
         points = max((each.points for each in found.result.graded), default=None)
         if book.worth is not None and book.worth != points:
             amounts = {"worth": number(book.worth), "points": number(points or 0)}
@@ -236,17 +237,7 @@ def changes(files: dict[str, bytes], words: Words) -> None:
 
     if CHANGES in files:
         for line in change_lines(files[CHANGES], words):
-            click.echo(line)
-
-
-def put(folder: Path, files: dict[str, bytes], force: bool) -> list[Path]:
-    """Write all files, or none."""
-    from graphkin.grading.outputs import FEEDBACK
-    from graphkin.paper.files import write_all
-
-    if any(name.startswith(f"{FEEDBACK}/") for name in files) and not folder.is_file():
-        (folder / FEEDBACK).mkdir(parents=True, exist_ok=True)
-    return write_all(folder, files, force)
+            say(line)
 
 
 def told_paths(written: list[Path]) -> list[str]:

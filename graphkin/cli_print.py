@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.console import FAILED, complain
+from graphkin.console import FAILED, complain, say, say_aside
 from graphkin.options import ink_option, language_option
 
 if TYPE_CHECKING:
@@ -138,7 +138,7 @@ def progress() -> Iterator[Tell]:
         tenth = TENTHS * done // max(total, 1)
         if tenth > told:
             told = tenth
-            click.echo(f"{done} of {total} students", err=True)
+            say_aside(f"{done} of {total} students")
 
     yield line
 
@@ -155,6 +155,6 @@ def report(outcome: Outcome) -> None:
         for problem in problems:
             complain(f"{variant.id} {variant.name}: {problem}")
     stood = f", {outcome.stood} stood already" if outcome.stood else ""
-    click.echo(f"{outcome.made} student{'' if outcome.made == 1 else 's'} printed{stood}")
+    say(f"{outcome.made} student{'' if outcome.made == 1 else 's'} printed{stood}")
     for path in outcome.files or [outcome.folder]:
-        click.echo(str(path))
+        say(str(path))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -31,7 +32,10 @@ BROKEN_PIPE = 141
 PLAIN_TRACEBACK = "GRAPHKIN_TRACEBACK"
 """Set in the environment, a fault in graphkin itself shows where it happened."""
 
-
+OBEYED = re.compile(
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
+)
+"""Characters that control a terminal or hide what is written; tabs and ends of lines do not."""
 READING = "graphkin.scene"
 """Where the context of a command keeps how its scene was called."""
 
@@ -157,7 +161,14 @@ def complain(text: str) -> None:
 def say_aside(text: str) -> None:
     """A line on standard error, wherever that leads."""
     with suppress(OSError):
-        click.echo(text, err=True)
+        say(text, err=True)
+
+
+def say(text: str, *, err: bool = False) -> None:
+    """Print a line. Names of files and cells may hold anything: what a terminal would obey, or
+    what turns the order of letters, is printed as JSON writes it, \\u001b.
+    """
+    click.echo(OBEYED.sub(lambda found: f"\\u{ord(found[0]):04x}", text), err=err)
 
 
 def cut_short() -> NoReturn:

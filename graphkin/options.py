@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphkin.console import READING
+from graphkin.console import READING, say
 from graphkin.errors import FileError, Problem
 
 if TYPE_CHECKING:
@@ -126,4 +126,4 @@ def leave(status: int) -> None:
 def tell(lines: Iterable[str]) -> None:
     """Print lines."""
     for line in lines:
-        click.echo(line)
+        say(line)

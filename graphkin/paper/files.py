@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
 
 from graphkin.errors import FileError, PageError, Problem
+from graphkin.paper.lock import alive, locked
 from graphkin.paper.marks import Page
 from graphkin.paper.style import Ink
 
@@ -23,6 +24,10 @@ MOST_BYTES = 180
 """Bytes of the first part of a file name, so that the rest finds room in 255."""
 SHOWN = 3
 """Files in the way that are named."""
+PATIENCE = 10.0
+"""Seconds to wait for another run that writes into the same folder."""
+ASIDE = re.compile(r"\.graphkin-([0-9]+)-[0-9]+\.part")
+"""A file that is written aside, with its process."""
 PDF_ONLY = "calculation"
 """The sheet that comes as PDF only, for it is several pages of text."""
 
@@ -68,13 +73,19 @@ def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Pat
     """Write all files into a folder, made if missing; raises PageError before any is touched.
 
     Files that exist are replaced only by ``force``. Each is written aside first, so that a full
-    disk or a folder that cannot be written leaves what was there.
+    disk or a folder that cannot be written leaves what was there. Runs into one folder wait for
+    each other.
     """
     targets = {folder / name: data for name, data in files.items()}
+    folders = dict.fromkeys((folder, *(target.parent for target in targets)))
     try:
         refuse_existing(folder, list(targets), force)
-        folder.mkdir(parents=True, exist_ok=True)
-        put_in_place(targets)
+        for each in folders:
+            each.mkdir(parents=True, exist_ok=True)
+        with locked(folder, patience=PATIENCE):
+            refuse_existing(folder, list(targets), force)
+            sweep(folders)
+            put_in_place(targets)
     except OSError as error:
         raise cannot_write(str(folder), error) from error
     return list(targets)
@@ -103,6 +114,15 @@ def in_the_way(there: Sequence[Path]) -> Problem:
     names = ", ".join(map(str, there[:SHOWN])) + rest
     hint = "--force replaces them, -o names another folder"
     return Problem(names, "each exists already", "new files", hint)
+
+
+def sweep(folders: Iterable[Path]) -> None:
+    """Remove what runs that were killed left aside; that of another process that lives stays."""
+    for folder in folders:
+        for path in folder.glob(".graphkin-*.part"):
+            found = ASIDE.fullmatch(path.name)
+            if found and (int(found[1]) == os.getpid() or not alive(int(found[1]))):
+                path.unlink(missing_ok=True)
 
 
 def put_in_place(targets: Mapping[Path, bytes]) -> None:

@@ -95,7 +95,7 @@ def entry_of(line: bytes) -> Entry | None:
         raw = json.loads(line)
         files = {str(name): str(found) for name, found in raw["files"].items()}
         return Entry(str(raw["part"]), str(raw["key"]), files)
-    except (ValueError, KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
 
 

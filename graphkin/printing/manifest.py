@@ -15,7 +15,7 @@ from graphkin.lab.model import Lab
 from graphkin.roster.languages import language_in
 from graphkin.roster.written import safe
 from graphkin.variants.languages import languages
-from graphkin.variants.manifest import COPY, FORMAT, MANIFEST
+from graphkin.variants.manifest import COPY, FORMAT, MANIFEST, TABLE
 
 FILES = ("scene.toml", "lab.toml")
 """The files of the lab, whose hashes the manifest holds."""
@@ -102,7 +102,9 @@ def tables(folder: Path) -> dict[str, Any]:
 
 
 def refuse_changed(folder: Path, hashes: object) -> None:
-    """Raise SceneError when the lab beside the manifest is not the one that was used."""
+    """Raise SceneError when the lab beside the manifest is not the one that was used, or the table
+    not the one that came with it: a run that was killed, or a hand, changed one and not the other.
+    """
     problems = []
     for name in FILES:
         path = folder / COPY / name
@@ -115,6 +117,11 @@ def refuse_changed(folder: Path, hashes: object) -> None:
         if not isinstance(hashes, dict) or hashes.get(name) != found:
             expected = "the very text from which the variants were made"
             problems.append(Problem(str(path), "was changed since", expected, AGAIN))
+    table = folder / TABLE
+    known = hashes.get(TABLE) if isinstance(hashes, dict) else None
+    if known and table.exists() and sha256(table.read_bytes()).hexdigest() != known:
+        expected = f"the table that was written with {MANIFEST}"
+        problems.append(Problem(str(table), "is another one", expected, f"{AGAIN} --force"))
     if problems:
         raise SceneError(problems)
 

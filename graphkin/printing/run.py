@@ -14,11 +14,11 @@ from graphkin import __version__
 from graphkin.errors import PageError, Problem
 from graphkin.handout import language_of
 from graphkin.mechanism import Mechanism
-from graphkin.paper.files import put_in_place
+from graphkin.paper.files import put_in_place, sweep
+from graphkin.paper.lock import locked
 from graphkin.paper.style import Ink
 from graphkin.printing.engine import chunks, engine, results
 from graphkin.printing.journal import Entry, Journal, hash_of, key_of
-from graphkin.printing.lock import locked
 from graphkin.printing.manifest import Edition, Variant
 from graphkin.printing.merge import merge
 from graphkin.printing.names import in_the_way, inside, stems
@@ -29,8 +29,6 @@ from graphkin.scene.read import read_text
 
 FOLDER = "print"
 """Where the files come, in the class folder."""
-LEFTOVER = ".graphkin-*.part"
-"""Files that were being written when a run was cut short."""
 FEWEST = 4
 """Students that are worth a process of their own."""
 
@@ -87,7 +85,7 @@ def print_class(edition: Edition, wishes: Wishes, means: Means, tell: Tell) -> O
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with locked(folder) as left:
-            sweep(folder)
+            sweep((folder, *(path for path in folder.iterdir() if path.is_dir())))
             run = Run(edition, wishes, Journal(folder))
             run.outcome.left = left
             run.refuse_others()
@@ -106,12 +104,6 @@ def stopped(folder: Path, error: OSError) -> PageError:
     found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
     hint = "what was finished is kept; when that is mended, the same command goes on"
     return PageError(Problem(str(error.filename or folder), found, hint=hint))
-
-
-def sweep(folder: Path) -> None:
-    """Remove what a run that was cut short left half-written."""
-    for path in (*folder.glob(LEFTOVER), *folder.glob(f"*/{LEFTOVER}")):
-        path.unlink()
 
 
 class Run:

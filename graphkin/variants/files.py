@@ -10,7 +10,7 @@ from pathlib import Path
 
 from graphkin.lab.model import Lab
 from graphkin.lab.rules import exact_text
-from graphkin.paper.files import cannot_write, put_in_place, refuse_existing
+from graphkin.paper.files import write_all
 from graphkin.roster.written import csv_text
 from graphkin.variants.assign import Assigned
 from graphkin.variants.manifest import COPY, MANIFEST, TABLE, as_text, code, manifest
@@ -30,24 +30,19 @@ def write_class(
     """
     scene = lab.scene.read_bytes()
     rule = lab.text.encode("utf-8")
-    hashes = {"scene.toml": digest(scene), "lab.toml": digest(rule)}
-    hashes["roster"] = digest(roster.read_bytes())
     salt = kept_salt(folder) if force else ""
     salt = salt or secrets.token_hex(SALT)
+    table = csv_text(table_rows(students, salt)).encode("utf-8")
+    hashes = {"scene.toml": digest(scene), "lab.toml": digest(rule), TABLE: digest(table)}
+    hashes["roster"] = digest(roster.read_bytes())
     record = manifest(lab, students, hashes, roster.name, salt)
-    targets = {
-        folder / TABLE: csv_text(table_rows(students, salt)).encode("utf-8"),
-        folder / COPY / "scene.toml": scene,
-        folder / COPY / "lab.toml": rule,
-        folder / MANIFEST: as_text(record).encode("utf-8"),
+    files = {
+        TABLE: table,
+        f"{COPY}/scene.toml": scene,
+        f"{COPY}/lab.toml": rule,
+        MANIFEST: as_text(record).encode("utf-8"),
     }
-    try:
-        refuse_existing(folder, list(targets), force)
-        (folder / COPY).mkdir(parents=True, exist_ok=True)
-        put_in_place(targets)
-    except OSError as error:
-        raise cannot_write(str(folder), error) from error
-    return list(targets)
+    return write_all(folder, files, force)
 
 
 def digest(data: bytes) -> str:
@@ -59,7 +54,7 @@ def kept_salt(folder: Path) -> str:
     """The salt of the manifest that stands in a folder; empty where none can be read."""
     try:
         salt = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))["salt"]
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return ""
     return salt if isinstance(salt, str) else ""
 

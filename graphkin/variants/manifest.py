@@ -36,7 +36,7 @@ def manifest(
     roster: str,
     salt: str,
 ) -> dict[str, Any]:
-    """The manifest of a class; ``hashes`` are of scene.toml, lab.toml and the roster."""
+    """The manifest of a class; ``hashes`` are of scene.toml, lab.toml, the table and the roster."""
     import numpy
 
     from graphkin import __version__

@@ -245,3 +245,31 @@ def test_numbers_need_no_drawing_library(args: tuple[str, ...]) -> None:
 
 def test_numbers_on_their_own_explain_without_numpy() -> None:
     assert "numpy" not in imported_by("explain", "pump")
+
+
+HOSTILE = "\x1b]0;owned\x07\x1b[31m\u202e\x9b1m"
+SHOWN = r"\u001b]0;owned\u0007\u001b[31m\u202e\u009b1m"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such names there")
+def test_nothing_that_a_terminal_obeys_is_printed_of_a_file_name(run: Run, tmp_path: Path) -> None:
+    """Neither among what is found nor among what is wrong; JSON means the same name."""
+    pump = (ROOT / "sheets/pump/scene.toml").read_text(encoding="utf-8")
+    scene, answers = tmp_path / f"{HOSTILE}.toml", tmp_path / "answers"
+    scene.write_text(pump, encoding="utf-8")
+    answers.mkdir()
+    (answers / f"{HOSTILE}.csv").write_text("field,value\nv_D,1\n", encoding="utf-8")
+    roster = tmp_path / "roster.csv"
+    roster.write_text("nr,id\n7,1\n", encoding="utf-8")
+    run("variants", "pump", roster, "-o", tmp_path / "class")
+    for args, channel in (
+        (("check", scene), "stdout"),
+        (("solve", scene, "--json"), "stdout"),
+        (("check", f"{scene}.none"), "stderr"),
+        (("sheet", scene, "-o", tmp_path / HOSTILE), "stdout"),
+        (("grade", tmp_path / "class", answers), "stderr"),
+    ):
+        result = run(*args)
+        assert SHOWN in getattr(result, channel)
+        assert not set(HOSTILE) & set("\x1b\x07\u202e\x9b") & set(result.stdout + result.stderr)
+    assert json.loads(run("solve", scene, "--json").stdout)["name"] == HOSTILE

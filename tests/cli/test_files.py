@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import sys
+import threading
 from pathlib import Path
 
 import pytest
 
 from graphkin.errors import PageError
+from graphkin.paper import files
 from graphkin.paper.files import RESERVED, file_part, file_stem, write_all
 
 FILES = {"a.txt": b"one", "b.txt": b"two", "c.txt": b"three"}
@@ -129,3 +132,65 @@ def test_long_stems_are_cut_and_kept_apart() -> None:
     assert one != other
     assert max(len(stem.encode("utf-8")) for stem in (one, other)) <= 180
     assert file_stem("pump", {"n": "7"}) == "pump-n7"
+
+
+DEAD = 99_999_999
+"""A process that cannot be: Linux gives numbers up to 4 194 304."""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes are not asked there")
+def test_what_a_killed_run_left_aside_is_removed_and_nothing_else(tmp_path: Path) -> None:
+    inner = tmp_path / "feedback"
+    inner.mkdir()
+    stale = [tmp_path / f".graphkin-{DEAD}-0.part", inner / f".graphkin-{DEAD}-11.part"]
+    others = [
+        tmp_path / f".graphkin-{os.getppid()}-0.part",
+        tmp_path / f".graphkin-{DEAD}.part",
+        tmp_path / "other.part",
+    ]
+    for path in (*stale, *others):
+        path.write_bytes(b"half")
+    write_all(tmp_path, {"a.svg": b"a", "feedback/b.html": b"b"}, force=False)
+    assert not any(path.exists() for path in stale)
+    assert all(path.exists() for path in others)
+    assert names(inner) == ["b.html"]
+
+
+def test_of_runs_at_once_without_force_one_writes_and_the_others_are_told(tmp_path: Path) -> None:
+    """Each finds the way free, then waits for the one that holds the folder."""
+    start = threading.Barrier(4)
+    found: list[object] = []
+
+    def run(number: int) -> None:
+        start.wait()
+        try:
+            found.append(write_all(tmp_path, {"a.svg": b"%d" % number, "b.svg": b"x"}, force=False))
+        except PageError as error:
+            found.append(str(error))
+
+    threads = [threading.Thread(target=run, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert sum(isinstance(each, list) for each in found) == 1
+    assert sum("exists already" in each for each in found if isinstance(each, str)) == 3
+    assert names(tmp_path) == ["a.svg", "b.svg"]
+
+
+def test_what_comes_into_a_folder_while_a_run_waits_is_not_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The way was free when the run came; another run wrote before it held the folder."""
+    (tmp_path / "a.svg").write_bytes(b"other")
+    looked: list[Path] = []
+    refuse = files.refuse_existing
+
+    def late(folder: Path, targets: list[Path], force: bool) -> None:
+        looked.append(folder)
+        refuse(folder, targets, force or len(looked) == 1)
+
+    monkeypatch.setattr(files, "refuse_existing", late)
+    with pytest.raises(PageError, match="exists already"):
+        write_all(tmp_path, {"a.svg": b"new"}, force=False)
+    assert (tmp_path / "a.svg").read_bytes() == b"other"

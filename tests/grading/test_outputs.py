@@ -455,7 +455,6 @@ def dying(path, target):
     return rename(path, target)
 pathlib.Path.replace = dying
 from graphkin.cli import app
-from graphkin.grading import gradebook_csv
 app(sys.argv[1:])
 """
 

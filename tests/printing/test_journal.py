@@ -104,3 +104,10 @@ def test_a_key_changes_with_anything_that_decides_the_bytes():
     assert key_of("a", {"n": "7"}, ("x",)) == key_of("a", {"n": "7"}, ["x"])
     assert key_of("a", {"n": "7"}) != key_of("a", {"n": "8"})
     assert key_of("ab", "c") != key_of("a", "bc")
+
+
+def test_a_line_nested_beyond_reason_is_as_if_it_had_not_been_written(tmp_path):
+    Journal(tmp_path).write([entry(tmp_path, "A", "k", one=b"1")])
+    with (tmp_path / JOURNAL).open("ab") as stream:
+        stream.write(b'{"part": ' + b"[" * 100_000 + b"\n")
+    assert list(Journal(tmp_path).entries) == ["A"]

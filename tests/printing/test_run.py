@@ -15,9 +15,9 @@ import pytest
 
 from graphkin.errors import PageError
 from graphkin.paper import files
+from graphkin.paper.lock import LOCK, locked
 from graphkin.printing import run as running
 from graphkin.printing.journal import JOURNAL
-from graphkin.printing.lock import LOCK, locked
 from graphkin.printing.manifest import read_edition
 from graphkin.printing.run import Means, Outcome, Wishes, print_class
 from tests.printing.conftest import LEVER, LEVER_LAB, code_of, tree, write_class
@@ -123,7 +123,7 @@ def test_a_run_that_ends_at_any_moment_is_resumed_exactly(whole, make, monkeypat
         if how == "half":
             names[0].write_bytes(targets[names[0]])
         elif how == "half a file":
-            aside = names[0].with_name(".graphkin-1-0.part")
+            aside = names[0].with_name(".graphkin-99999999-0.part")
             aside.write_bytes(targets[names[0]][:100])
         raise Killed
 

@@ -8,9 +8,13 @@ import io
 import json
 import os
 import shutil
+import signal
+import subprocess
+import sys
 from base64 import b32encode
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -22,6 +26,7 @@ from graphkin.lab.fair import judged
 from graphkin.lab.model import Fair, Range, Ranges
 from graphkin.lab.read import read_lab
 from graphkin.lab.rules import settings
+from graphkin.printing.manifest import read_edition
 from graphkin.roster.errors import RosterError
 from graphkin.roster.model import Student
 from graphkin.roster.read import read_roster
@@ -218,9 +223,48 @@ def test_a_class_that_is_written_again_keeps_its_codes_and_its_bytes(written, ro
     assert {p: p.read_bytes() for p in folder.rglob("*") if p.is_file()} == before
 
 
-def test_a_salt_that_cannot_be_read_is_made_anew(written, roster):
+DIES = """
+import os, pathlib, signal, sys
+rename, left = pathlib.Path.replace, [2]
+def dying(path, target):
+    left[0] -= 1
+    if not left[0]:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return rename(path, target)
+pathlib.Path.replace = dying
+from graphkin.cli import app
+app(sys.argv[1:])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
+def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp_path, roster):
+    """The table is new and the manifest old; print and grade take neither for the other."""
+    folder, other = tmp_path / "class", tmp_path / "other.csv"
+    other.write_text("number;id;limba\n3;0003;it\n", encoding="utf-8")
+    assert run("variants", "pump", roster, "-o", folder).exit_code == 1
+    args = ["variants", "pump", other, "-o", folder, "--force"]
+    command = [sys.executable, "-c", DIES, *map(str, args)]
+    around = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[2])}
+    killed = subprocess.run(command, env=around, capture_output=True, check=False)
+    assert killed.returncode == -signal.SIGKILL
+    assert list(folder.rglob("*.part"))
+    for command in (("print", folder), ("grade", folder, other)):
+        refused = run(*command)
+        assert refused.exit_code == 2
+        assert "variants.csv: is another one; expected the table that was written with" in (
+            refused.stderr
+        )
+    assert run(*args).exit_code == 0
+    assert not list(folder.rglob("*.part"))
+    (only,) = read_edition(folder).variants
+    assert (only.id, only.spoken) == ("0003", "it")
+
+
+@pytest.mark.parametrize("text", ["{", "[" * 100_000])
+def test_a_salt_that_cannot_be_read_is_made_anew(written, roster, text):
     lab, found, raw, folder = written
-    (folder / "manifest.json").write_text("{", encoding="utf-8")
+    (folder / "manifest.json").write_text(text, encoding="utf-8")
     write_class(folder, lab, found, roster, force=True)
     again = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     assert again["salt"] != raw["salt"]

@@ -8,28 +8,33 @@ import socket
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from errno import ENOLCK, ENOSYS, EOPNOTSUPP
 from pathlib import Path
-from time import time
+from time import monotonic, sleep, time
 from typing import Any
 
 from graphkin.errors import PageError, Problem
 
-LOCK = ".lock"
+LOCK = ".graphkin-lock"
 """The file that is locked; it says who holds it."""
+AGAIN = 0.05
+"""Seconds until a lock that is waited for is tried again."""
+LOCKLESS = (ENOLCK, ENOSYS, EOPNOTSUPP)
+"""What file systems say that have no locks: their folders are written without."""
 FAR = 1 << 30
 """Where the lock itself lies, in bytes: beyond the text, so that others can read that."""
 
 
 @contextmanager
-def locked(folder: Path) -> Iterator[str]:
+def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
     """Hold a folder while files are written into it; gives who left it without letting go.
 
     That is empty after a run that ended well. A process that was killed holds nothing: its lock
     is stale, and taken over. Raises PageError, with the process and its age, when another run
-    holds the folder.
+    holds the folder, and still does after ``patience`` seconds.
     """
     path = folder / LOCK
-    handle = opened(path)
+    handle = opened(path, monotonic() + patience)
     try:
         left = told(handle)
         sign = {"pid": os.getpid(), "host": socket.gethostname(), "since": int(time())}
@@ -43,20 +48,23 @@ def locked(folder: Path) -> Iterator[str]:
         os.close(handle)
 
 
-def opened(path: Path) -> int:
+def opened(path: Path, until: float) -> int:
     """The lock file, locked by this process, and still the one that bears its name."""
     while True:
         handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
         try:
-            if not taken(handle):
+            if taken(handle):
+                with suppress(OSError):
+                    if os.path.samestat(os.fstat(handle), path.stat()):
+                        return handle
+            elif monotonic() < until:
+                sleep(AGAIN)
+            else:
                 raise PageError(in_use(path, told(handle)))
-            with suppress(OSError):
-                if os.path.samestat(os.fstat(handle), path.stat()):
-                    return handle
         except BaseException:
             os.close(handle)
             raise
-        os.close(handle)  # its last holder removed it just before we locked it
+        os.close(handle)  # its last holder removed it just before we locked it, or holds it still
 
 
 def taken(handle: int) -> bool:
@@ -73,6 +81,22 @@ def taken(handle: int) -> bool:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except (BlockingIOError, PermissionError):
         return False
+    except OSError as error:
+        if error.errno not in LOCKLESS:
+            raise
+    return True
+
+
+def alive(process: int) -> bool:
+    """Whether a process of this computer lives; where it cannot be asked, that it does not."""
+    if sys.platform == "win32":  # os.kill would end it
+        return False
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:
+        return True
     return True
 
 
@@ -81,7 +105,7 @@ def told(handle: int) -> dict[str, Any]:
     os.lseek(handle, 0, os.SEEK_SET)
     try:
         found = json.loads(os.read(handle, 4096) or b"{}")
-    except ValueError:
+    except (ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
 

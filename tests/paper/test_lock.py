@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import signal
@@ -12,13 +13,14 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import PageError
-from graphkin.printing.lock import LOCK, ago, locked
+from graphkin.paper import lock
+from graphkin.paper.lock import LOCK, ago, alive, locked
 
 ROOT = Path(__file__).resolve().parents[2]
 HOLD = """
 import sys, time
 from pathlib import Path
-from graphkin.printing.lock import locked
+from graphkin.paper.lock import locked
 with locked(Path(sys.argv[1])):
     print("held", flush=True)
     time.sleep(60)
@@ -68,8 +70,9 @@ def test_nothing_is_left_behind(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_lock_that_says_nothing_readable_is_taken(tmp_path):
-    (tmp_path / LOCK).write_bytes(b"\xff[1, 2")
+@pytest.mark.parametrize("said", [b"\xff[1, 2", b"[" * 4096])
+def test_a_lock_that_says_nothing_readable_is_taken(tmp_path, said):
+    (tmp_path / LOCK).write_bytes(said)
     with locked(tmp_path) as left:
         assert left == ""
 
@@ -82,3 +85,42 @@ def test_ages_are_told_in_the_unit_that_suits():
         "119 min ago",
         "2 h ago",
     ]
+
+
+def test_a_lock_that_is_waited_for_is_taken_when_it_is_free(tmp_path, monkeypatch):
+    """The second run comes while the first holds the folder, and goes on when that has ended."""
+    first = locked(tmp_path)
+    first.__enter__()
+    waited = []
+
+    def pause(seconds):
+        waited.append(seconds)
+        if len(waited) == 3:
+            first.__exit__(None, None, None)
+
+    monkeypatch.setattr(lock, "sleep", pause)
+    with locked(tmp_path, patience=1000):
+        assert len(waited) == 3
+    with locked(tmp_path), pytest.raises(PageError, match="another run"), locked(tmp_path, 0.0):
+        pass
+
+
+def test_a_folder_without_locks_is_written_all_the_same(tmp_path, monkeypatch):
+    fcntl = pytest.importorskip("fcntl")
+
+    def none(handle, what):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", none)
+    with locked(tmp_path) as left:
+        assert left == ""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes are not asked there")
+def test_processes_that_live_are_known(holder):
+    assert alive(os.getpid())
+    assert alive(holder.pid)
+    holder.kill()
+    holder.wait()
+    assert not alive(holder.pid)
+    assert not alive(10**30)
