@@ -13,6 +13,7 @@ from graphkin.scene.quantity import Quantity, exact
 from graphkin.scene.words import line_words, link_name
 
 MOST = 50
+DERIVED = "speed and acceleration are the derivatives of a law, which must be finite at its time"
 Kind = Literal["turn", "slide", "roll"]
 KINDS: tuple[Kind, ...] = ("turn", "slide", "roll")
 
@@ -118,6 +119,6 @@ def derivatives(
     except SceneError as error:
         measures.findings.extend(error.problems)
         return position, exact(0), exact(0)
-    if measures.exists(speed):
-        measures.exists(acceleration)
+    if measures.exists(speed, hint=DERIVED):
+        measures.exists(acceleration, hint=DERIVED)
     return position, speed, acceleration

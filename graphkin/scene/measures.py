@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral, Rational, Real
@@ -108,18 +109,18 @@ class Measures:
             )
         return law and not unknown and TIME in self.values
 
-    def exists(self, read: Quantity, positive: bool = False) -> bool:
+    def exists(self, read: Quantity, positive: bool = False, hint: str = "") -> bool:
         """Whether a quantity has a value now, and a positive one where it must."""
         try:
             value = read.number(self.values)
         except SceneError as error:
-            self.findings.extend(error.problems)
+            self.findings.extend(replace(problem, hint=hint) for problem in error.problems)
             return False
         tiny = positive and 0 < value * LARGEST < 1
         if tiny or abs(value) > LARGEST:
             found = f"{shown(read.text)} is out of range"
             expected = f"a number between 1e-{FARTHEST} and 1e{FARTHEST}"
-            self.findings.add(read.place, found, expected)
+            self.findings.add(read.place, found, expected, hint)
             return False
         if positive and value <= 0:
             found = read.written(self.values)

@@ -69,8 +69,10 @@ class Quantity:
             return self.tree.value
         try:
             value = reckoned(self.tree, values, kind)
-        except (UnreckonableError, OverflowError) as error:
+        except UnreckonableError as error:
             raise SceneError(self.problem(str(error), values)) from None
+        except OverflowError:
+            raise SceneError(self.problem("a number that grows without bound", values)) from None
         except KeyError as error:
             raise SceneError(self.problem(f"no value for {error.args[0]}", values)) from None
         if isinstance(value, float) and not math.isfinite(value):

@@ -107,8 +107,11 @@ def power(base: Any, exponent: Any, kind: Kind) -> Any:
         if whole < 0:
             return quotient(Fraction(1), power(base, -exponent, kind))
         return bounded(base**whole) if isinstance(base, Fraction) else base**whole
-    if not hasattr(base, "shape") and not hasattr(exponent, "shape") and base < 0:
-        raise UnreckonableError("a broken power of a negative number")
+    if not hasattr(base, "shape") and not hasattr(exponent, "shape"):
+        if base < 0:
+            raise UnreckonableError("a broken power of a negative number")
+        if base == 0 and exponent < 0:
+            raise UnreckonableError("division by zero")
     return inexact(base, kind) ** inexact(exponent, kind)
 
 

@@ -108,3 +108,40 @@ def test_a_law_needs_a_time() -> None:
     text = LAW.format(driver='turn = 1\nangle = "30*t"').replace('time = "n/14"', "")
     with pytest.raises(SceneError, match="uses the time t, and the scene has no time"):
         read_text(text, "law")
+
+
+@pytest.mark.parametrize(
+    ("law", "first", "at"),
+    [
+        ("t**0.5", "speed", 0),
+        ("t**(1/3)", "speed", 0),
+        ("sqrt(t)", "speed", 0),
+        ("(1 - t)**0.5", "speed", 1),
+        ("1/3 + (2*t)**0.9", "speed", 0),
+        ("t**1.5", "acceleration", 0),
+        ("(1-cos(360*t))**1.5", "acceleration", 0),
+        ("t**(n/4)", "acceleration", 0),
+        ("t**-0.5", "law", 0),
+    ],
+)
+def test_a_derivative_that_is_infinite_is_told_with_its_place(
+    law: str, first: str, at: int
+) -> None:
+    """The speed of t^½ at 0 is 1/(2·√0); t^1½ has a speed there, and no acceleration."""
+    with pytest.raises(SceneError) as caught:
+        text = LAW.format(driver=f'turn = 1\nangle = "{law}"').replace("n/14", str(at))
+        read_text(text, "law")
+    (problem,) = caught.value.problems
+    assert problem.place == "drivers[0].angle"
+    what = {"law": law, "speed": f"d({law})/dt", "acceleration": f"d(d({law})/dt)/dt"}[first]
+    assert problem.found.startswith(f'"{what}" gives division by zero with ')
+    assert f"t = {at}" in problem.found
+    assert ("finite at its time" in problem.hint) == (first != "law")
+
+
+def test_a_power_that_is_smooth_at_nought_is_followed() -> None:
+    """t^2½ has the speed 2.5·t^1½ and the acceleration 3.75·√t, both 0 at 0."""
+    text = LAW.format(driver='turn = 1\nangle = "t**2.5"').replace("n/14", "0")
+    driver = read_text(text, "law").drivers[0]
+    values = {"t": Fraction(0), "n": Fraction(7)}
+    assert driver.speed.number(values) == driver.acceleration.number(values) == 0
