@@ -125,17 +125,14 @@ def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:
 
     found = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(book.data)) as packed, zipfile.ZipFile(found, "w") as again:
-        changed = {}
-        for part in book.sheets if numbers else ():
-            xml = packed.read(part)
-            new = with_numbers(xml, numbers if part == book.sheet else {})
-            changed |= {part: new} if new != xml else {}
-        if changed.keys() - {book.sheet} or book.formulas:
-            changed |= {
-                part: computed_anew(packed.read(part))
-                for part in packed.namelist()
-                if changed and WORKBOOK.fullmatch(part)
-            }
+        changed: dict[str, bytes] = {}
+        for name in book.sheets if numbers else ():
+            xml = packed.read(name)
+            new = with_numbers(xml, numbers if name == book.sheet else {})
+            changed |= {name: new} if new != xml else {}
+        if changed.keys() - {book.sheet} or (changed and book.formulas):
+            main = filter(WORKBOOK.fullmatch, packed.namelist())
+            changed |= {name: computed_anew(packed.read(name)) for name in main}
         for part in packed.infolist():
             content = packed.read(part)
             again.writestr(copy(part), changed.get(part.filename, content), part.compress_type)

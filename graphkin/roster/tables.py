@@ -90,6 +90,7 @@ def read_sheet(path: Path, heads: Sequence[str] = (), told: Told | None = None) 
     path = Path(path)
     data = bytes_of(path)
     own, told = told is None, told or Told(path.name)
+    rows: Iterable[Row]
     if data.startswith(OLD_EXCEL):
         hint = "save it as .xlsx or as CSV UTF-8"
         raise RosterError(Problem(path.name, "is an old Excel file (.xls)", "CSV or XLSX", hint))

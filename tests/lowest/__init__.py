@@ -1,0 +1,1 @@
+"""The lowest versions of all libraries that pyproject.toml names, tried."""
