@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from math import degrees
+from typing import NewType
 
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words
 
+OnPaper = NewType("OnPaper", float)
+"""A length as it is drawn, in mm of paper; a length of the mechanism is a float, in metres."""
 LONGEST = 9
 """Signs of the longest number printed in full among the data."""
 
@@ -19,10 +22,10 @@ def in_degrees(scene: Scene, words: Words, quantity: Quantity) -> str:
     return f"{words.fixed(degrees(float(quantity.si(scene.values))), 2)}°"
 
 
-def in_mm(words: Words, length: float) -> str:
+def in_mm(words: Words, length: OnPaper) -> str:
     """A drawn length in mm as it is written: one that no ruler shows as less than what one does."""
     under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
-    return words.fixed(length, 2) if length == 0 or length >= 0.005 else under
+    return under if 0 < abs(length) < 0.005 else words.fixed(length, 2)
 
 
 def written(scene: Scene, words: Words, quantity: Quantity) -> str:

@@ -94,7 +94,7 @@ def found_place(drawing: Drawing, step: Step) -> dict[str, str]:
     return {
         "what": drawn_amount(drawing, abs(size)),
         "side": drawing.words(f"page.{side}"),
-        "zero": place(drawing, path.on, zero),
+        "zero": place(drawing, path.on, zero, on_paper=True),
     }
 
 

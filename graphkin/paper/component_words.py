@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.paper.amounts import in_mm
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.letters import is_coriolis, letter_on, no_base, no_triangle
-from graphkin.paper.naming import NAUGHT, plan_amount, rate_symbol, scale_of, vector_of
+from graphkin.paper.naming import NAUGHT, plan_amount, rate_symbol, vector_of
 from graphkin.paper.sentence import Sentence, in_one, together
 from graphkin.paper.short import is_short
 from graphkin.paper.symbolic import bar, symbol
@@ -45,12 +44,12 @@ def component_sentence(drawing: Drawing, number: int, step: Step, *, first: bool
 def left_out(drawing: Drawing, step: Step, size: float) -> str:
     """A component that is too short to be drawn: what it is, and how long it would be."""
     says = step.says
-    drawn = in_mm(drawing.words, 1000 * size / scale_of(drawing, drawing.plane))
+    drawn = plan_amount(drawing, drawing.plane, size)
     if step.action is not None and step.action.key == "normal":
         whole = f"{symbol('v_' + says['v'])}^2/{bar(says['p'], says['q'])}"
-        return f"{symbol('a_' + says['i'] + '^ν')} = {whole} ({drawn} mm)"
+        return f"{symbol('a_' + says['i'] + '^ν')} = {whole} ({drawn})"
     whole = f"2{rate_symbol(drawing, step.args[0])}·{symbol('v_' + says['i'])}"
-    return f"{symbol('a_' + says['i'] + '^c')} = {whole} ({drawn} mm)"
+    return f"{symbol('a_' + says['i'] + '^c')} = {whole} ({drawn})"
 
 
 def normal_sentence(drawing: Drawing, step: Step, *, first: bool) -> str:
@@ -90,7 +89,7 @@ def computed_normal(drawing: Drawing, number: int, step: Step) -> str:
         bar=bar(says["p"], says["q"]),
         v=symbol("v_" + says["v"]),
         a=symbol(f"a_{says['i']}^ν"),
-        drawn=plan_amount(drawing, size, Plane.ACCELERATIONS),
+        drawn=plan_amount(drawing, Plane.ACCELERATIONS, size),
     )
 
 
@@ -103,7 +102,7 @@ def coriolis_sentence(drawing: Drawing, number: int, step: Step, *, first: bool)
         "v": symbol("v_" + step.says["i"]),
         "segment": "".join(symbol(steps[arg].name) for arg in step.args[1:]),
         "omega": rate_symbol(drawing, step.args[0]),
-        "drawn": plan_amount(drawing, size, Plane.ACCELERATIONS),
+        "drawn": plan_amount(drawing, Plane.ACCELERATIONS, size),
     }
     if drawing.settled(size) == 0:
         return drawing.words("step.coriolis-none", **fields)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from graphkin.paper.amounts import in_mm
+from graphkin.paper.amounts import OnPaper, in_mm
 from graphkin.paper.areas import Rect
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.field import XY, Field, clipped
@@ -58,7 +58,7 @@ def middle(tail: XY, tip: XY) -> XY:
     return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
 
 
-def note_tiny(desk: Desk, name: str, length: float) -> None:
+def note_tiny(desk: Desk, name: str, length: OnPaper) -> None:
     """Name a vector that is too short to be seen at the foot of its field."""
     words, drawing = desk.drawing.words, desk.drawing
     factor = scale_of(drawing, drawing.plane)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from graphkin.paper.amounts import OnPaper
 from graphkin.paper.paths import shown
 from graphkin.paper.scale import Extent, Scales, extent_of
 from graphkin.paper.standing import Standing
@@ -260,6 +261,10 @@ class Drawing:
     def length(self, metres: float) -> float:
         """A length in the scene's own unit."""
         return metres / METRES[self.scene.units["length"]]
+
+    def on_paper(self, metres: float) -> OnPaper:
+        """How long a length of the mechanism is drawn."""
+        return OnPaper(1000 * metres / self.scales.kL)
 
     def at_scale(self, plane: Plane, value: complex) -> complex:
         """A value of a plan in metres of the mechanism, drawn side by side with it."""

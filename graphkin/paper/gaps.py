@@ -14,7 +14,6 @@ from graphkin.paper.falling import rate_at_rest
 from graphkin.paper.lines import axis_of
 from graphkin.paper.misses import tried_link
 from graphkin.paper.naming import (
-    amount,
     beyond,
     drawn_amount,
     drawn_between,
@@ -101,9 +100,8 @@ def on_mechanism(
             return found | ({"turned": turned} if turned else {})
         case "inflection-point":
             away = abs(values[drawing.number_of(step)] - values[step.args[0]])
-            drawn = words.fixed(1000 * away / drawing.scales.kL, 1)
             names = {"a": symbol(f"a_{says['p']}"), "omega": symbol(f"ω_{says['k']}")}
-            return {"drawn": drawn, **names}
+            return {"drawn": drawn_amount(drawing, away), **names}
         case "inflection-pole":
             return {"omega": symbol(f"ω_{says['k']}")}
         case "velocity-normal":
@@ -247,11 +245,11 @@ def coordinate(drawing: Drawing, step: Step) -> str:
     if given.given is None or given.name != "s":
         return drawn_amount(drawing, size)
     name = angle_symbol(drawing.scene, drivers[int(given.says["d"])])
-    return f"{name} = {amount(drawing, size)}"
+    return f"{name} ({drawn_amount(drawing, size)})"
 
 
 def derived(drawing: Drawing, number: int) -> str:
     """The length of a bar that the scene does not state but that follows from its plate."""
     if drawing.trace.program.steps[number].given is not None:
         return ""
-    return f" = {amount(drawing, float(drawing.trace.values[number]))}"
+    return f" ({drawn_amount(drawing, float(drawing.trace.values[number]))})"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from math import degrees
 
-from graphkin.paper.amounts import written
+from graphkin.paper.amounts import in_mm, written
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import bar, symbol
@@ -16,11 +16,15 @@ FINE = 4
 """Decimals of angles and places that are reckoned from those of the scene."""
 
 
-def straight(drawing: Drawing, path: Slide | Rolling) -> str:
-    """A line through a point at an angle: to the axis of the frame, or of a link that turns."""
+def straight(drawing: Drawing, path: Slide | Rolling, *, on_paper: bool = False) -> str:
+    """A line through a point at an angle: to the axis of the frame, or of a link that turns.
+
+    Its point is told as the scene has it, or as it is drawn.
+    """
     assert path.angle is not None and path.through is not None
     words, link = drawing.words, drawing.scene.link(path.on)
-    fields = {"k": escape(path.on), "through": place(drawing, path.on, path.through)}
+    through = place(drawing, path.on, path.through, on_paper=on_paper)
+    fields = {"k": escape(path.on), "through": through}
     if path.on == FRAME:
         return words("page.line", angle=written(drawing.scene, words, path.angle), **fields)
     lean = leaning(drawing, link)
@@ -33,24 +37,35 @@ def straight(drawing: Drawing, path: Slide | Rolling) -> str:
     return words("page.line_of", angle=turn_to, axis=axis_of(drawing, link), **fields)
 
 
-def place(drawing: Drawing, on: str, through: str | tuple[Quantity, Quantity]) -> str:
-    """A point by its name, or by its coordinates; on a link that does not turn from its pin."""
-    scene, words = drawing.scene, drawing.words
+def place(
+    drawing: Drawing, on: str, through: str | tuple[Quantity, Quantity], *, on_paper: bool = False
+) -> str:
+    """A point by its name, or by its coordinates; on a link that does not turn from its pin.
+
+    The coordinates are as the scene has them, or as they are drawn.
+    """
     if isinstance(through, str):
         return symbol(through)
-    lean, link = leaning(drawing, scene.link(on)), scene.link(on)
-    unit = through[0].unit
-    if lean is None or not link.points:
-        x, y = (words.decimal(q.written(scene.values)) for q in through)
+    words, link = drawing.words, drawing.scene.link(on)
+    lean, away, pin = leaning(drawing, link), metres(drawing, through), ""
+    if lean is not None and link.points:
+        start = next(p for p in link.placings if isinstance(p, At) and p.point == link.points[0])
+        away, pin = (away - metres(drawing, (start.x, start.y))) * lean, start.point
+    unit = "mm" if on_paper else through[0].unit
+    if on_paper:
+        x, y = (in_mm(words, drawing.on_paper(part)) for part in (away.real, away.imag))
+    elif pin:
+        x, y = (number(drawing, drawing.length(part)) for part in (away.real, away.imag))
+    else:
+        x, y = (words.decimal(each.written(drawing.scene.values)) for each in through)
+    if not pin:
         return f"({x}; {y}) {unit}"
-    pin = next(p for p in link.placings if isinstance(p, At) and p.point == link.points[0])
-    local = (
-        complex(*(float(q.number(scene.values)) for q in ends))
-        for ends in (through, (pin.x, pin.y))
-    )
-    away = (next(local) - next(local)) * lean
-    x, y = (number(drawing, part) for part in (away.real, away.imag))
-    return words("page.away", x=x, y=y, unit=unit, point=symbol(pin.point))
+    return words("page.away", x=x, y=y, unit=unit, point=symbol(pin))
+
+
+def metres(drawing: Drawing, pair: tuple[Quantity, Quantity]) -> complex:
+    """A point of a link by its coordinates."""
+    return complex(*(float(each.si(drawing.scene.values)) for each in pair))
 
 
 def leaning(drawing: Drawing, link: Link) -> complex | None:

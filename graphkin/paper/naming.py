@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from graphkin.paper.amounts import in_mm
+from graphkin.paper.amounts import OnPaper, in_mm
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.relation import figure
 from graphkin.paper.richtext import escape
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import dot
@@ -70,10 +69,15 @@ def scale_of(drawing: Drawing, plane: Plane) -> float:
     return drawing.scales.kv if plane is Plane.VELOCITIES else drawing.scales.ka
 
 
-def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> float:
-    """How long a vector of a plan is drawn, in mm."""
+def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:
+    """How long a vector of a given size is drawn in a plan."""
+    return OnPaper(float(1000 * size / scale_of(drawing, plane)))
+
+
+def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> OnPaper:
+    """How long a vector of a plan is drawn."""
     values = drawing.trace.values
-    return float(1000 * abs(values[tip] - values[tail]) / scale_of(drawing, plane))
+    return drawn_in(drawing, plane, abs(values[tip] - values[tail]))
 
 
 def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
@@ -99,19 +103,14 @@ def is_driven(drawing: Drawing, number: int) -> bool:
     return step.given is not None and step.name in WELL_KNOWN
 
 
-def amount(drawing: Drawing, metres: float) -> str:
-    """A length in the scene's own unit."""
-    return f"{figure(drawing, drawing.length(metres))} {drawing.scene.units['length']}"
-
-
 def drawn_amount(drawing: Drawing, metres: float) -> str:
     """How long a length of the mechanism is drawn."""
-    return f"{drawing.words.fixed(1000 * metres / drawing.scales.kL, 2)} mm"
+    return f"{in_mm(drawing.words, drawing.on_paper(metres))} mm"
 
 
-def plan_amount(drawing: Drawing, size: float, plane: Plane) -> str:
+def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
     """How a vector of a given size is drawn in a plan."""
-    return f"{in_mm(drawing.words, 1000 * size / scale_of(drawing, plane))} mm"
+    return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
 
 
 def height_above(drawing: Drawing, step: Step) -> float:

@@ -169,7 +169,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
             name,
             "",
             f"{figure(drawing, 1000 * length)}/{number}",
-            figure(drawing, 1000 * length / scales.kL),
+            figure(drawing, drawing.on_paper(length)),
             "mm",
             words("calculation.drawn"),
         )

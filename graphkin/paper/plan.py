@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import hypot
 from typing import Any
 
+from graphkin.paper.amounts import OnPaper
 from graphkin.paper.desk import TINY, Desk, line_part, middle, note_tiny
 from graphkin.paper.field import XY
 from graphkin.paper.labels import Label
@@ -131,7 +132,7 @@ def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
     if length > 0:
         desk.board.marks += arrow(tail, tip, cls, step.name, number)
     if length < TINY:
-        note_tiny(desk, symbol(step.says["symbol"]), length)
+        note_tiny(desk, symbol(step.says["symbol"]), OnPaper(length))
         return
     name, short = symbol(step.says["symbol"]), length < SHORT
     subject = middle(tail, tip) if short else (tail, tip)

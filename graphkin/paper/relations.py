@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from graphkin.paper.amounts import OnPaper
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.equations import is_laid_off, of_contacts, of_equations
 from graphkin.paper.misses import Miss, driver_of, misses
-from graphkin.paper.naming import drawn_between, scale_of, segment_of
+from graphkin.paper.naming import drawn_between, drawn_in, scale_of, segment_of
 from graphkin.paper.outset import of_driver, of_scales
 from graphkin.paper.rates import FINE, of_sum, of_turning, within
 from graphkin.paper.relation import Relation, answer, figure, length_of
@@ -56,7 +57,7 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     lengths = (each for link in links for how in link.placings for each in how.lengths())
     if {p, q} in ({start, end} for start, end, _ in lengths):
         return None
-    mm = 1000 * length_of(drawing, p, q) / drawing.scales.kL
+    mm = drawing.on_paper(length_of(drawing, p, q))
     return Relation(
         bar(p, q),
         "",
@@ -133,7 +134,8 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
         segment = segment_of(drawing, step)
         if not segment:
             segment = drawing.words("calculation.segment", name=symbol(name))
-        figures = f"{figure(drawing, scale / 1000)}·{drawn(drawing, 1000 * size / scale)}"
+        length = drawn(drawing, drawn_in(drawing, drawing.plane, size))
+        figures = f"{figure(drawing, scale / 1000)}·{length}"
         yield Relation(symbol(name), f"{k}·{segment}", figures, answer(drawing, size), unit)
 
 
@@ -177,7 +179,7 @@ def on_line(drawing: Drawing, crossed: Step) -> str:
     one, two = crossed.args[:2]
     whole = drawn_between(drawing, one, two, drawing.plane)
     share = float(drawing.trace.values[crossed.args[2]])
-    return f"{drawn(drawing, share * whole)}/{drawn(drawing, whole)}"
+    return f"{drawn(drawing, OnPaper(share * whole))}/{drawn(drawing, whole)}"
 
 
 def is_point(drawing: Drawing, number: int) -> bool:
@@ -200,7 +202,7 @@ def of_gaps(drawing: Drawing, step: Step, gaps: tuple[Miss, Miss]) -> Iterator[R
         yield Relation(name, "", f"{figures}{less}", size, unit, gap.remark(drawing))
 
 
-def drawn(drawing: Drawing, millimetres: float) -> str:
+def drawn(drawing: Drawing, millimetres: OnPaper) -> str:
     """A drawn length, to a thousandth of a millimetre or five digits."""
     return figure(drawing, millimetres if millimetres < 10 else round(millimetres, 3))
 
@@ -265,7 +267,8 @@ def of_place(drawing: Drawing, name: str, point: complex) -> Relation:
     pivots = drawing.scene.frame.points
     if not pivots:
         return Relation(name, result=f"({x}; {y})", unit=unit, remark=words("calculation.axes"))
-    way = 1000 * (point - drawing.standing.spot(pivots[0])) / drawing.scales.kL
-    measured = f"({words.fixed(way.real, 2)}; {words.fixed(way.imag, 2)})"
+    away = point - drawing.standing.spot(pivots[0])
+    parts = (drawing.on_paper(part) for part in (away.real, away.imag))
+    measured = "({}; {})".format(*(words.fixed(part, 2) for part in parts))
     remark = words("calculation.on_paper", pivot=symbol(pivots[0]), place=f"({x}; {y}) {unit}")
     return Relation(name, result=measured, unit="mm", remark=remark)

@@ -6,7 +6,7 @@ from math import degrees
 
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.lines import straight
-from graphkin.paper.naming import amount, drawn_amount, rate_symbol
+from graphkin.paper.naming import drawn_amount, rate_symbol
 from graphkin.paper.richtext import escape
 from graphkin.paper.sentence import Sentence, together
 from graphkin.paper.symbolic import symbol
@@ -20,9 +20,10 @@ SAME = 1e-9
 
 
 def track_line(drawing: Drawing, step: Step) -> str:
-    """The line of a straight track of a moving link, as the data have it."""
+    """The line of a straight track of a moving link, as it is drawn."""
     link, on = drawing.scene.links[step.says["g"]], step.says["h"]
-    return straight(drawing, next(r for r in link.rolls if r.on == on and r.angle is not None))
+    track = next(r for r in link.rolls if r.on == on and r.angle is not None)
+    return straight(drawing, track, on_paper=True)
 
 
 def is_moving_track(step: Step) -> bool:
@@ -106,6 +107,6 @@ def radius_to(drawing: Drawing, step: Step) -> dict[str, str]:
     disc = min(
         drawing.standing.discs, key=lambda disc: abs(disc.centre - where) + abs(disc.radius - size)
     )
-    count = "*m*·*z*/2 = " if disc.module else ""
-    radius = f"{symbol(f'r_{disc.link}')} = {count}{amount(drawing, size)}"
+    count = " = *m*·*z*/2" if disc.module else ""
+    radius = f"{symbol(f'r_{disc.link}')}{count} ({drawn_amount(drawing, size)})"
     return {"radius": radius, "o": symbol(disc.wheel.centre)}

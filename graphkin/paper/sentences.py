@@ -15,7 +15,7 @@ from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.indices import with_indices
 from graphkin.paper.naming import (
-    amount,
+    drawn_amount,
     height_above,
     way_of,
 )
@@ -133,7 +133,7 @@ def swing_sentence(drawing: Drawing, number: int, step: Step) -> str:
         q=symbol(says["q"]),
         k=escape(says["k"]),
         bar=bar(says["p"], says["q"]),
-        radius=amount(drawing, height_above(drawing, step)) if len(step.args) > 2 else "",
+        radius=drawn_amount(drawing, height_above(drawing, step)) if len(step.args) > 2 else "",
     )
 
 

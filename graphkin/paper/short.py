@@ -5,13 +5,13 @@ from __future__ import annotations
 from graphkin.paper.amounts import in_mm
 from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import scale_of
+from graphkin.paper.naming import drawn_in
 from graphkin.steps.program import Plane
 
 
 def is_short(drawing: Drawing, size: float, plane: Plane) -> bool:
     """True for a vector of a plan, by its magnitude, that is too short to be drawn."""
-    return bool(1000 * abs(size) / scale_of(drawing, plane) < TINY)
+    return drawn_in(drawing, plane, abs(size)) < TINY
 
 
 def laid_off(drawing: Drawing, key: str, size: float, **fields: str) -> str:
@@ -22,5 +22,5 @@ def laid_off(drawing: Drawing, key: str, size: float, **fields: str) -> str:
     if size == 0:
         return ""
     short = "_short" if is_short(drawing, size, drawing.plane) else ""
-    drawn = in_mm(drawing.words, 1000 * size / scale_of(drawing, drawing.plane))
+    drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, size))
     return drawing.words(f"calculation.{key}{short}", drawn=drawn, **fields)

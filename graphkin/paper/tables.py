@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from graphkin.paper.amounts import in_mm
+from graphkin.paper.amounts import OnPaper, in_mm
 from graphkin.paper.areas import Rect
 from graphkin.paper.columns import SMALL, Row, Table, laid_out
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.marks import Mark, Text
-from graphkin.paper.naming import scale_of, segment_of, way_of
+from graphkin.paper.naming import drawn_in, segment_of, way_of
 from graphkin.paper.richtext import escape, flowed
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Vector
@@ -24,15 +24,15 @@ LEADING = 2.9
 """Distance of the lines that say what is computed, in mm."""
 
 
-def vectors(drawing: Drawing) -> list[tuple[str, str, float, float]]:
+def vectors(drawing: Drawing) -> list[tuple[str, str, OnPaper, float]]:
     """The vectors of the plan: symbol, segment, drawn length (mm), true magnitude (SI)."""
-    scale = scale_of(drawing, drawing.plane)
     found = []
     for _, step, value in drawing.steps(drawing.plane):
         if step.arrow and isinstance(value, Vector):
             size = drawing.settled(abs(value.tip - value.tail))
             segment = segment_of(drawing, step)
-            found.append((step.says["symbol"], segment, 1000 * size / scale, size))
+            length = drawn_in(drawing, drawing.plane, size)
+            found.append((step.says["symbol"], segment, length, size))
     return found
 
 
@@ -51,7 +51,7 @@ def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     return rows
 
 
-def value_of(words: Words, size: float, length: float) -> str:
+def value_of(words: Words, size: float, length: OnPaper) -> str:
     """The value of a vector that is so many mm long; in two digits where it is next to nothing."""
     value = words.significant(size)
     return words.significant(size, 2) if length < UNSEEN and "·" in value else value

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from graphkin.paper.amounts import in_mm
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.misses import on_paper, tried_link
-from graphkin.paper.naming import index_of
+from graphkin.paper.misses import tried_link
+from graphkin.paper.naming import drawn_in, index_of
 from graphkin.paper.phrases import has_no_length
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.symbolic import bar, symbol
@@ -34,7 +34,7 @@ def turned(drawing: Drawing, step: Step, tag: str, link: str, rate: float) -> Re
     p, q, index = step.says["p"], step.says["q"], index_of(drawing, step.says)
     velocity, length = drawing.kind == "velocity", length_of(drawing, p, q)
     name, letter = (f"v_{index}{tag}", "ω") if velocity else (f"a_{index}{tag}^τ", "ε")
-    drawn = in_mm(drawing.words, rate * length * on_paper(drawing))
+    drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate * length))
     return Relation(
         symbol(name),
         f"{symbol(f'{letter}_{link}{tag}')}·{bar(p, q)}",
@@ -49,7 +49,7 @@ def turned(drawing: Drawing, step: Step, tag: str, link: str, rate: float) -> Re
 def slid(drawing: Drawing, step: Step, tag: str, rate: float) -> Relation:
     """What is tried of a slider along its guide, chosen as it is."""
     letter, unit = ("v", "m/s") if drawing.kind == "velocity" else ("a", "m/s^2")
-    drawn = in_mm(drawing.words, rate * on_paper(drawing))
+    drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate))
     remark = drawing.words("calculation.chosen_drawn", drawn=drawn)
     return Relation(
         symbol(f"{letter}_{step.says['q']}{tag}"), "", "", figure(drawing, rate), unit, remark

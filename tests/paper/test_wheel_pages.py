@@ -149,8 +149,8 @@ def test_the_points_of_a_wheel_that_stands_as_at_the_start_are_said_in_one_sente
 
 
 def test_where_two_gears_touch_is_told_by_a_radius():
-    assert said("gears-planet")[2].endswith("line of centres, r1 = m·z/2 = 60 mm from O")
-    assert said("gears-ring")[3].endswith("line of centres, r2 = m·z/2 = 40 mm from P")
+    assert said("gears-planet")[2].endswith("line of centres, r1 = m·z/2 (30.00 mm) from O")
+    assert said("gears-ring")[3].endswith("line of centres, r2 = m·z/2 (20.00 mm) from P")
 
 
 def test_an_acceleration_by_rolling_is_laid_off_in_the_sentence_that_gives_its_length():
