@@ -1,8 +1,9 @@
 """The moments of a motion that an animation shows, each one constructed anew.
 
-They begin where the scene stands: once round for a whole turn, to and fro for a range between
-dead points, from end to end for a time. Close to a dead point a driver at constant speed makes
-velocities and accelerations grow beyond all bounds; an animation turns back before.
+They begin where the scene stands and go in the sense of the driver's speed, so that every point
+moves as its velocity says: once round for a whole turn, from end to end for a range between dead
+points or a time, and then anew. Close to a dead point a driver at constant speed makes velocities
+and accelerations grow beyond all bounds; an animation ends before.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import GraphkinError, Problem, SceneError
 from graphkin.mechanism import Mechanism
-from graphkin.motion.driving import TURN
+from graphkin.motion.driving import TURN, stated
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.scale import Scales
 from graphkin.scaling import WANTED, drawing, natural_seconds, targets_of
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from graphkin.motion.pieces import Piece
 
 FRAMES = 72
-"""Pictures of a whole turn, of a way to and fro, or of a time."""
+"""Pictures of a whole turn or of a time; a range has half as many."""
 GROWN = 3.0
 """Before a dead point the motion is shown while its rates are so many times their middle ones."""
 LEAST, LITTLE = 4, 1e-4
@@ -63,7 +64,7 @@ class Motion:
 
     @property
     def shortened(self) -> bool:
-        """Whether the animation turns back before the ends of the range."""
+        """Whether the animation ends before the ends of the range."""
         slack = 1e-6 * (self.reached[1] - self.reached[0])
         return self.low > self.reached[0] + slack or self.high < self.reached[1] - slack
 
@@ -78,8 +79,9 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> Motion:
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
     places, order = (
-        round_trip(cycle, frames) if goes_round(cycle) else there_and_back(cycle, low, high, frames)
+        round_trip(cycle, frames) if goes_round(cycle) else end_to_end(cycle, low, high, frames)
     )
+    order = order if sense_of(cycle) > 0 else [*order[:1], *order[:0:-1]]
     found = [moment_at(cycle, place, words) for place in places]
     kept = [i for i, moment in enumerate(found) if moment is not None]
     if len(kept) < LEAST:
@@ -108,26 +110,23 @@ def round_trip(cycle: Cycle, frames: int) -> tuple[list[float], list[int]]:
     return [first + TURN * i / frames for i in range(frames)], list(range(frames))
 
 
-def there_and_back(
-    cycle: Cycle, low: float, high: float, frames: int
-) -> tuple[list[float], list[int]]:
-    """The places of a range: from where the scene stands to one end, to the other and back.
-
-    A time runs on to its end and begins again.
-    """
+def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list[float], list[int]]:
+    """The places of a range or a time: from where the scene stands to its end, then from its
+    beginning on."""
     start = min(max(place_in(cycle, low, high), low), high)
-    once = cycle.sweep.what == "time"
-    step = (high - low) / frames * (1 if once else 2)
+    step = (high - low) / frames * (1 if cycle.sweep.what == "time" else 2)
     below, above = (max(round(way / step), 1) for way in (start - low, high - start))
     below, above = (below if start > low else 0), (above if high > start else 0)
     places = [low + (start - low) * i / below for i in range(below)]
     places += [start + (high - start) * i / above for i in range(above)]
     places.append(high)
-    last = len(places) - 1
-    onwards = range(below, last + 1)
-    if once:
-        return places, [*onwards, *range(below)]
-    return places, [*onwards, *range(last - 1, -1, -1), *range(1, below)]
+    return places, [*range(below, len(places)), *range(below)]
+
+
+def sense_of(cycle: Cycle) -> int:
+    """In which sense the driver goes through its positions, by its speed; a time runs on."""
+    driver = cycle.sweep.driver
+    return -1 if driver is not None and stated(driver, cycle.sweep.original)[1] < 0 else 1
 
 
 def place_in(cycle: Cycle, low: float, high: float) -> float:

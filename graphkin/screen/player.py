@@ -1,4 +1,4 @@
-"""The page of a cycle: mechanism and plans that move to and fro or round, in one offline file."""
+"""The page of a cycle: mechanism and plans that move round or from end to end, in one offline file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from graphkin.screen.fields import ink_sheet
 from graphkin.screen.fields import placed as drawn
 from graphkin.screen.frames import MECHANISM, Stage, scale_bar, stage
 from graphkin.screen.lettered import GAP, LEFT, LETTER
-from graphkin.screen.moments import Motion, made, place_in
+from graphkin.screen.moments import Motion, made, place_in, sense_of
 from graphkin.screen.moving import Moving, moving
 from graphkin.screen.panes import AIR, room_in
 from graphkin.screen.pictured import driver_marks
@@ -43,6 +43,9 @@ POINTS = ("pin", "fixed-pivot", "point", "pole")
 """The classes of the circles that points are drawn as."""
 SPEEDS = (0.25, 0.5, 1.0, 2.0)
 """How many times as fast as usual it can be played."""
+
+TURN, WAY = 5.0, 3.5
+"""The seconds of a whole turn or a time, and of a range."""
 
 
 def player_page(motion: Motion, words: Words) -> str:
@@ -177,7 +180,7 @@ def controls(words: Words, moved: Moving, sheets: Sequence[ScreenSheet]) -> Iter
 
 
 def shortened(motion: Motion, moved: Moving, words: Words) -> Iterator[str]:
-    """Where the motion turns back before its dead points, and why."""
+    """Where the motion ends before its dead points, and why."""
     if not motion.shortened:
         return
     driven = moved.driven
@@ -215,8 +218,8 @@ def record(set_up: Stage, moved: Moving, sheets: Sequence[ScreenSheet]) -> dict[
         "low": low,
         "high": high,
         "start": min(max(driven.start, low), high),
-        "whole": moved.reach.whole,
-        "once": sweep.what == "time",
+        "seconds": WAY if sweep.driver is not None and not moved.reach.whole else TURN,
+        "sense": sense_of(motion.cycle),
         "unit": unit,
         "mark": words("decimal_mark"),
         "letters": [own for s, sheet in enumerate(sheets) for own in letters(set_up, sheet, s)],

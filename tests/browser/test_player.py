@@ -203,6 +203,34 @@ def test_it_stands_until_it_is_told_to_play(page_of, motion):
     assert moved(page) == 0
 
 
+@pytest.mark.parametrize("name", ["pump", "slider-crank-slider", "engine"])
+def test_beyond_its_end_it_begins_anew_and_never_goes_against_its_speed(page_of, name):
+    """A range and a whole turn, of drivers in both senses."""
+    found, _ = shown(name)
+    sense = 1 if found.cycle.sweep.driver.speed.si(found.cycle.scene.values) > 0 else -1
+    page = page_of(name, **STILL)
+    low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
+    near = high if sense > 0 else low
+    put(page, near - sense * 0.02 * (high - low))
+    page.get_by_role("button", name="Play").click()
+    at = page.evaluate(
+        """far => new Promise(done => {
+          const at = [], slider = document.getElementById("at");
+          const look = () => {
+            at.push(Number(slider.value));
+            const jumps = at.map((x, i) => i && Math.abs(x - at[i - 1]) > far);
+            if (jumps.indexOf(true) >= 0 && jumps.indexOf(true) < at.length - 5) done(at);
+            else requestAnimationFrame(look);
+          };
+          look();
+        })""",
+        (high - low) / 2,
+    )
+    steps = sense * np.diff(at)
+    assert np.sum(steps < 0) == 1
+    assert steps[-1] > 0
+
+
 @pytest.mark.parametrize("height", [844, 640])
 @pytest.mark.parametrize("name", ["pump", "oscillating-slide"])
 def test_a_phone_shows_all_fields_and_the_controls_at_once(page_of, name, height):
@@ -274,7 +302,7 @@ def test_the_page_is_accessible(page_of, look, width):
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
-def test_it_says_where_it_turns_back_and_why(page_of):
+def test_it_says_where_it_ends_and_why(page_of):
     found, _ = shown("pump")
     said = page_of("pump", **STILL).inner_text("#shown")
     for end in (found.low, found.high, *found.reached):

@@ -2,7 +2,6 @@
 // each place.
 const motion = graphkinMotion;
 const data = JSON.parse(document.getElementById("run").textContent);
-const TURN = 5, WAY = 3.5; // seconds of a whole turn or a time, and of a way from end to end
 const span = data.high - data.low;
 const found = new Map();
 // What is not there yet is looked for again: a mark may be made when it is first needed.
@@ -16,7 +15,7 @@ const byId = (id) => {
 };
 const play = byId("play"), slider = byId("at"), speed = byId("speed"), back = byId("back");
 const rows = [...document.querySelectorAll("[data-row]")];
-const state = { x: data.start, sense: 1, playing: false, last: 0 };
+const state = { x: data.start, playing: false, last: 0 };
 
 const numbers = (mark, names) => names.map((name) => Number(mark.getAttribute(name)));
 const hides = (mark) => mark.getAttribute("visibility") === "hidden";
@@ -110,17 +109,10 @@ function tell(row, value) {
   row.querySelector(".sense").innerHTML = value && senses ? `, ${senses[value > 0 ? 0 : 1]}` : "";
 }
 
-// Go on by some seconds: round, from end to end, or to and fro.
+// Go on by some seconds in the sense of the driver's speed, and beyond the end from the beginning.
 function go(seconds) {
-  const way = (seconds * span * Number(speed.value)) / (data.whole || data.once ? TURN : WAY);
-  let x = state.x + state.sense * way;
-  if (data.whole || data.once) {
-    x = data.low + ((x - data.low) % span);
-  } else if (x > data.high || x < data.low) {
-    state.sense = x > data.high ? -1 : 1;
-    x = 2 * (x > data.high ? data.high : data.low) - x;
-  }
-  show(x);
+  const way = data.sense * (seconds / data.seconds) * span * Number(speed.value);
+  show(data.low + ((((state.x + way - data.low) % span) + span) % span));
 }
 
 function frame(now) {
