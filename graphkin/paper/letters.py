@@ -44,6 +44,14 @@ def no_triangle(drawing: Drawing, step: Step, mm: float) -> bool:
     return bool(min(velocity, component) * mm < TINY)
 
 
+def is_left_out(drawing: Drawing, number: int) -> bool:
+    """True for a step of a triangle on the mechanism that is too short to be drawn."""
+    step, mm = drawing.trace.program.steps[number], 1000 / drawing.scales.kL
+    if step.part is not Part.NORMAL or step.plane is not Plane.MECHANISM:
+        return False
+    return no_base(drawing, number, mm) if is_coriolis(step) else no_triangle(drawing, step, mm)
+
+
 def ends_of(drawing: Drawing, step: Step) -> list[int]:
     """The tips of the velocity and of the component of the right triangle that a step is of."""
     return [

@@ -30,6 +30,8 @@ from graphkin.paper.tips import set_before
 from graphkin.paper.trials import share_sentence, trial_sentence, with_trials_together
 from graphkin.steps.program import Part, Plane, Step
 
+TURNING = "turning"
+"""The name of the last sentence where it says how the turning of links is read off."""
 COMPONENTS = ("normal", "coriolis")
 """Components that a triangle on the mechanism gives: in full the first time."""
 
@@ -49,17 +51,24 @@ def sentences(drawing: Drawing) -> list[Sentence]:
         for curve in drawing.curves
         if curve.kind not in ("fixed-centrode", "locus")
     ]
-    last = [Sentence(-1, "", markup)] if (markup := read_off(drawing)) else []
+    last = list(read_off(drawing))
     found = with_starts_together(drawing, with_trials_together(drawing, found))
     found = with_centres_together(drawing, found)
     return with_indices(drawing, [*with_normals_together(drawing, found), *last])
 
 
-def read_off(drawing: Drawing) -> str:
+def read_off(drawing: Drawing) -> Iterator[Sentence]:
     """What is read off at the end, if anything; how a link turns only where one is said to."""
     words, velocity = drawing.words, drawing.kind == "velocity"
     turns = any(drawing.turning(link) is not None for link in drawing.scene.links)
     turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
+    if markup := set_on_mechanism(drawing, turning):
+        yield Sentence(-1, TURNING if turns else "", markup)
+
+
+def set_on_mechanism(drawing: Drawing, turning: str) -> str:
+    """Which vectors are set on the mechanism, and how what turns is read off."""
+    words, velocity = drawing.words, drawing.kind == "velocity"
     part = Part.VELOCITY if velocity else Part.ACCELERATION
     early = set_before(drawing)
     lengths = [

@@ -7,6 +7,7 @@ from html import escape
 from math import degrees
 
 from graphkin.paper.tags import marked_up
+from graphkin.screen.reasons import NO_STEP
 from graphkin.screen.sheets import ScreenSheet
 from graphkin.screen.telling import Said, Telling
 from graphkin.steps.crossings import Crossing
@@ -32,14 +33,21 @@ def construction(sheets: Sequence[ScreenSheet], told: Telling) -> Iterator[str]:
 
 
 def sentence(words: Words, place: int, said: Said) -> str:
-    """A sentence, below it why, and the crossings of its lines."""
+    """A sentence, below it why, what is drawn aside, and the crossings of its lines."""
     named = zip(said.crossings, said.letters, strict=True)
     lines = "".join(crossing(words, found, name) for found, name in named)
     text = f'<span class="say">{marked_up(said.markup)}</span>'
     pairs = zip(said.why, said.of, strict=True)
-    parts = [f'<span data-for="{step}">{marked_up(why)}</span>' for why, step in pairs]
+    parts = [reason(why, step) for why, step in pairs]
     why = f'<small class="why">{"; ".join(parts)}</small>' if parts else ""
-    return f'<li id="step-{place}" value="{place}">{text}{why}{lines}</li>'
+    aside = f'<small class="aside" data-aside>{marked_up(said.aside)}</small>' if said.aside else ""
+    return f'<li id="step-{place}" value="{place}">{text}{why}{aside}{lines}</li>'
+
+
+def reason(why: str, step: int) -> str:
+    """A reason, with the step to which it belongs."""
+    of = "" if step == NO_STEP else f' data-for="{step}"'
+    return f"<span{of}>{marked_up(why)}</span>"
 
 
 def crossing(words: Words, found: Crossing, name: str) -> str:

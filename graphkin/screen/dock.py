@@ -44,6 +44,7 @@ def dock(words: Words, told: Telling, moves: Slider) -> str:
             f'<p id="behind"><span id="new-key">{escape(words("screen.new"))}</span> '
             f'<span id="from-key">{escape(words("screen.from"))}</span> ',
             '<span id="from"></span></p>',
+            '<p id="aside" data-aside></p>',
             '<p id="crossing"></p>',
             "</div>",
             '<div id="keys">',

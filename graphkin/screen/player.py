@@ -1,4 +1,4 @@
-"""The page of a cycle: mechanism and plans that move round or from end to end, in one offline file."""
+"""The page of a cycle: mechanism and plans that move, round or from end to end, in one file."""
 
 from __future__ import annotations
 

@@ -7,9 +7,13 @@ from string import Formatter
 
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import OWN
+from graphkin.paper.letters import is_left_out
 from graphkin.paper.naming import names_in
+from graphkin.paper.sentence import Sentence
+from graphkin.paper.sentences import TURNING
 from graphkin.paper.standing import lettered
 from graphkin.paper.symbolic import bar, symbol
+from graphkin.paper.trial_falls import fallen_on
 from graphkin.screen.labelled import as_labelled
 from graphkin.steps.program import Part, Plane, Step
 from graphkin.text import Words
@@ -46,16 +50,18 @@ WHY = {
     (Part.POLE, "acceleration-pole"): "why.pole",
 }
 """The key of the reason for an action in a part of the work; others need none."""
-EACH = ("why.square", "why.along")
-"""The reasons that are given for each line, not only for the first of its kind."""
 AGAIN = {
     "why.height": "why.height_again",
     "why.normal": "why.normal_again",
     "why.tangential": "why.tangential_again",
 }
 """What is said of the second and each further one of a kind."""
-LAST = "why.meet"
-"""The reason that is given at the end."""
+LAST, LAST_OF_MANY = "why.meet", "why.meet_many"
+"""The reason that is given at the end, for all points at once."""
+TURNS = {"velocity": "why.omega", "acceleration": "why.epsilon"}
+"""Why the turning of links is read off as each sheet says."""
+NO_STEP = -1
+"""Whose reason it is that belongs to no single step."""
 BY_HAND = {Plane.MECHANISM: "why.arcs"}
 """The reason for a point of a plate that is found by two lines or arcs; in a plan they meet."""
 
@@ -68,17 +74,34 @@ def reasons(
     ``labels`` are those of the drawing, by the names of what they stand at.
     """
     parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
-    found: dict[str, tuple[str, int]] = {}
+    found: dict[str, int] = {}
+    given: set[str] = set()
+    met: dict[str, int] = {}
     for number in sorted(numbers):
         step = drawing.trace.program.steps[number]
         key, known = reason(drawing, step), fields(step)
-        if step.part in parts and key and all(known[gap] for gap in gaps(drawing.words, key)):
-            key = AGAIN.get(key, key) if key in found else key
-            text = as_labelled(drawing.words(key, **known), alike(step, labels), labels)
-            own = key in EACH or key in AGAIN.values()
-            found.setdefault(text if own else key, (text, number))
-    found |= {LAST: found.pop(LAST)} if LAST in found else {}
-    return list(found.values())
+        if step.part not in parts or not key or is_left_out(drawing, number):
+            continue
+        if not all(known[gap] for gap in gaps(drawing.words, key)):
+            continue
+        if key == LAST:
+            if number not in drawing.tags or not fallen_on(drawing, number):
+                met[known["name"]] = number
+            continue
+        text = drawing.words(AGAIN.get(key, key) if key in given else key, **known)
+        given.add(key)
+        found.setdefault(as_labelled(text, alike(step, labels), labels), number)
+    if met:
+        names, (first, *more) = drawing.words("list_mark").join(met), met.values()
+        text = drawing.words(LAST_OF_MANY if more else LAST, name=names)
+        found[text] = NO_STEP if more else first
+    return list(found.items())
+
+
+def of_reading(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
+    """Why the turning of links is read off as the last sentence says."""
+    if sentence.name == TURNING:
+        yield drawing.words(TURNS[drawing.kind]), NO_STEP
 
 
 def alike(step: Step, names: Iterable[str]) -> Iterator[str]:

@@ -15,7 +15,7 @@ from graphkin.paper.sentences import sentences
 from graphkin.paper.stages import behind, stage_of, stages
 from graphkin.paper.symbolic import symbol
 from graphkin.screen.labelled import as_labelled, labels_of
-from graphkin.screen.reasons import reasons
+from graphkin.screen.reasons import of_reading, reasons
 from graphkin.screen.sheets import ScreenSheet
 from graphkin.steps.crossings import Crossing, crossings
 from graphkin.steps.program import Part, Plane, Program, Step
@@ -33,8 +33,6 @@ GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
 CONTACTS = ("contact-on-track", "contact-of-wheels")
 """The steps that find where a wheel touches its track."""
-NO_STEP = -1
-"""Whose reason it is that belongs to no step."""
 SAME = 1e-6
 """Millimetres between places that are one."""
 DETAIL = "detail"
@@ -46,7 +44,8 @@ class Said:
     """A sentence of the run: its sheet, its markup, why, the crossings of its lines.
 
     ``of`` are the steps to which the reasons belong, ``letters`` the names of the crossings as the
-    labels have them; ``ends`` are the parts of the work that it completes on its sheet.
+    labels have them; ``ends`` are the parts of the work that it completes on its sheet. ``aside``
+    tells of what is drawn beside the drawing for the position of the scene alone.
     """
 
     sheet: int
@@ -56,6 +55,7 @@ class Said:
     crossings: tuple[Crossing, ...]
     letters: tuple[str, ...]
     ends: tuple[Part, ...]
+    aside: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,8 +123,7 @@ def telling(sheets: Sequence[ScreenSheet]) -> Telling:
         labels = labels_of(sheet)
         names |= labels
         said += spoken(place, sheet.drawing, own, staged, labels)
-        if magnified := words_of_detail(sheet):
-            said[-1] = replace(said[-1], why=(*said[-1].why, magnified), of=(*said[-1].of, NO_STEP))
+        said[-1] = replace(said[-1], aside=words_of_details(sheet))
         first = bounds_of(said, place)[0]
         for step, stage, tint in tinted(sheet.drawing, own, staged):
             if at.get(step) == first + stage:
@@ -151,13 +150,16 @@ def telling(sheets: Sequence[ScreenSheet]) -> Telling:
     )
 
 
-def words_of_detail(sheet: ScreenSheet) -> str:
-    """What the last sentence tells of a detail that is drawn enlarged; nothing without one."""
-    for marks, more in ((sheet.left, sheet.more_left), (sheet.right, sheet.more_right)):
-        if any(mark.name == DETAIL for mark in marks):
-            scale = next(m.markup for m in more if isinstance(m, Text) and m.markup.endswith(":1"))
-            return sheet.drawing.words("screen.detail", scale=scale)
-    return ""
+def words_of_details(sheet: ScreenSheet) -> str:
+    """What is told beside the last sentence of details drawn enlarged; nothing without any."""
+    scales = [
+        next(m.markup for m in more if isinstance(m, Text) and m.markup.endswith(":1"))
+        for marks, more in ((sheet.left, sheet.more_left), (sheet.right, sheet.more_right))
+        if any(mark.name == DETAIL for mark in marks)
+    ]
+    return "; ".join(
+        sheet.drawing.words("screen.detail", scale=scale) for scale in dict.fromkeys(scales)
+    )
 
 
 def bounds_of(said: Sequence[Said], sheet: int) -> tuple[int, int]:
@@ -216,7 +218,7 @@ def spoken(
     lines = crossings_on(drawing)
     for stage, sentence in enumerate(own):
         fresh = [step for step, at in staged.items() if at == stage]
-        why = reasons(drawing, fresh, labels)
+        why = [*reasons(drawing, fresh, labels), *of_reading(drawing, sentence)]
         found = [crossing for crossing in lines if staged.get(crossing.number) == stage]
         drawn = [steps[step].name for step in fresh if steps[step].part is Part.NORMAL]
         yield Said(

@@ -53,17 +53,17 @@ def barred(page: Any) -> list[tuple[str, list[str]]]:
 
 @pytest.fixture
 def opened(chromium: Any) -> Iterator[Opened]:
-    """Open a page: opened(path, color_scheme="dark")."""
+    """Open a page: opened(path, "#step=3", color_scheme="dark")."""
     contexts, wrong = [], []
 
-    def told(path: Path, **options: Any) -> Any:
+    def told(path: Path, place: str = "", **options: Any) -> Any:
         context = chromium.new_context(**options)
         contexts.append(context)
         page = context.new_page()
         page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
         page.on("pageerror", lambda error: wrong.append(str(error)))
         page.on("request", lambda asked: None if local(asked.url) else wrong.append(asked.url))
-        page.goto(path.as_uri())
+        page.goto(path.as_uri() + place)
         return page
 
     yield told

@@ -87,6 +87,14 @@ def pages(tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module")
+def long_page(tmp_path_factory) -> Path:
+    """The page of a mechanism of class III, whose sentences on trial plans are long."""
+    path = tmp_path_factory.mktemp("long") / "stephenson-2-binary.html"
+    path.write_text(step_page(mechanism_of("stephenson-2-binary"), "en"), encoding="utf-8")
+    return path
+
+
 def step_of(page: Any) -> int:
     """The step that is shown."""
     return int(page.locator("#count").inner_text().split()[1])
@@ -546,6 +554,41 @@ def test_on_a_phone_the_reason_is_one_tap_away(opened: Opened, pages: Path, shap
         assert high + min(below, 0) > 50
         page.evaluate("document.getElementById('told').scrollTop = 0")
         page.locator("#because summary").click()
+
+
+@pytest.mark.parametrize("shape", ["desktop", "tablet"])
+def test_a_page_opened_at_a_long_step_shows_its_beginning(opened: Opened, long_page: Path, shape):
+    """Only a reader who opens why moves it into sight, never the event of a page that loads."""
+    shapes = SHAPES | {"tablet": {"viewport": {"width": 820, "height": 1180}}}
+    page = opened(long_page, "#step=17", **shapes[shape])
+    told = "document.getElementById('told')"
+    assert page.evaluate(f"{told}.scrollHeight - {told}.clientHeight") > 20
+    page.evaluate("document.getElementById('because').dispatchEvent(new Event('toggle'))")
+    assert page.evaluate(f"{told}.scrollTop") == 0
+    for _ in range(2):  # closed and opened again
+        page.evaluate(
+            """() => new Promise(done => {
+              const why = document.getElementById('because');
+              why.addEventListener('toggle', done, { once: true });
+              why.querySelector('summary').click();
+            })"""
+        )
+    assert page.evaluate(f"{told}.scrollTop") > 0
+
+
+def test_what_is_told_of_an_enlarged_detail_goes_with_it(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=20", **DESKTOP)
+    aside = page.locator("#aside")
+    assert aside.inner_text().startswith("in the circle marked 5:1")
+    assert page.locator("#reason").inner_text().startswith("relative to one end of a bar")
+    assert aside.is_visible() and page.locator("circle.detail").first.is_visible()
+    page.evaluate(
+        "const at = document.getElementById('driver'); at.value = Number(at.value) + 20;"
+        "at.dispatchEvent(new Event('input'))"
+    )
+    assert not aside.is_visible() and not page.locator("circle.detail").locator("visible=true").count()
+    assert page.locator("#reason").is_visible()
+    assert "circle" not in page.locator("#told").inner_text()
 
 
 # --- every reader --------------------------------------------------------------------------------

@@ -63,5 +63,6 @@ addEventListener("beforeprint", whole);
 addEventListener("afterprint", look);
 byId("because").open = !SMALL.matches;
 byId("because").addEventListener("toggle", reason_in_sight);
+byId("because").querySelector("summary").addEventListener("click", () => by_hand = true);
 follow_address();
 fit();

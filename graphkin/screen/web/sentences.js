@@ -7,7 +7,7 @@ const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
   item.append(link);
   const parts = own[i + 1].some(step => data.tints[step]) ? link.querySelectorAll("[data-for]") : [];
   for (const part of parts) part.className = `tint ${tint(part.dataset.for)}`;
-  return { link, say: link.querySelector(".say"), why: link.querySelector(".why"), crossings: [...link.querySelectorAll(".crossing")] };
+  return { link, say: link.querySelector(".say"), why: link.querySelector(".why"), aside: link.querySelector(".aside"), crossings: [...link.querySelectorAll(".crossing")] };
 });
 
 /** Say the sentence of the step, and mark it in the list. */
@@ -30,12 +30,15 @@ function say() {
   }
 }
 
-/** Once why has been asked: it stands below the sentence, which may take all the room there is. */
+let by_hand = false; // whether it was the reader who opened or closed why
+
+/** Once why has been opened or closed: where a reader asked for it, it is moved into sight. */
 function reason_in_sight() {
   fit();
   const told = byId("told"), reason = byId("reason");
   const hidden = reason.offsetTop + reason.offsetHeight - told.offsetTop - told.clientHeight;
-  if (byId("because").open && hidden > 0) told.scrollTop = Math.min(hidden, reason.offsetTop - told.offsetTop);
+  if (by_hand && byId("because").open && hidden > 0) told.scrollTop = Math.min(hidden, reason.offsetTop - told.offsetTop);
+  by_hand = false;
 }
 
 /** Move the row of an element that is wider than the screen to where it is seen. */
@@ -50,12 +53,13 @@ function current(element, is, word) {
   else element.removeAttribute("aria-current");
 }
 
-/** Write the sentence of a step, why, and its flattest crossing. */
+/** Write the sentence of a step, why, what stands aside of its drawing, and its flattest crossing. */
 function tell(told, step) {
-  const { say: words, why } = places[step - 1];
+  const { say: words, why, aside } = places[step - 1];
   told.querySelector("#sentence").replaceChildren(...copies(words));
   told.querySelector("#reason").replaceChildren(...(why ? copies(why) : []));
   told.querySelector("#because").hidden = !why;
+  told.querySelector("#aside").replaceChildren(...(aside ? copies(aside) : []));
   warn(told, step);
 }
 
