@@ -586,9 +586,11 @@ def test_what_is_told_of_an_enlarged_detail_goes_with_it(opened: Opened, pages: 
         "const at = document.getElementById('driver'); at.value = Number(at.value) + 20;"
         "at.dispatchEvent(new Event('input'))"
     )
-    assert not aside.is_visible() and not page.locator("circle.detail").locator("visible=true").count()
+    assert (
+        not aside.is_visible() and not page.locator("circle.detail").locator("visible=true").count()
+    )
     assert page.locator("#reason").is_visible()
-    assert "circle" not in page.locator("#told").inner_text()
+    assert "circle marked" not in page.locator("#told").inner_text()
 
 
 # --- every reader --------------------------------------------------------------------------------

@@ -222,7 +222,7 @@ def test_a_detail_is_told_beside_the_last_sentence_of_its_sheet_and_is_no_reason
     run, sheets = telling(sheets_of("pump")), sheets_of("pump")
     told = words("en")("screen.detail", scale="5:1")
     assert [said.aside == told for said in run.said] == [step == 20 for step in range(1, 21)]
-    assert not any("circle" in why for said in run.said for why in said.why)
+    assert not any("circle marked" in why for said in run.said for why in said.why)
     assert [bool(sheet.more_left or sheet.more_right) for sheet in sheets] == [False, True]
 
 
