@@ -8,7 +8,7 @@ from math import degrees
 
 from graphkin.paper.areas import BELOW, TABLES
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.letters import is_left_out, letter_on
+from graphkin.paper.letters import is_undrawn, letter_on
 from graphkin.paper.marks import Mark, Text
 from graphkin.paper.richtext import extent
 from graphkin.paper.symbolic import symbol
@@ -61,7 +61,7 @@ def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
         for crossing in crossings(drawing.trace)
         if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
         if crossing.number not in drawing.tags or not fallen_on(drawing, crossing.number)
-        if not is_left_out(drawing, crossing.number)
+        if not is_undrawn(drawing, crossing.number)
     )
 
 

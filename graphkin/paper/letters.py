@@ -44,7 +44,7 @@ def no_triangle(drawing: Drawing, step: Step, mm: float) -> bool:
     return bool(min(velocity, component) * mm < TINY)
 
 
-def is_left_out(drawing: Drawing, number: int) -> bool:
+def is_undrawn(drawing: Drawing, number: int) -> bool:
     """True for a step of a triangle on the mechanism that is too short to be drawn."""
     step, mm = drawing.trace.program.steps[number], 1000 / drawing.scales.kL
     if step.part is not Part.NORMAL or step.plane is not Plane.MECHANISM:

@@ -7,7 +7,7 @@ from string import Formatter
 
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import OWN
-from graphkin.paper.letters import is_left_out
+from graphkin.paper.letters import is_undrawn
 from graphkin.paper.naming import names_in
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import TURNING
@@ -80,7 +80,7 @@ def reasons(
     for number in sorted(numbers):
         step = drawing.trace.program.steps[number]
         key, known = reason(drawing, step), fields(step)
-        if step.part not in parts or not key or is_left_out(drawing, number):
+        if step.part not in parts or not key or is_undrawn(drawing, number):
             continue
         if not all(known[gap] for gap in gaps(drawing.words, key)):
             continue
