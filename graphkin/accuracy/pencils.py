@@ -96,7 +96,7 @@ def pencilled(
         growth = float(reference.sizes[row, 1] / first) if first else 1.0
         apart = scales.apart / growth
         paper = Paper(scales.kL, scales.seconds / growth, scales.triangles, apart)
-        here = Mechanism(course.sweep.with_branches(course.branches, float(at)))
+        here = Mechanism(course.standing(float(at)))
         try:
             exact = original(here, paper, reference.answers.every)
             worst = worst_of(forecast(exact, Pencil(FINE)), reference.answers)

@@ -17,7 +17,7 @@ from graphkin.loops.groups import Group, Joint, Mask, moved_by
 from graphkin.loops.motion import Motion
 from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.solve import CLOSED, in_bars, largest, newton
-from graphkin.loops.wholes import as_meant, settle
+from graphkin.loops.wholes import as_meant, counted_freely, settle
 from graphkin.scene.model import Scene
 
 STARTS = {1: 12, 2: 48}
@@ -121,6 +121,7 @@ def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
         late, _, _ = newton(part, found[~closed], moving)
         found = np.concatenate([found[closed], late])
         found = found[largest(in_bars(part, found)[0]) < CLOSED]
+        found = counted_freely(part, found, moving)
         return found[as_meant(part, found, moving)]
 
 

@@ -30,6 +30,7 @@ from graphkin.loops.drives import Drives, drives_of
 from graphkin.loops.rolling import (
     Gear,
     Slips,
+    counted_turnings,
     gears_of,
     packed_slips,
     slips_of,
@@ -157,7 +158,7 @@ def equations(
     refuse_unknown_lean(turned, slides)
     guides, rolled = tracks_of(scene, bodies, starts, slides, turned, numbers)
     slips = slips_of(gears, rolled, guides, numbers)
-    whole = bool(slips)
+    every, written = slips, scene
     if within is not None:
         names = {FRAME, *within}
         bodies = {name: body for name, body in bodies.items() if name in names}
@@ -174,8 +175,8 @@ def equations(
     closing = tree.closures()
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
     lengths = spans(scene, bodies, numbers)
+    counted = counted_turnings(written, every, turned, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
-    against = [driver.against for driver in scene.drivers if driver.kind == "turn"]
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
     return Equations(
         scene=scene,
@@ -189,8 +190,8 @@ def equations(
         gears=gears,
         chains=chains,
         closing=tuple(closing),
-        slips=packed_slips(slips, against, turned, guides, numbers),
-        drives=drives_of(scene, bodies, guides, turned, numbers, whole=whole),
+        slips=packed_slips(slips, counted, turned, guides, numbers),
+        drives=drives_of(scene, bodies, guides, turned, numbers, whole=bool(every)),
         home=numbers.complexes(starts[FRAME]),
         size=lengths.max(axis=1),
         least=np.where(lengths > 0, lengths, np.inf).min(axis=1),

@@ -18,7 +18,6 @@ from graphkin.errors import Problem, StructureError
 from graphkin.loops.bodies import Body, Guide, Numbers, Reals, radius, written_line
 from graphkin.loops.vectors import Tree, Turnings
 from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
-from graphkin.scene.quantity import Quantity
 
 TOUCH = 1e-6
 """Gap between wheels that touch, as a share of their distance."""
@@ -28,12 +27,14 @@ class Slip(NamedTuple):
     """No slip: the sum of weight·(angle - start) over links, and side·s of a track, is nought.
 
     ``weights`` in metres, ``starts`` in radians by link; ``track`` is the straight track, None
-    between two wheels. ``links`` are the wheel's, the track's and the arm.
+    between two wheels. ``links`` are the wheel's, the track's and the arm; ``turned`` gives the
+    angles (radians) near which the scene says that links stand, whole turns counted.
     """
 
     links: tuple[str, ...]
     weights: Mapping[str, Real]
     starts: Mapping[str, Real]
+    turned: Mapping[str, Real]
     track: Guide | None = None
     side: int = 0
 
@@ -49,7 +50,7 @@ class Gear(NamedTuple):
     radii: tuple[Real, Real]
     sense: int
     arm: str
-    start: Mapping[str, Quantity]
+    rolling: Rolling
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +98,7 @@ def pair(scene: Scene, name: str, rolling: Rolling, i: int, k: int, numbers: Num
     wheels = scene.links[name].wheels[i], scene.link(rolling.on).wheels[k]
     radii = radius(wheels[0], numbers), radius(wheels[1], numbers)
     sense = -1 if wheels[0].inside or wheels[1].inside else 1
-    return Gear((name, rolling.on), wheels, radii, sense, "", rolling.start)
+    return Gear((name, rolling.on), wheels, radii, sense, "", rolling)
 
 
 def carried_pairs(
@@ -208,52 +209,88 @@ def slips_of(
     """The conditions of no slip, tracks first."""
     found = []
     for index, rolling, size in rolled:
-        wheel, on = guides[index].block, guides[index].on
-        start = rolling.start.get(wheel)
-        starts = {wheel: 0.0 if start is None else numbers.si(start), on: 0.0}
+        track = guides[index]
+        wheel, on = track.block, track.on
+        starts = {wheel: at_start(rolling, wheel, numbers), on: 0.0}
+        turned = counted_at(rolling, numbers)
         found.append(
-            Slip((wheel, on), {wheel: size, on: -size}, starts, guides[index], rolling.side)
+            Slip((wheel, on), {wheel: size, on: -size}, starts, turned, track, rolling.side)
         )
     for gear in gears:
         (wheel, on), (own, other) = gear.links, gear.radii
         weights = {wheel: own, on: gear.sense * other, gear.arm: -own - gear.sense * other}
-        starts = {
-            link: numbers.si(gear.start[link]) if link in gear.start else 0.0 for link in weights
-        }
-        found.append(Slip((wheel, on, gear.arm), weights, starts))
+        starts = {link: at_start(gear.rolling, link, numbers) for link in weights}
+        turned = counted_at(gear.rolling, numbers)
+        found.append(Slip((wheel, on, gear.arm), weights, starts, turned))
     return tuple(found)
+
+
+def at_start(rolling: Rolling, link: str, numbers: Numbers) -> Real:
+    """The angle of a link (radians) in the position that a rolling counts from."""
+    return numbers.si(rolling.start[link]) if link in rolling.start else 0.0
+
+
+def counted_at(rolling: Rolling, numbers: Numbers) -> dict[str, Real]:
+    """The angles (radians) of links at the start, less and more whole turns as stated."""
+    return {
+        link: at_start(rolling, link, numbers) + 2 * np.pi * numbers.si(turns)
+        for link, turns in rolling.turns.items()
+    }
 
 
 def packed_slips(
     slips: Sequence[Slip],
-    against: Sequence[str],
+    counted: Mapping[int, tuple[int, Reals]],
     turned: Turnings,
     guides: Sequence[Guide],
     numbers: Numbers,
 ) -> Slips:
-    """The conditions of no slip as arrays; ``against`` are links that drivers turn others from.
-
-    Such a link counts from nought where no wheel says otherwise.
-    """
+    """The conditions of no slip as arrays."""
     rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
     constant = np.zeros((numbers.count, len(slips)))
-    counted: dict[int, tuple[int, Reals]] = {}
     for r, slip in enumerate(slips):
         if slip.track is not None:
             j = next(j for j, guide in enumerate(guides) if guide is slip.track)
             rows[:, r, turned.count + j] += slip.side
-            wheel, on = slip.links
-            lean = numbers.reals(turned.angle[on] - turned.angle[wheel])
-            zero = numbers.reals(slip.starts[wheel]) + lean
-            counted.setdefault(turned.of[wheel], (turned.of[on], zero))
         for link, weight in slip.weights.items():
-            lean = numbers.reals(turned.angle[link])
-            at_start = numbers.reals(slip.starts[link])
+            start = numbers.reals(slip.starts[link])
             rows[:, r, turned.of[link]] += weight
-            constant[:, r] += weight * (lean - at_start)
-            counted.setdefault(turned.of[link], (0, at_start - lean))
-    for link in against if slips else ():
-        counted.setdefault(turned.of[link], (0, numbers.reals(-turned.angle[link])))
-    counted.pop(turned.of[FRAME], None)
+            constant[:, r] += weight * (numbers.reals(turned.angle[link]) - start)
     links = tuple(slip.links for slip in slips)
     return Slips(rows[:, :, 1:], constant, links, counted)
+
+
+def counted_turnings(
+    scene: Scene, slips: Sequence[Slip], turned: Turnings, numbers: Numbers
+) -> dict[int, tuple[int, Reals]]:
+    """By turning, the turning against which it is counted and at what angle (N,), radians.
+
+    What the scene states of a link's whole turns comes first, then the start of what rolls first
+    as written. A link that a driver turns others from counts from nought where no wheel says more.
+    """
+    found: dict[int, tuple[int, Reals]] = {}
+
+    def count(link: str, angle: Real, against: str = FRAME) -> None:
+        if {link, against} <= set(turned.of):
+            lean = turned.angle[link] - turned.angle[against]
+            found.setdefault(turned.of[link], (turned.of[against], numbers.reals(angle - lean)))
+
+    if not slips:
+        return found
+    for link, angle in scene.near.items():
+        count(link, numbers.si(angle))
+    for slip in slips:
+        for link, angle in slip.turned.items():
+            count(link, angle)
+    order = list(scene.links)
+    for slip in sorted(slips, key=lambda slip: order.index(slip.links[0])):
+        if slip.track is not None:
+            wheel, on = slip.links
+            count(wheel, slip.starts[wheel], on)
+        for link in slip.weights:
+            count(link, slip.starts[link])
+    for driver in scene.drivers:
+        if driver.kind == "turn":
+            count(driver.against, 0.0)
+    found.pop(turned.of[FRAME], None)
+    return found

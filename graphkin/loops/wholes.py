@@ -25,7 +25,7 @@ def settled(loops: Equations, read: Reals, told: Mask) -> tuple[Reals, Mask]:
 
     What the linear equations settle is told by them.
     """
-    if not loops.slips.links:
+    if not loops.slips.counted:
         return read, told
     values, told, known = read.copy(), told.copy(), np.zeros_like(told)
     for group in stages(loops.scene, loops):
@@ -98,6 +98,16 @@ def counted(loops: Equations, values: Reals, k: int) -> Reals:
         start = start + values[:, against - 1]
     beyond = np.ceil((angle - start - np.pi - ROUND) / turn)
     return np.asarray(angle - turn * beyond)
+
+
+def counted_freely(loops: Equations, values: Reals, moving: Mask) -> Reals:
+    """The unknowns with the angles counted that no linear equation ties: only chains hold them."""
+    found = values.copy()
+    tied = np.abs(np.nan_to_num(loops.linear_rows())).max(axis=(0, 1), initial=0) > 0
+    for k in np.flatnonzero(moving & ~tied):
+        if k < loops.turning_count:
+            found[:, k] = counted(loops, found, int(k))
+    return found
 
 
 def as_meant(loops: Equations, values: Reals, moving: Mask) -> Mask:

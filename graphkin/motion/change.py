@@ -6,6 +6,7 @@ Neither the nearest position nor the same side does.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -32,7 +33,7 @@ def beyond(course: Course, event: Event, way: int) -> Course:
     predicted = predict(course, before, after)
     best, least = course, np.inf
     for branches in choices(course, event):
-        other = Course(course.sweep, branches, after)
+        other = replace(course, branches=branches, here=after)
         try:
             found = other.columns(np.array([after]), targets)
         except GraphkinError:  # an idle link that does not fit this closure

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from graphkin.arithmetic import FLOAT, batch_kind
 from graphkin.errors import GraphkinError
+from graphkin.motion.counted import Turned
 from graphkin.motion.sweep import Sweep
 from graphkin.plane import Circle, Line, Ratio
 from graphkin.plans.compile import write
@@ -33,17 +34,32 @@ class Course:
     """One choice of closures throughout a sweep: its scene, its program, and how to run it.
 
     ``here`` is a u at which these closures hold, where the construction may look at the shape of
-    the mechanism; without it they hold where the scene stands.
+    the mechanism; without it they hold where the scene stands. ``turned`` tells how far links have
+    turned that only their pins turn and whose wheels depend on it; without it they count near what
+    the scene says throughout.
     """
 
     sweep: Sweep
     branches: Branches
     here: float | None = None
+    turned: Turned | None = None
 
     @cached_property
     def scene(self) -> Scene:
         """The scene ready for arrays, with these closures."""
-        return self.sweep.with_branches(self.branches, self.here)
+        return self.standing(self.here)
+
+    def standing(self, here: float | None) -> Scene:
+        """The scene with these closures as it stands at a u."""
+        values = None if here is None else self.values(np.array([here]))
+        return self.sweep.with_branches(self.branches, values)
+
+    def values(self, at: Any, *, geometric: bool = False) -> dict[str, Any]:
+        """All values of the scene for an array of u (N,), as the sweep gives them, and how far
+        links have turned.
+        """
+        turned = {} if self.turned is None else self.turned.values(at)
+        return self.sweep.values(at, geometric=geometric) | turned
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:
@@ -82,6 +98,26 @@ class Course:
                 moving.add(n)
         return moving
 
+    @cached_property
+    def counting(self) -> tuple[str, ...]:
+        """The links whose angle counts near a followed one: only pins turn them, as u moves."""
+        steps, moving = self.program.steps, self._moving()
+        return tuple(
+            of
+            for (what, of), n in self.program.targets.items()
+            if what == "turned" and n in moving and steps[n].says.get("k") == of
+        )
+
+    def counted(self, values: Mapping[str, Any], count: int) -> dict[str, Reals]:
+        """The angles (radians) of these links for values of the scene, (N,) each."""
+        wanted = [("turned", link) for link in self.counting]
+        keep = [self.program.targets[target] for target in wanted]
+        with np.errstate(all="ignore"):
+            trace = run_batch(
+                self.program, self.program.needed(wanted), values, batch_kind(), keep
+            )
+        return {link: spread(trace.value("turned", link), count) for link in self.counting}
+
     def margins(self, at: Any) -> Reals:
         """The sine of every crossing (rows as ``crossings``) for each u (N,); NaN does not close.
 
@@ -92,7 +128,7 @@ class Course:
         found = np.empty((len(self.crossings) + 1, len(at)))
         for start in range(0, len(at), BLOCK):
             part = slice(start, start + BLOCK)
-            values = self.sweep.values(at[part])
+            values = self.values(at[part])
             with np.errstate(all="ignore"):
                 trace = run_batch(
                     self.program, self.early, values, batch_kind(), keep, margins=True
@@ -116,7 +152,7 @@ class Course:
         wanted = list(self.program.answers if targets is None else targets)
         needed = self.program.needed(wanted)
         keep = [self.program.targets[target] for target in wanted]
-        values = self.sweep.values(np.asarray(at, dtype=float), geometric=geometric)
+        values = self.values(np.asarray(at, dtype=float), geometric=geometric)
         with np.errstate(all="ignore"):
             return run_blocks(self.program, needed, values, batch_kind(), keep, margins=True)
 
@@ -131,7 +167,7 @@ class Course:
     def loci(self, number: int, at: float) -> tuple[Any, ...]:
         """The two loci that a step crosses at one u; empty where they are not known."""
         found: dict[int, Any] = {}
-        values = {**self.sweep.values(np.array([at]))}
+        values = self.values(np.array([at]))
         floats = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in values.items()}
         step = self.program.steps[number]
         try:
@@ -148,7 +184,7 @@ class Course:
 
         All crossings where the other closure does not fit what the construction looks at.
         """
-        changed = Course(self.sweep, {**self.branches, name: other}, self.here)
+        changed = replace(self, branches={**self.branches, name: other})
         try:
             steps = changed.program.steps
         except GraphkinError:

@@ -282,10 +282,10 @@ def witnessed(found: Cycle) -> Witnessed:
         rows = found.piece == number
         if not rows.any():
             continue
-        scene = piece.course.scene
+        course = piece.course
         try:
             worst, fine = compare_batch(
-                scene, rows_of(found.solution, rows), found.sweep.values(found.at[rows])
+                course.scene, rows_of(found.solution, rows), course.values(found.at[rows])
             )
         except GraphkinError as error:
             return Witnessed(difference, agrees, str(error))

@@ -89,7 +89,7 @@ class Numbered:
         return whole
 
     def _places(self, at: Reals) -> Reals:
-        program, values = self.course.program, self.course.sweep.values(at)
+        program, values = self.course.program, self.course.values(at)
         step = program.steps[self.step]
         assert step.action is not None and isinstance(step.action.value, Closer)
         before = [n for n in self.course.early if n < self.step]

@@ -5,13 +5,15 @@ A cycle is followed from where the scene stands, forth and back, from one change
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import floor, sqrt
 
 import numpy as np
 
 from graphkin.errors import ClosureError, Problem
 from graphkin.motion.change import beyond
+from graphkin.motion.counted import led
 from graphkin.motion.course import Branches, Course, Reals
 from graphkin.motion.driving import GRID, TURN
 from graphkin.motion.ends import Event, next_event
@@ -28,6 +30,8 @@ from graphkin.motion.sweep import Sweep
 
 ALIKE = 1e-8
 """Degrees within which two places are one."""
+BACK = 1e-6
+"""Miss after a whole turn, in parts of the mechanism's size, with which it has come back."""
 MOST_PIECES = 400
 
 
@@ -164,45 +168,95 @@ def covered(sweep: Sweep, found: Range, grid: Reals) -> np.ndarray:
 
 
 def from_start(course: Course, start: float) -> tuple[Range, bool, bool]:
-    """The range through one position: its pieces, whether it goes round, and then returns."""
+    """The range through one position: its pieces, whether it goes round, and then returns.
+
+    Round about is told from 0 to 360 degrees, or from the last whole turn before a position that
+    does not come back.
+    """
     sweep = course.sweep
-    if sweep.whole:
-        ahead = marched(course, start, start + TURN)
-        if ahead[-1].high.kind == "window":
-            returns = dict(ahead[-1].branches) == dict(course.branches)
-            return (counted_from_nought(ahead) if returns else ahead), True, returns
-        behind = marched(course, start, start - TURN)
-        if behind[0].low.at > TURN / 2:  # easier to read as a range about nought
-            return from_start(course, start - TURN)
-    else:
-        ahead = marched(course, start, max(sweep.high, start))
-        behind = marched(course, start, min(sweep.low, start))
-    joined = replace(ahead[0], low=behind[-1].low)
-    return (*behind[:-1], joined, *ahead[1:]), False, False
+    if not sweep.whole:
+        return both_ways(course, start, max(sweep.high, start), min(sweep.low, start)), False, False
+    ahead = marched(course, start, start + TURN)
+    if ahead[-1].high.kind == "window":
+        if dict(ahead[-1].branches) != dict(course.branches):
+            return ahead, True, False
+        if repeats(ahead, start):
+            return counted_from_nought(ahead, start), True, True
+        last = TURN * floor(start / TURN)
+        found = both_ways(course, start, last + TURN, last)
+        goes_round = found[0].low.kind == found[-1].high.kind == "window"
+        return (found if goes_round else ahead), True, False
+    found = both_ways(course, start, start + TURN, start - TURN)
+    if found[0].low.at > TURN / 2 and not sweep.scene.near:  # easier to read as one about nought
+        return from_start(course, start - TURN)
+    return found, False, False
 
 
-def counted_from_nought(pieces: Range) -> Range:
+def both_ways(course: Course, start: float, high: float, low: float) -> Range:
+    """The pieces about one position, forth and back, each as far as the motion goes."""
+    return joined_at(marched(course, start, low), marched(course, start, high))
+
+
+def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
+    """Pieces before and after one place, at which the last and the first are one."""
+    end, start = before[-1].course.turned, after[0].course
+    turned = start.turned if end is None else end.joined(start.turned)
+    joined = replace(after[0], low=before[-1].low, course=replace(start, turned=turned))
+    return (*before[:-1], joined, *after[1:])
+
+
+def repeats(pieces: Range, start: float) -> bool:
+    """Whether every link stands after a whole turn as before it; wheels need not."""
+    first, last = pieces[0].course, pieces[-1].course
+    targets = [t for t in first.program.targets if t[0] in ("position", "axis")]
+    before = first.columns(np.array([start]), targets)
+    after = last.columns(np.array([start + TURN]), targets)
+    places = np.array([before[t][0] for t in targets if t[0] == "position"])
+    size = float(np.abs(places - places.mean()).max())
+    misses = {t: abs(before[t][0] - after[t][0]) for t in targets}
+    return all(m <= BACK * (size if t[0] == "position" else 1) for t, m in misses.items())
+
+
+def counted_from_nought(pieces: Range, start: float) -> Range:
     """The pieces of a whole turn that comes back, from 0 to 360 degrees instead of the start's."""
+    gone = gone_in(pieces, start)
+    turns = floor(start / TURN)
+    pieces = tuple(turned_back(piece, turns, gone) for piece in pieces)
     before: list[Piece] = []
     after: list[Piece] = []
     for piece in pieces:
         low, high = piece.low, piece.high
         if low.at < TURN - ALIKE < TURN + ALIKE < high.at:
             before.append(replace(piece, high=Event("window", TURN)))
-            after.append(Piece(Event("window", 0.0), turned_back(high), piece.course))
+            back = turned_back(piece, 1, gone)
+            after.append(replace(back, low=Event("window", 0.0)))
         elif low.at < TURN - ALIKE:
             before.append(piece)
         else:
-            after.append(replace(piece, low=turned_back(low), high=turned_back(high)))
-    if not after:
-        return pieces
-    joined = replace(before[0], low=after[-1].low)
-    return (*after[:-1], joined, *before[1:])
+            after.append(turned_back(piece, 1, gone))
+    return joined_at(after, before) if after else pieces
 
 
-def turned_back(event: Event) -> Event:
-    """An event one turn earlier."""
-    return replace(event, at=max(event.at - TURN, 0.0))
+def gone_in(pieces: Range, start: float) -> dict[str, float]:
+    """By how many degrees links go in a whole turn after which all stands as before."""
+    first, last = pieces[0].course.turned, pieces[-1].course.turned
+    if first is None or last is None:
+        return {}
+    return {link: last.near(link, start + TURN) - first.near(link, start) for link in first.angles}
+
+
+def turned_back(piece: Piece, turns: int, gone: dict[str, float]) -> Piece:
+    """A piece some turns earlier, after each of which all stands as before."""
+    if not turns:
+        return piece
+    low, high = (
+        replace(event, at=max(event.at - turns * TURN, 0.0) if turns > 0 else event.at)
+        for event in (piece.low, piece.high)
+    )
+    turned = piece.course.turned
+    if turned is not None:
+        turned = turned.moved(-turns * TURN, {link: -turns * by for link, by in gone.items()})
+    return Piece(low, high, replace(piece.course, turned=turned))
 
 
 def marched(course: Course, start: float, stop: float) -> Range:
@@ -211,6 +265,7 @@ def marched(course: Course, start: float, stop: float) -> Range:
     pieces: list[Piece] = []
     here = Event("window", start)
     while len(pieces) < MOST_PIECES:
+        course = led(course, here.at, stop)
         event = next_event(course, here.at, stop)
         low, high = (here, event) if forward else (event, here)
         pieces.append(Piece(low, high, course))

@@ -12,6 +12,7 @@ from math import pi
 from typing import Any
 
 from graphkin.errors import Problem, SceneError
+from graphkin.motion.counted import named_angles
 from graphkin.motion.driving import GRID, TURN, What, stated, timed
 from graphkin.motion.window import window
 from graphkin.scene.expression import TIME, Name
@@ -65,14 +66,12 @@ class Sweep:
         """The step of the grid on which events are looked for."""
         return (self.high - self.low) / GRID
 
-    def with_branches(self, branches: Mapping[str, Branch], here: float | None = None) -> Scene:
-        """The scene, ready for arrays, with its closures picked as given, standing at a place u."""
-        values = self.scene.values
-        if here is not None:
-            import numpy as np
-
-            found = self.values(np.array([here]))
-            values = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in found.items()}
+    def with_branches(
+        self, branches: Mapping[str, Branch], here: Mapping[str, Any] | None = None
+    ) -> Scene:
+        """The scene, ready for arrays, with its closures picked as given, standing at one place."""
+        found = self.scene.values if here is None else here
+        values = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in found.items()}
         return replace(self.scene, branches=dict(branches), values=values)
 
     def values(self, at: Any, *, geometric: bool = False) -> dict[str, Any]:
@@ -118,9 +117,14 @@ def sweep_of(
     start = 0.0
     if number is not None:
         start = stated(scene.drivers[number - 1], scene)[0]
-        start = start % TURN if what == "turn" else start
+        start = start % TURN if what == "turn" and not wheels(scene) else start
     first, last, whole = window(scene, what, number, start, low, high)
     return Sweep(named(scene, number), scene, what, number, start, first, last, whole)
+
+
+def wheels(scene: Scene) -> bool:
+    """Whether anything rolls: then a driver that has gone round stands otherwise than before."""
+    return any(link.rolls for link in scene.links.values())
 
 
 def chosen(scene: Scene, driver: int | None) -> int | None:
@@ -142,7 +146,8 @@ def law_of_time(scene: Scene) -> bool:
 
 
 def named(scene: Scene, number: int | None) -> Scene:
-    """The scene with named values in place of its drivers' numbers; what is not swept stands."""
+    """The scene with named values in place of its drivers' numbers, and for the angles near which
+    links count; what is not swept stands."""
     drivers, values = [], dict(scene.values)
     for n, driver in enumerate(scene.drivers, 1):
         unit = "deg" if driver.kind == "turn" else "m"
@@ -156,7 +161,8 @@ def named(scene: Scene, number: int | None) -> Scene:
         stands = number is not None and n != number
         motion = (place, 0.0, 0.0) if stands else (place, rate, push)
         values |= dict(zip(names(n), motion, strict=True))
-    return replace(scene, drivers=tuple(drivers), values=values)
+    near, angles = named_angles(scene)
+    return replace(scene, drivers=tuple(drivers), near=near, values=values | angles)
 
 
 def bounds_in_si(

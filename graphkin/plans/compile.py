@@ -50,6 +50,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
         place(pen, shapes, group, found)
         if isinstance(group, Tie):
             position.refuse_misfit(pen, shapes, group)
+    rolling.refuse_idle_turns(pen)
     write_turning(pen, shapes)
     write_velocities(pen, shapes, standing)
     write_accelerations(pen, shapes, standing)

@@ -16,6 +16,7 @@ from graphkin.steps.effect import Effect
 from graphkin.steps.program import CONTACT, Drive, Given, Part, Plane, Program, Step, Target
 from graphkin.steps.run import StepFailed, evaluate
 from graphkin.steps.vocabulary import Action, pole
+from graphkin.structure.counting import counted_near
 from graphkin.structure.graph import Sliding, turns
 from graphkin.structure.groups import Dyad
 
@@ -38,6 +39,7 @@ class Pen:
         self.chosen: dict[tuple[str, str], int] = {}
         self.drives: dict[int, Drive] = {}
         self.turning: dict[str, bool] = {FRAME: False}
+        self.near = counted_near(scene)
         self.scale_step: int | None = None
         self.shared: dict[tuple[Any, ...], int] = {}
         self.peeked: dict[int, Any] = {}

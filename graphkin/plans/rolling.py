@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from graphkin.errors import Problem, StructureError
 from graphkin.plans.guides import axis, guide_line, local_line, path_of
 from graphkin.plans.links import contact_name, no_construction, under
 from graphkin.plans.pen import Pen, Says, letter
@@ -20,16 +21,17 @@ from graphkin.steps.wheels import (
     between_tracks,
     contact_of_wheels,
     contact_on_track,
+    counted_near,
     less_axis,
     opposite,
     rack_at,
     radius_along,
     rolled_on_track,
     rolled_on_wheel,
-    turned_since,
     turned_to,
     way_rolled,
 )
+from graphkin.structure.counting import stated
 from graphkin.structure.graph import Contact, Pin, Sliding
 from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
@@ -57,13 +59,6 @@ def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
         if chosen.inside or (contact.track is None and contact.rolling.side < 0):
             return pen.draw(opposite, radius)
     return radius
-
-
-def start_of(pen: Pen, contact: Contact, link: str) -> int:
-    """The direction of a link's x axis in the position that the rolling counts from."""
-    angle = contact.rolling.start.get(link)
-    with pen.on(Part.SHAPE, Plane.NUMBERS):
-        return pen.given("ahead") if angle is None else pen.given("direction", angle)
 
 
 @by_contact
@@ -115,7 +110,7 @@ def touch_and_turn(pen: Pen, shapes: Shapes, contact: Contact) -> None:
     if pen.has("axis", wheel):
         return
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        lead, start = angle_of(pen, shapes, contact, on), start_turn(pen, contact, wheel)
+        lead, start = angle_of(pen, shapes, on), start_turn(pen, contact, wheel)
         turn = pen.draw(rolled_on_track, lead, start, way, radius_of(pen, contact))
         settle_turn(pen, wheel, turn)
     pen.want("turned from", wheel, start)
@@ -203,7 +198,7 @@ def roll_round(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> None:
 
 def settle_turn(pen: Pen, link: str, turn: int) -> None:
     """The angle of a link's x axis in radians, whole turns counted, and so its axis."""
-    pen.shared["turned", link] = pen.want("turned", link, turn)
+    pen.want("turned", link, turn)
     pen.want("axis", link, pen.draw(axis_turned, turn))
 
 
@@ -232,29 +227,49 @@ def train(pen: Pen, shapes: Shapes, group: Train) -> None:
 
 def turned_by(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> int:
     """How far a link has turned since the start of a contact."""
-    angle = angle_of(pen, shapes, contact, link)
+    angle = angle_of(pen, shapes, link)
     if link == FRAME or link not in contact.rolling.start:
         return angle
     with pen.on(Part.POSITION, Plane.NUMBERS):
         return pen.draw(difference, angle, start_turn(pen, contact, link))
 
 
-def angle_of(pen: Pen, shapes: Shapes, contact: Contact, link: str) -> int:
+def angle_of(pen: Pen, shapes: Shapes, link: str) -> int:
     """The angle of a link's x axis in radians.
 
     Whole turns are counted for driven links and rolling wheels; for others it is that within half
-    a turn of the start.
+    a turn of the angle that they count near.
     """
-    if ("turned", link) in pen.shared:
-        return pen.shared["turned", link]
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if link == FRAME:
             return pen.given("nought")
+        if pen.has("turned", link):
+            return pen.the("turned", link)
         if driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
-            pen.shared["turned", link] = driven_turn(pen, shapes, contact, driver)
-            return pen.shared["turned", link]
-        ends = axis(pen, shapes, link), start_of(pen, contact, link)
-        return pen.draw(sum_of, pen.draw(turned_since, *ends), start_turn(pen, contact, link))
+            return pen.want("turned", link, driven_turn(pen, shapes, driver))
+        near = pen.near.get(link)
+        heading = pen.given("ahead") if near is None else pen.given("direction", near)
+        angle = pen.given("nought") if near is None else pen.given("number", near)
+        found = pen.draw(counted_near, axis(pen, shapes, link), heading, angle, k=link)
+        return pen.want("turned", link, found)
+
+
+def refuse_idle_turns(pen: Pen) -> None:
+    """Raise StructureError for stated turns of links that no wheel counts by their pins."""
+    open_ = {step.says["k"] for step in pen.steps if step.action is counted_near}
+    problems = []
+    for link, rolling in stated(pen.scene).items():
+        if link in open_:
+            continue
+        found = f"no wheel depends on how often link {link} went round"
+        if any(turns_link(driver, link) for driver in pen.scene.drivers):
+            found = f"a driver gives the angle of link {link}, whole turns included"
+        elif pen.has("turned", link):
+            found = f"link {link} rolls, which counts its whole turns"
+        expected = "links that only their pins turn, and that carry wheels"
+        problems.append(Problem(rolling.turns[link].place, found, expected, "leave it out"))
+    if problems:
+        raise StructureError(problems)
 
 
 def turns_link(driver: Driver, link: str) -> bool:
@@ -262,9 +277,9 @@ def turns_link(driver: Driver, link: str) -> bool:
     return driver.kind == "turn" and driver.link == link
 
 
-def driven_turn(pen: Pen, shapes: Shapes, contact: Contact, driver: Driver) -> int:
+def driven_turn(pen: Pen, shapes: Shapes, driver: Driver) -> int:
     """The angle of a driven link's x axis, whole turns counted."""
-    before = angle_of(pen, shapes, contact, driver.against)
+    before = angle_of(pen, shapes, driver.against)
     angle = pen.driven_angle(driver)
     if driver.of:
         ends = [shapes.local(driver.link, point) for point in driver.of]
@@ -281,7 +296,7 @@ def roller(pen: Pen, shapes: Shapes, group: Geared, own: Contact) -> None:
     way = -1 if all(values) and (values[0].along.conjugate() * values[1].along).real < 0 else 1
     leads = []
     for each in (own, other):
-        angle = angle_of(pen, shapes, each, each.links[1])
+        angle = angle_of(pen, shapes, each.links[1])
         with pen.on(Part.POSITION, Plane.NUMBERS):
             leads.append(pen.draw(sum_of, angle, start_turn(pen, each, group.link)))
     with pen.on(Part.POSITION, Plane.NUMBERS):
@@ -307,11 +322,12 @@ def rack(pen: Pen, shapes: Shapes, group: Geared, slide: Sliding) -> None:
     ends = local_line(pen, shapes, contact.rolling, link)
     radius, axis_ = radius_of(pen, contact), axis(pen, shapes, link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        turn = angle_of(pen, shapes, contact, wheel)
+        turn = angle_of(pen, shapes, wheel)
         if pen.turns(link):
             known = partner(slide, link)
-            lean = pen.draw(turned_since, axis_, axis(pen, shapes, known))
-            own = pen.draw(sum_of, angle_of(pen, shapes, contact, known), lean)
+            own = pen.draw(
+                counted_near, axis_, axis(pen, shapes, known), angle_of(pen, shapes, known)
+            )
             turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)

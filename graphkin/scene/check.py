@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from fractions import Fraction
 
 from graphkin.scene.check_blocks import check_blocks
 from graphkin.scene.check_drivers import check_drivers
@@ -12,6 +13,7 @@ from graphkin.scene.findings import Findings, listed, nearest, numbered
 from graphkin.scene.known import all_points, known_link, known_point, named, place_of, quoted
 from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
 from graphkin.scene.names import check_names
+from graphkin.scene.quantity import shortest
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -151,6 +153,11 @@ def check_rolling(
         findings.add(place, f"{named(rolling.on)} has no wheel to roll on", expected, hint)
     for name in rolling.start:
         known_link(scene, name, f"{place}.start.{name}", findings)
+    for name, count in rolling.turns.items():
+        known_link(scene, name, f"{place}.turns.{name}", findings)
+        number = count.number(scene.values)
+        if not isinstance(number, Fraction) or number.denominator != 1:
+            findings.add(count.place, f"{shortest(number)} turns", "a whole number of turns")
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:

@@ -136,12 +136,13 @@ def read_rolls(table: Table, measures: Measures) -> tuple[Rolling, ...]:
 
 
 def read_rolling(table: Table, measures: Measures) -> Rolling:
-    """One track: ``{ on, through, angle, start, side }``, or ``{ on, start }`` on a wheel."""
+    """One track: ``{ on, through, angle, start, turns, side }``; on a wheel without a line."""
     on = link_name(table.at("on"), table.take("on"), measures.findings, TRACK) or FRAME
     through, angle = None, None
     if "through" in table or "angle" in table:
         through, angle = read_line(table, measures)
-    start = read_start(table, measures)
+    start = by_link(table, "start", measures, measures.units["angle"])
+    turns = by_link(table, "turns", measures, "")
     raw = table.take("side")
     side = SIDES.get(raw) if isinstance(raw, str) else None
     if raw is not None and side is None:
@@ -150,16 +151,16 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
         measures.findings.add(table.at("side"), "a side without through", "a straight track")
     table.take("through"), table.take("angle")
     table.finish()
-    return Rolling(on, through, angle, start, side or 1)
+    return Rolling(on, through, angle, start, side or 1, turns)
 
 
-def read_start(table: Table, measures: Measures) -> dict[str, Quantity]:
-    """Angles of links in the position that the rolling counts from; absent ones are nought."""
-    start: dict[str, Quantity] = {}
-    inner = table.table("start")
-    for key, raw in inner.raw.items():
-        name = link_name(inner.at(key), key, measures.findings)
-        angle = measures.angle(inner.at(key), raw)
+def by_link(table: Table, key: str, measures: Measures, unit: str) -> dict[str, Quantity]:
+    """A number for each link named in a table: an angle of ``start``, a count of ``turns``."""
+    found: dict[str, Quantity] = {}
+    inner = table.table(key)
+    for link, raw in inner.raw.items():
+        name = link_name(inner.at(link), link, measures.findings)
+        number = measures.number(inner.at(link), raw, unit)
         if name is not None:
-            start[name] = angle
-    return start
+            found[name] = number
+    return found

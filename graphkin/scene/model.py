@@ -149,13 +149,18 @@ class Wheel(NamedTuple):
 
 
 class Rolling(NamedTuple):
-    """A wheel that rolls without slip on a straight or circular track of link ``on``."""
+    """A wheel that rolls without slip on a straight or circular track of link ``on``.
+
+    ``turns`` are the whole turns to be added to the angle of a link that only its pins show, which
+    is else the one within half a turn of its ``start``.
+    """
 
     on: str
     through: str | tuple[Quantity, Quantity] | None
     angle: Quantity | None
     start: Mapping[str, Quantity]
     side: int = 1
+    turns: Mapping[str, Quantity] = {}
 
 
 class Profile(NamedTuple):
@@ -266,6 +271,8 @@ class Sheet(NamedTuple):
 class Scene:
     """A planar mechanism in one position, with what is asked of it.
 
+    ``near`` are angles within half a turn of which those of links are taken, where a motion says
+    more than the ``start`` of what rolls: no scene states them, a sweep does.
     ``titles`` and ``notes`` hold texts per language, ``names`` what links are called in each;
     ``values`` the parameters as set, exact.
     """
@@ -281,6 +288,7 @@ class Scene:
     ask: Ask
     sheet: Sheet = field(default_factory=Sheet)
     time: Quantity | None = None
+    near: Mapping[str, Quantity] = field(default_factory=dict)
     titles: Mapping[str, str] = field(default_factory=dict)
     names: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)

@@ -71,6 +71,7 @@ def called(link: Link, names: Names) -> Link:
         rolling._replace(
             on=names.get(rolling.on, rolling.on),
             start={names.get(name, name): angle for name, angle in rolling.start.items()},
+            turns={names.get(name, name): count for name, count in rolling.turns.items()},
         )
         for rolling in link.rolls
     )

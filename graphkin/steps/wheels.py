@@ -63,17 +63,17 @@ def opposite(number: Real) -> Real:
     return -number
 
 
-@action("turned-since")
-def turned_since(axis: Point, start: Point) -> Real:
-    """The angle in radians, within half a turn, by which a link has turned since the start.
+@action("counted-near")
+def counted_near(axis: Point, heading: Point, angle: Real) -> Real:
+    """The angle in radians of an axis, within half a turn of that of a heading.
 
-    A link turned just half round, but for rounding, has turned ahead and not back.
+    An axis turned just half round from it, but for rounding, has turned ahead and not back.
     """
-    way = axis * start.conjugate()
+    way = axis * heading.conjugate()
     size = abs(way)
     quarter = phase(at(size * 0.0, size))
-    angle = phase(way)
-    return pick(below(angle, ROUND - 2 * quarter), angle + 4 * quarter, angle)
+    since = phase(way)
+    return angle + pick(below(since, ROUND - 2 * quarter), since + 4 * quarter, since)
 
 
 @action("turned-to")
