@@ -81,15 +81,16 @@ def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
     """
     import numpy as np
 
+    from graphkin.motion.counted import led_both
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID, TURN
 
     sweep = swept(scene, number)
-    course = Course(sweep, scene.branches)
-    start = 0.0 if sweep.whole else sweep.low
+    start = TURN * (sweep.start // TURN) if sweep.whole else sweep.low
     step = sweep.grid_step
     grid = start + np.arange(GRID + (not sweep.whole)) * step
     try:
+        course = led_both(Course(sweep, scene.branches), sweep.start, float(grid[0]), float(grid[-1]))
         margins = course.margins(grid)
     except GraphkinError:
         return []
@@ -130,7 +131,9 @@ def refined(course: Course, at: Any, step: float) -> Any:
     for _ in range(HALVINGS):
         size /= 2
         further = closing + size
-        closing = closing + size * course.closes(further % 360 if course.sweep.whole else further)
+        if course.sweep.whole:
+            further = course.sweep.start // 360 * 360 + further % 360
+        closing = closing + size * course.closes(further)
     return closing
 
 

@@ -94,9 +94,7 @@ class Ground:
 def ground_of(scene: Scene) -> Ground:
     """Where a scene can move; raises ClosureError where it closes nowhere."""
     sweep = sweep_of(scene)
-    centre = sweep.start
-    if sweep.what == "time" and scene.time is not None:
-        centre = float(scene.time.si(scene.values))
+    centre = sweep.stands
     path = followed(sweep)
     low, high = path.ranges[0][0].low.at, path.ranges[0][-1].high.at
     if sweep.what == "turn":
@@ -112,7 +110,7 @@ def outside(piece: Piece, place: float) -> float:
 def placed(course: Course, at: Reals, *, single: bool = True) -> Places:
     """Positions at given places of a course; ``single`` rounds all that moves to float32."""
     rounded = np.float32(at).astype(float) if single else np.asarray(at, dtype=float)
-    values = course.sweep.values(rounded)
+    values = course.values(rounded)
     if single:
         motion = {name: in_single(v) for name, v in values.items() if name.startswith("drive ")}
         values |= motion

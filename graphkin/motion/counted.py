@@ -16,10 +16,11 @@ import numpy as np
 from graphkin.scene.expression import Name
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import Quantity
-from graphkin.structure.counting import counted_near, counting
+from graphkin.structure.counting import counted_near
 
 if TYPE_CHECKING:
     from graphkin.motion.course import Course
+    from graphkin.motion.pieces import Piece
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 QUARTER = 90.0
@@ -39,17 +40,16 @@ def name_of(link: str) -> str:
 
 def named_angles(scene: Scene) -> tuple[dict[str, Quantity], dict[str, Any]]:
     """The angles near which links count as named values in degrees, and those of the scene."""
-    near, values = counted_near(scene), {}
-    for link in counting(scene):
-        angle = near.get(link)
-        if angle is None:
-            values[name_of(link)] = 0.0
-        elif angle.unit == "deg":
-            values[name_of(link)] = angle.number(scene.values)
-        else:
-            values[name_of(link)] = float(np.degrees(angle.si(scene.values)))
-    names = {link: name_of(link) for link in counting(scene)}
-    return {link: Quantity(name, Name(name), "deg") for link, name in names.items()}, values
+    near = counted_near(scene)
+    values = {name_of(link): degrees_of(angle, scene) for link, angle in near.items()}
+    return {link: Quantity(name, Name(name), "deg") for link, name in zip(near, values, strict=True)}, values
+
+
+def degrees_of(angle: Quantity, scene: Scene) -> Any:
+    """An angle in degrees, exact where it is stated so."""
+    if angle.unit == "deg":
+        return angle.number(scene.values)
+    return float(np.degrees(angle.si(scene.values)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +67,17 @@ class Turned:
         """The quarter of a turn nearest to the angle of a link."""
         return QUARTER * np.rint(np.interp(at, self.at, self.angles[link]) / QUARTER)
 
+    def within(self, low: float, high: float) -> Turned:
+        """The part from one place to another."""
+        here = (low <= self.at) & (self.at <= high)
+        return Turned(self.at[here], {link: row[here] for link, row in self.angles.items()})
+
+    def steps(self, link: str) -> list[tuple[float, float]]:
+        """The places from which on a link counts near another quarter of a turn, and that."""
+        near = self.near(link, self.at)
+        new = np.flatnonzero(np.append(True, np.diff(near) != 0))
+        return [(float(self.at[k]), float(near[k])) for k in new]
+
     def joined(self, other: Turned | None) -> Turned:
         """With the places of another that follow on these."""
         if other is None:
@@ -78,6 +89,17 @@ class Turned:
         """The same motion at other places, where links have gone so much farther (degrees)."""
         angles = {link: row + gone[link] for link, row in self.angles.items()}
         return Turned(self.at + by, angles)
+
+
+def through(pieces: Sequence[Piece]) -> Turned | None:
+    """How far links turn on the pieces of a range, one after the other; None where none counts."""
+    found: Turned | None = None
+    for piece in pieces:
+        turned = piece.course.turned
+        if turned is not None:
+            part = turned.within(piece.low.at, piece.high.at)
+            found = part if found is None else found.joined(part)
+    return found
 
 
 def led(course: Course, start: float, stop: float) -> Course:
@@ -120,6 +142,13 @@ def led(course: Course, start: float, stop: float) -> Course:
     if not found:
         return course
     return replace(course, turned=table(found))
+
+
+def led_both(course: Course, start: float, low: float, high: float) -> Course:
+    """The course with these angles followed from one place forth and back."""
+    before, after = led(course, start, low).turned, led(course, start, high).turned
+    turned = before.joined(after) if before is not None else after
+    return replace(course, turned=turned)
 
 
 def angles_near(course: Course, at: Reals, near: Mapping[str, float]) -> dict[str, Reals]:

@@ -77,6 +77,7 @@ def followed(sweep: Sweep, branches: Branches | None = None) -> Path:
     same closures picked. Raises ClosureError where nothing closes at all.
     """
     course = Course(sweep, sweep.original.branches if branches is None else branches)
+    course = led(course, sweep.stands, sweep.start)
     ranges: list[Range] = []
     if (group := numbered(course)) is not None and course.closes(np.array([sweep.start]))[0]:
         return numbered_path(group, sweep.start)

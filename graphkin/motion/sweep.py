@@ -57,6 +57,14 @@ class Sweep:
         return None if self.number is None else self.original.drivers[self.number - 1]
 
     @property
+    def stands(self) -> float:
+        """The u at which the scene is drawn: its start, or the time that it states."""
+        time = self.original.time
+        if self.what != "time" or time is None:
+            return self.start
+        return float(time.si(self.original.values))
+
+    @property
     def per_unit(self) -> float:
         """Radians, metres or seconds in one unit of u."""
         return pi / 180 if self.what == "turn" else 1.0

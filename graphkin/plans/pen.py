@@ -133,7 +133,7 @@ class Pen:
 
     def given(self, form: str, *quantities: Any, name: str = "", **says: Any) -> int:
         """Add a value that the scene states; the same value is written down once."""
-        key = (form, quantities, name, self.plane, says.get("d"))
+        key = (form, quantities, name, self.plane, says.get("d"), says.get("k"))
         if key not in self.shared:
             given = Given(form, quantities)
             plane = self.plane if form == "point" else Plane.NUMBERS

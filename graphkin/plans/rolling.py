@@ -12,6 +12,7 @@ from graphkin.plans.pen import Pen, Says, letter
 from graphkin.plans.shape import Shapes
 from graphkin.plans.touching import by_contact
 from graphkin.scene.model import FRAME, Driver, Wheel
+from graphkin.scene.quantity import exact
 from graphkin.steps.guides import placed, set_at
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import coordinate, difference, sum_of
@@ -247,10 +248,9 @@ def angle_of(pen: Pen, shapes: Shapes, link: str) -> int:
             return pen.the("turned", link)
         if driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
-        near = pen.near.get(link)
-        heading = pen.given("ahead") if near is None else pen.given("direction", near)
-        angle = pen.given("nought") if near is None else pen.given("number", near)
-        found = pen.draw(counted_near, axis(pen, shapes, link), heading, angle, k=link)
+        near = pen.near.get(link, exact(0, "deg"))
+        ends = pen.given("direction", near, k=link), pen.given("number", near, k=link)
+        found = pen.draw(counted_near, axis(pen, shapes, link), *ends, k=link)
         return pen.want("turned", link, found)
 
 

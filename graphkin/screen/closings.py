@@ -6,7 +6,7 @@ Near a value that is known (passage.py), the secant finds it in a page as it doe
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -100,11 +100,13 @@ def trial(trying: Any, known: Sequence[Any], at: Any, signs: Sequence[Any]) -> M
 class Solver:
     """What closes all groups, one after the other, near given values; ``size`` is the mechanism's.
 
-    ``misses`` give the misfit and what must be positive, of the driver's place and a state.
+    ``misses`` give the misfit and what must be positive, of the driver's place, a state, and the
+    angles that ``near`` gives for the place.
     """
 
     closings: Sequence[Closing]
     misses: Sequence[Callable[..., tuple[float, float]]]
+    near: Callable[[float], Mapping[str, Any]]
     size: float
 
     def __call__(self, at: float, near: State) -> State | None:
@@ -127,19 +129,27 @@ class Solver:
     def missed(self, k: int, at: float, state: list[float]) -> Callable[[float], Any]:
         """The misfit of a group by what it tries; it stays in the state."""
         place = [place for place, _ in self.placed()][k]
+        near = [float(angle) for angle in self.near(at).values()]
 
         def missed(value: float) -> tuple[float, float]:
             state[place] = value
-            return self.misses[k](at, *state)
+            return self.misses[k](at, *state, *near)
 
         return missed
 
 
-def solver(graph: Graph, driver: str, closings: Sequence[Closing], size: float) -> Solver:
-    """What closes all groups of a graph."""
-    names = [driver, *(name for each in closings for name in each.names)]
+def solver(
+    graph: Graph,
+    driver: str,
+    closings: Sequence[Closing],
+    counting: Iterable[str],
+    near: Callable[[float], Mapping[str, Any]],
+    size: float,
+) -> Solver:
+    """What closes all groups of a graph; ``near`` gives the inputs ``counting`` at a place."""
+    names = [driver, *(name for each in closings for name in each.names), *counting]
     misses = [function(graph, names, (each.misfit.node, each.facing.node)) for each in closings]
-    return Solver(closings, misses, size)
+    return Solver(closings, misses, near, size)
 
 
 def closed_near(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Any
@@ -142,10 +142,12 @@ def window(driven: Driven) -> tuple[float, float]:
     return sweep.low / driven.metres, sweep.high / driven.metres
 
 
-def reach_of(driven: Driven, graph: Graph, closed: Sequence[int]) -> Reach | None:
+def reach_of(
+    driven: Driven, graph: Graph, closed: Sequence[int], near: Callable[[Any], dict[str, Any]]
+) -> Reach | None:
     """The range about the start in which some outputs are finite; None where it is a mere place.
 
-    A gap narrower than half a degree may be passed.
+    ``near`` gives the further inputs of the graph at places of the driver. A gap narrower than half a degree may be passed.
     """
     import numpy as np
 
@@ -155,7 +157,7 @@ def reach_of(driven: Driven, graph: Graph, closed: Sequence[int]) -> Reach | Non
     run = runner(graph, closed)
 
     def closes(places: Any) -> Any:
-        found = run({INPUT: places})
+        found = run({INPUT: places, **near(places)})
         good = np.ones(len(places), dtype=bool)
         for values in found:
             good &= np.isfinite(values)

@@ -79,7 +79,9 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> Motion:
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
     places, order = (
-        round_trip(cycle, frames) if goes_round(cycle) else end_to_end(cycle, low, high, frames)
+        round_trip(cycle, frames)
+        if goes_round(cycle) and cycle.path.returns
+        else end_to_end(cycle, low, high, frames)
     )
     order = order if sense_of(cycle) > 0 else [*order[:1], *order[:0:-1]]
     found = [moment_at(cycle, place, words) for place in places]
@@ -111,10 +113,11 @@ def round_trip(cycle: Cycle, frames: int) -> tuple[list[float], list[int]]:
 
 
 def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list[float], list[int]]:
-    """The places of a range or a time: from where the scene stands to its end, then from its
-    beginning on."""
+    """The places of a range, a time, or a turn that does not come back: from where the scene stands
+    to its end, then from its beginning on."""
     start = min(max(place_in(cycle, low, high), low), high)
-    step = (high - low) / frames * (1 if cycle.sweep.what == "time" else 2)
+    once = cycle.sweep.what == "time" or goes_round(cycle)
+    step = (high - low) / frames * (1 if once else 2)
     below, above = (max(round(way / step), 1) for way in (start - low, high - start))
     below, above = (below if start > low else 0), (above if high > start else 0)
     places = [low + (start - low) * i / below for i in range(below)]
@@ -179,7 +182,7 @@ def moment_at(cycle: Cycle, place: float, words: Words) -> Moment | None:
     piece, within = piece_at(cycle, place)
     if piece is None:
         return None
-    mechanism = standing_at(cycle, piece, within)
+    mechanism = Mechanism(piece.course.standing(within))
     try:
         scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
         drawings = {
@@ -210,12 +213,3 @@ def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:
             if piece.low.at <= place + turn <= piece.high.at:
                 return piece, place + turn
     return None, place
-
-
-def standing_at(cycle: Cycle, piece: Piece, place: float) -> Mechanism:
-    """The mechanism with its drivers at a place and the closures of a piece."""
-    import numpy as np
-
-    found = cycle.sweep.values(np.array([place]))
-    values = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in found.items()}
-    return Mechanism(replace(piece.course.scene, values=values))

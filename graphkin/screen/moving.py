@@ -127,6 +127,7 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         "reach": size,
     }
     data |= {"size": len(tracing.shelf.outputs), "course": way_through(course, tracing, reach)}
+    data["turned"] = list(turned_through(tracing))
     return Moving(source(data, tracing), driven, reach, data, tracing)
 
 
@@ -235,6 +236,14 @@ def misses(tracing: Tracing) -> Iterator[str]:
         outputs = (each.misfit.node, each.facing.node)
         yield script_source(tracing.graph, outputs, tracing.inputs, name)
     yield f"const closings = [{','.join(names)}];"
+
+
+def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:
+    """Near which angle (degrees) each link counts from which place of the driver on."""
+    for name, link in tracing.counting.items():
+        assert tracing.turned is not None
+        at, near = zip(*tracing.turned.steps(link), strict=True)
+        yield {"place": tracing.inputs[name], "at": at, "near": near}
 
 
 def way_through(course: Course, tracing: Tracing, reach: Reach) -> dict[str, Any]:

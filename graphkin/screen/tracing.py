@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import pi
 from typing import Any
 
 from graphkin.mechanism import Mechanism
+from graphkin.motion.counted import Turned, name_of, through
+from graphkin.motion.pieces import followed
+from graphkin.motion.sweep import sweep_of
 from graphkin.screen.closings import Closing, closing, drawn_state, names_of, solver, tried
 from graphkin.screen.driven import INPUT, Driven, Reach, reach_of, window
 from graphkin.screen.passage import Course, around
@@ -26,7 +30,8 @@ SLACK = 1e-6
 class Tracing:
     """The traced steps of a mechanism: what a sheet has traced, the next ones take over.
 
-    ``margins`` are the sines of all crossings, ``closings`` what closes groups of higher class.
+    ``margins`` are the sines of all crossings, ``closings`` what closes groups of higher class,
+    ``counting`` by their inputs the links whose whole turns are followed.
     """
 
     mechanism: Mechanism
@@ -35,6 +40,7 @@ class Tracing:
     done: dict[int, Any] = field(default_factory=dict)
     margins: dict[int, Any] = field(default_factory=dict)
     closings: list[Closing] = field(default_factory=list)
+    counting: dict[str, str] = field(default_factory=dict)
 
     @cached_property
     def x(self) -> Number:
@@ -48,9 +54,9 @@ class Tracing:
 
     @property
     def inputs(self) -> dict[str, int]:
-        """The places of the inputs: the driver, then what closes groups."""
+        """The places of the inputs: the driver, what closes groups, the angles links count near."""
         names = [INPUT, *(name for each in self.closings for name in each.names)]
-        return {name: place for place, name in enumerate(names)}
+        return {name: place for place, name in enumerate((*names, *self.counting))}
 
     def traced(self, drawn: Trace) -> Trace:
         """The steps that were run for a sheet, traced. Raises UntraceableError."""
@@ -61,7 +67,7 @@ class Tracing:
         own = {after for number in scaled for after in program.descendants(number)}
         shared = {n: value for n, value in self.done.items() if n not in own}
         overrides = scaled | self.closers(drawn) | shared
-        overrides |= self.driven.overrides(program, self.x)
+        overrides |= self.driven.overrides(program, self.x) | self.counted(drawn)
         overrides = {n: value for n, value in overrides.items() if n in drawn.values}
         needed = sorted(drawn.values)
         ready = made_ready(program, needed, values, needed, frozenset(overrides))
@@ -70,6 +76,38 @@ class Tracing:
         self.margins.update(trace.margins)
         self.add_closings(drawn, trace)
         return trace
+
+    # --- links that only their pins turn ---------------------------------------------------------
+
+    @cached_property
+    def turned(self) -> Turned | None:
+        """How far such links turn as the driver moves, which is in its unit."""
+        sweep = sweep_of(self.mechanism.scene)
+        turned = through(followed(sweep).ranges[0])
+        return None if turned is None else Turned(turned.at / self.driven.metres, turned.angles)
+
+    def counted(self, drawn: Trace) -> dict[int, Any]:
+        """The steps that hold the angles near which these links count, traced."""
+        found: dict[int, Any] = {}
+        for number in drawn.values:
+            step = drawn.program.steps[number]
+            if step.action is None or step.action.key != "counted-near" or "k" not in step.says:
+                continue
+            link = step.says["k"]
+            if self.turned is None or link not in self.turned.angles:
+                continue
+            name = name_of(link)
+            self.counting[name] = link
+            self.shelf.inputs[name] = float(self.turned.near(link, self.driven.start))
+            angle = Number(self.graph, self.graph.input(name))
+            _, heading, near = step.args
+            found |= {heading: traced_kind().direction(angle), near: angle * (pi / 180)}
+        return found
+
+    def near(self, at: Any) -> dict[str, Any]:
+        """The angles near which links count at places of the driver, by their inputs."""
+        links = self.counting.items()
+        return {name: self.turned.near(link, at) for name, link in links if self.turned}
 
     # --- groups of higher class ----------------------------------------------------------------
 
@@ -129,9 +167,9 @@ class Tracing:
         """The range, and what closes groups on the way through it; None where nothing moves."""
         if not self.closings:
             outputs = [self.shelf.outputs[i] for i in closed]
-            reach = reach_of(self.driven, self.graph, outputs)
+            reach = reach_of(self.driven, self.graph, outputs, self.near)
             return None if reach is None else (reach, Course())
-        solve = solver(self.graph, INPUT, self.closings, size)
+        solve = solver(self.graph, INPUT, self.closings, self.counting, self.near, size)
         turning, start = self.driven.what == "turn", self.driven.start
         return around(solve, start, window(self.driven), turning=turning)
 

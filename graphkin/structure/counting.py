@@ -21,13 +21,13 @@ WHOLE = {"deg": Number(Fraction(360)), "rad": Pair("*", Number(Fraction(2)), Nam
 
 
 def counted_near(scene: Scene) -> Mapping[str, Quantity]:
-    """The angle within half a turn of which that of a link is taken; nought for links without one.
+    """The angle within half a turn of which that of each link is taken.
 
     It counts from the start of what rolls and states its turns, else of what rolls first. Raises
     StructureError where two state turns of one link.
     """
     found = {link: near(rolling, link) for link, rolling in counting(scene).items()}
-    return {**{link: angle for link, angle in found.items() if angle is not None}, **scene.near}
+    return {**found, **scene.near}
 
 
 def counting(scene: Scene) -> Mapping[str, Rolling]:
@@ -59,11 +59,11 @@ def stated(scene: Scene) -> dict[str, Rolling]:
     return found
 
 
-def near(rolling: Rolling, link: str) -> Quantity | None:
-    """The angle of a link at the start and the whole turns that are added; None for nought."""
-    start, turns = rolling.start.get(link), rolling.turns.get(link)
-    if turns is None:
+def near(rolling: Rolling, link: str) -> Quantity:
+    """The angle of a link at the start, and the whole turns that are added."""
+    start = rolling.start.get(link, exact(0, "deg"))
+    if link not in rolling.turns:
         return start
-    start = start or exact(0, "deg", turns.place)
+    turns = rolling.turns[link]
     tree: Tree = Pair("+", start.tree, Pair("*", turns.tree, WHOLE[start.unit]))
     return Quantity(f"({start.text}) + ({turns.text}) turns", tree, start.unit, turns.place)

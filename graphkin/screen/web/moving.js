@@ -8,9 +8,19 @@ const reckon = (at) => {
   if (at !== reckoned) {
     reckoned = at;
     x[0] = at;
+    count();
     closes = closeAll() && (run(x, y), data.closed.every((i) => Number.isFinite(y[i])));
   }
   return closes;
+};
+
+// How often links went round that only pins turn: near which angle each counts from a place on.
+const count = () => {
+  for (const { place, at, near } of data.turned) {
+    let k = at.length - 1;
+    while (k > 0 && at[k] > x[0]) k--;
+    x[place] = near[k];
+  }
 };
 
 // Groups of class III: near a state that the way through the range gives, the secant closes them.
