@@ -24,11 +24,14 @@ if TYPE_CHECKING:
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 QUARTER = 90.0
-"""Angles near which links count are whole quarters of a turn, whose directions are exact."""
+"""Angles near which links count are whole quarters of a turn from the stated ones, in degrees."""
+FAR, STEP = 135.0, 45.0
+"""Degrees from such an angle beyond which another is taken, and largest step from place to place:
+together less than half a turn."""
 FIRST, MOST = 64, 8192
-"""Places run at once, at first and at most, until some link has gone a quarter of a turn."""
+"""Places run at once, at first and at most, until some link counts near another angle."""
 PARTS = 16
-"""Parts into which a way is cut on which a link goes a quarter of a turn and more."""
+"""Parts into which a way is cut on which a link goes by a larger step."""
 ENOUGH = 1e-9
 """Share of the way below which it is not cut any more: there a link leaps."""
 
@@ -54,94 +57,114 @@ def degrees_of(angle: Quantity, scene: Scene) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class Turned:
-    """How far links have turned: places u (N,), rising, and angles (degrees) by the link, (N,)."""
+    """Near which angles links count: from each of some places u on (N,), rising, degrees (N,)."""
 
     at: Reals
-    angles: Mapping[str, Reals]
+    near: Mapping[str, Reals]
 
     def values(self, at: Any) -> dict[str, Any]:
-        """The named angles near which links count at other places; at both ends they stay."""
-        return {name_of(link): self.near(link, at) for link in self.angles}
-
-    def near(self, link: str, at: Any) -> Any:
-        """The quarter of a turn nearest to the angle of a link."""
-        return QUARTER * np.rint(np.interp(at, self.at, self.angles[link]) / QUARTER)
-
-    def within(self, low: float, high: float) -> Turned:
-        """The part from one place to another."""
-        here = (low <= self.at) & (self.at <= high)
-        return Turned(self.at[here], {link: row[here] for link, row in self.angles.items()})
-
-    def steps(self, link: str) -> list[tuple[float, float]]:
-        """The places from which on a link counts near another quarter of a turn, and that."""
-        near = self.near(link, self.at)
-        new = np.flatnonzero(np.append(True, np.diff(near) != 0))
-        return [(float(self.at[k]), float(near[k])) for k in new]
+        """The named angles at any places; before the first they are those of the first."""
+        here = np.maximum(np.searchsorted(self.at, at, side="right") - 1, 0)
+        return {name_of(link): row[here] for link, row in self.near.items()}
 
     def joined(self, other: Turned | None) -> Turned:
         """With the places of another that follow on these."""
         if other is None:
             return self
-        both = {link: np.append(row, other.angles[link]) for link, row in self.angles.items()}
+        both = {link: np.append(row, other.near[link]) for link, row in self.near.items()}
         return Turned(np.append(self.at, other.at), both)
+
+    def within(self, low: float, high: float) -> Turned:
+        """The part from one place to another."""
+        here = (low < self.at) & (self.at < high)
+        first = self.values(low)
+        near = {link: np.append(first[name_of(link)], row[here]) for link, row in self.near.items()}
+        return Turned(np.append(low, self.at[here]), near)
 
     def moved(self, by: float, gone: Mapping[str, float]) -> Turned:
         """The same motion at other places, where links have gone so much farther (degrees)."""
-        angles = {link: row + gone[link] for link, row in self.angles.items()}
-        return Turned(self.at + by, angles)
+        near = {link: row + gone[link] for link, row in self.near.items()}
+        return Turned(self.at + by, near)
 
 
 def through(pieces: Sequence[Piece]) -> Turned | None:
-    """How far links turn on the pieces of a range, one after the other; None where none counts."""
+    """Near which angles links count on the pieces of a range, one after the other.
+
+    None where none counts.
+    """
     found: Turned | None = None
     for piece in pieces:
-        turned = piece.course.turned
-        if turned is not None:
+        if (turned := piece.course.turned) is not None:
             part = turned.within(piece.low.at, piece.high.at)
             found = part if found is None else found.joined(part)
     return found
+
+
+class Followed:
+    """Links followed along a sweep from one place, forth or back: near which angles they count."""
+
+    def __init__(self, start: float, near: Mapping[str, float]) -> None:
+        self.places, self.near = [start], [dict(near)]
+
+    @property
+    def now(self) -> Mapping[str, float]:
+        """The angles near which they count from the last place on."""
+        return self.near[-1]
+
+    def counts_on(self, at: float, angles: Mapping[str, float]) -> bool:
+        """Whether they count near other angles from a place on, where they stand at some."""
+        moved = {link: angle - self.now[link] for link, angle in angles.items()}
+        if max(map(abs, moved.values()), default=0.0) <= FAR:
+            return False
+        quarters = {link: QUARTER * round(by / QUARTER) for link, by in moved.items()}
+        self.places.append(at)
+        self.near.append({link: near + quarters[link] for link, near in self.now.items()})
+        return True
+
+    def turned(self, stop: float) -> Turned:
+        """The whole of it, as far as a place."""
+        places, near = self.places, self.near
+        if stop < places[0]:
+            places, near = [stop, *places[:0:-1]], near[::-1]
+        return Turned(np.array(places), {m: np.array([row[m] for row in near]) for m in near[0]})
+
+
+def following(course: Course, start: float) -> Followed:
+    """The links of a course that count near a followed angle, from a place on as it says so far."""
+    known = course.values(np.array([start]))
+    near = {link: float(np.ravel(known[name_of(link)])[0]) for link in course.counting}
+    return Followed(start, near)
 
 
 def led(course: Course, start: float, stop: float) -> Course:
     """The course with the angles near which links count followed from one place to another.
 
     At the start they count as the course says so far. Where nothing closes they stay. Between two
-    places of the grid a link is taken to turn by less than three quarters of a turn.
+    places of the grid a link is taken to turn by less than a turn but for a largest step.
     """
     if not course.counting or start == stop:
         return course
     way = abs(stop - start)
     count = max(int(np.ceil(way / abs(course.sweep.grid_step))), 1)
     ahead = np.linspace(start, stop, count + 1).tolist()[::-1]
-    known = course.values(np.array([start]))
-    near = {link: float(np.ravel(known[name_of(link)])[0]) for link in course.counting}
-    found: list[tuple[float, dict[str, float]]] = []
-    size, last = FIRST, start
+    followed, passed = following(course, start), start
+    last: dict[str, float] = {}
+    size = FIRST
     while ahead:
         places = np.array(ahead[: -size - 1 : -1])
-        angles = angles_near(course, places, near)
-        good = np.isfinite(np.array([*angles.values()])).all(axis=0)
-        if not found and good.any():
-            near = {link: float(row[good][0]) for link, row in angles.items()}
-            last = float(places[good][0])
-            found.append((last, near))
-            del ahead[-1 - int(np.flatnonzero(good)[0]) :]
-            continue
-        done = within_quarter(angles, near, good)
+        angles = angles_near(course, places, followed.now)
+        done = as_far(angles, followed.now, last)
         if done:
-            here = np.flatnonzero(good[:done])
-            found += [(float(places[k]), {m: float(r[k]) for m, r in angles.items()}) for k in here]
-            near, last = found[-1][1] if found else near, float(places[done - 1])
+            passed, last = float(places[done - 1]), last_of(angles, done) or last
             del ahead[-done:]
             size = min(2 * size, MOST) if done == len(places) else FIRST
+        elif followed.counts_on(passed, last):
             continue
-        if abs(places[0] - last) > ENOUGH * way:
-            ahead += np.linspace(places[0], last, PARTS + 1)[1:-1].tolist()
+        elif abs(places[0] - passed) > ENOUGH * way:
+            ahead += np.linspace(places[0], passed, PARTS + 1)[1:-1].tolist()
         else:
-            near = {link: float(row[0]) for link, row in angles.items()}
-    if not found:
-        return course
-    return replace(course, turned=table(found))
+            last = last_of(angles, 1)
+    return replace(course, turned=followed.turned(stop))
 
 
 def led_both(course: Course, start: float, low: float, high: float) -> Course:
@@ -158,19 +181,28 @@ def angles_near(course: Course, at: Reals, near: Mapping[str, float]) -> dict[st
     return {link: np.degrees(row) for link, row in rows.items()}
 
 
-def within_quarter(angles: Mapping[str, Reals], near: Mapping[str, float], good: Reals) -> int:
-    """How many places come before a link has gone a quarter of a turn, in all or from one on."""
-    over = np.zeros(len(good), dtype=bool)
+def as_far(
+    angles: Mapping[str, Reals], near: Mapping[str, float], last: Mapping[str, float]
+) -> int:
+    """How many places come before a link has gone too far from its angle, or by too large a step.
+
+    Places where nothing closes are passed; ``last`` is empty before the first that closes.
+    """
+    good = np.isfinite(np.array([*angles.values()])).all(axis=0)
+    places = np.flatnonzero(good)
+    if not places.size:
+        return len(good)
+    over = np.zeros(len(places), dtype=bool)
     for link, row in angles.items():
-        rows = np.append(near[link], row[good])
-        far = (np.abs(rows[1:] - near[link]) > QUARTER) | (np.abs(np.diff(rows)) > QUARTER)
-        over[np.flatnonzero(good)[far]] = True
-    return int(np.argmax(over)) if over.any() else len(good)
+        before = np.append(last.get(link, row[places[0]]), row[places])[:-1]
+        away = np.abs(before - near[link]) > FAR
+        away[0] &= bool(last)
+        over |= away | (np.abs(row[places] - before) > STEP)
+    return int(places[np.argmax(over)]) if over.any() else len(good)
 
 
-def table(found: Sequence[tuple[float, Mapping[str, float]]]) -> Turned:
-    """Followed angles as arrays, the places rising."""
-    rows = sorted(found, key=lambda row: row[0])
-    links = rows[0][1]
-    at = np.array([place for place, _ in rows])
-    return Turned(at, {link: np.array([angles[link] for _, angles in rows]) for link in links})
+def last_of(angles: Mapping[str, Reals], done: int) -> dict[str, float]:
+    """The angles at the last of some places that closes; empty without one."""
+    rows = np.array([row[:done] for row in angles.values()])
+    good = np.flatnonzero(np.isfinite(rows).all(axis=0))
+    return {} if not good.size else {link: float(row[good[-1]]) for link, row in angles.items()}

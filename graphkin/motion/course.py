@@ -118,6 +118,12 @@ class Course:
             )
         return {link: spread(trace.value("turned", link), count) for link in self.counting}
 
+    def angles(self, at: float) -> dict[str, float]:
+        """The angles (degrees) of these links at one u."""
+        here = np.array([at])
+        found = self.counted(self.values(here), 1)
+        return {link: float(np.degrees(row[0])) for link, row in found.items()}
+
     def margins(self, at: Any) -> Reals:
         """The sine of every crossing (rows as ``crossings``) for each u (N,); NaN does not close.
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.arithmetic import batch_kind
+from graphkin.motion.counted import following
 from graphkin.motion.course import Course, Reals, spread
 from graphkin.motion.driving import TURN
 from graphkin.scene.model import Closure
@@ -57,12 +58,15 @@ class Stop:
 class Node:
     """One place of the motion: u, the closure's number there, and where all points stand.
 
-    ``leapt`` tells that no closure was found on the way to it, though the motion goes on there.
+    ``turned`` are the angles (degrees) of the links that only their pins turn and whose wheels
+    depend on it. ``leapt`` tells that no closure was found on the way to it, though the motion goes
+    on there.
     """
 
     at: float
     number: int
     points: Reals
+    turned: Reals
     leapt: bool = False
 
 
@@ -73,17 +77,30 @@ class Numbered:
         self.course, self.step, self.link = course, step, link
         targets = course.program.targets
         self.targets = [target for target in targets if target[0] == "position"]
+        self.rows = [*self.targets, *(("turned", link) for link in course.counting)]
 
     def with_number(self, number: int, here: float) -> Course:
         """The course with another number of the closure."""
         branches = {**self.course.branches, self.link: Closure(number)}
         return replace(self.course, branches=branches, here=here)
 
+    def node(self, at: float, number: int, closures: Reals, *, leapt: bool = False) -> Node:
+        """The place of a closure, of all those there."""
+        points, turned = np.split(closures[number - 1], [len(self.targets)])
+        return Node(at, number, points, np.degrees(turned.real), leapt)
+
+    def turned(self, node: Node) -> dict[str, float]:
+        """The angles (degrees) of the links that count at a place of the motion."""
+        return dict(zip(self.course.counting, node.turned.tolist(), strict=True))
+
     def places(self, at: Reals) -> Reals:
-        """Where all points stand in every closure, shape (closures, points, N); NaN for none."""
+        """Where all points stand in every closure, and how far links have turned (radians).
+
+        Shape (closures, points and links, N); NaN for none.
+        """
         parts = [self._places(at[k : k + CHUNK]) for k in range(0, len(at), CHUNK)]
         ways = max(len(part) for part in parts)
-        whole = np.full((ways, len(self.targets), len(at)), np.nan + 0j)
+        whole = np.full((ways, len(self.rows), len(at)), np.nan + 0j)
         for k, part in enumerate(parts):
             whole[: len(part), :, k * CHUNK : k * CHUNK + part.shape[2]] = part
         return whole
@@ -103,14 +120,14 @@ class Numbered:
             self._stand(at, values, np.array(closures.picked(number)), trying.turns)
             for number in range(1, int(counts.max(initial=0)) + 1)
         ]
-        return np.array(every) if every else np.empty((0, len(self.targets), len(at)), complex)
+        return np.array(every) if every else np.empty((0, len(self.rows), len(at)), complex)
 
     def _stand(self, at: Reals, values: dict[str, Any], table: Reals, turns: bool) -> Reals:
-        """Where all points stand in one closure at each place."""
+        """Where all points and links stand in one closure at each place."""
         program = self.course.program
         tried = np.exp(1j * table[:, 1]) if turns else table[:, 1]
         overrides = {self.step: (tried, *table[:, 2:].T)}
-        keep = [program.targets[target] for target in self.targets]
+        keep = [program.targets[target] for target in self.rows]
         with np.errstate(all="ignore"):
             trace = run_batch(
                 program, self.course.early, values, batch_kind(), keep, overrides=overrides
@@ -132,24 +149,37 @@ def numbered(course: Course) -> Numbered | None:
 
 
 def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]:
-    """The places of the motion from one u to another, or to the dead point before it."""
+    """The places of the motion from one u to another, or to the dead point before it.
+
+    The course of the group then counts how far links turn on the way.
+    """
     course = group.course
     span = course.sweep.high - course.sweep.low
     whole = TURN if course.sweep.what == "turn" else span
     count = max(int(np.ceil(abs(stop - start) / whole * PLACES)), 2)
     grid = np.linspace(start, stop, count + 1)
-    known = dict(zip(grid.tolist(), np.moveaxis(group.places(grid), 2, 0), strict=True))
+    some = CHUNK if course.counting else len(grid)
+    followed = following(course, start)
+    if course.counting:
+        group.course = replace(course, turned=followed.turned(stop))
     branch = course.branches[group.link]
     assert isinstance(branch, Closure)
-    found = [Node(float(start), branch.number, known[float(start)][branch.number - 1])]
+    first = np.moveaxis(group.places(grid[:1]), 2, 0)[0]
+    found = [group.node(float(start), branch.number, first)]
+    known: dict[float, Reals] = {}
     ahead = grid[:0:-1].tolist() if start != stop else []
     for _ in range(MOST):
         if not ahead:
             return found, Stop(float(stop), False, float(stop))
         target = ahead[-1]
+        if followed.counts_on(found[-1].at, group.turned(found[-1])):
+            group.course = replace(course, turned=followed.turned(stop))
+            known = {}
+        if target not in known:
+            known |= closures_at(group, ahead[-1 : -some - 1 : -1])
         number = led_to(group, found, target, known[target])
         if number:
-            found.append(Node(target, number, known[target][number - 1]))
+            found.append(group.node(target, number, known[target]))
             ahead.pop()
         elif abs(target - found[-1].at) < ENOUGH * span:
             node = leap(group, found, grid, known)
@@ -158,11 +188,17 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
             found.append(node)
             ahead = [at for at in grid[:0:-1].tolist() if abs(at - start) > abs(node.at - start)]
         else:
-            between = np.linspace(found[-1].at, target, PARTS + 1)[1:-1]
-            closures = np.moveaxis(group.places(between), 2, 0)
-            known |= dict(zip(between.tolist(), closures, strict=True))
-            ahead += between[::-1].tolist()
+            between = np.linspace(found[-1].at, target, PARTS + 1)[1:-1].tolist()
+            known |= closures_at(group, between)
+            ahead += between[::-1]
     return found, Stop(found[-1].at, True, ahead[-1])
+
+
+def closures_at(group: Numbered, at: Sequence[float]) -> dict[float, Reals]:
+    """All closures at some places, by the place."""
+    if not at:
+        return {}
+    return dict(zip(at, np.moveaxis(group.places(np.array(at)), 2, 0), strict=True))
 
 
 def leap(
@@ -174,10 +210,12 @@ def leap(
     """
     here = found[-1].at
     way = np.sign(grid[-1] - grid[0])
-    for at in [u for u in grid.tolist() if (u - here) * way > 0][:LEAP]:
+    beyond = [u for u in grid.tolist() if (u - here) * way > 0][:LEAP]
+    known |= closures_at(group, [at for at in beyond if at not in known])
+    for at in beyond:
         number = led_to(group, found, at, known[at], LEAP_NEAR)
         if number:
-            return Node(at, number, known[at][number - 1], leapt=True)
+            return group.node(at, number, known[at], leapt=True)
     return None
 
 
@@ -186,7 +224,7 @@ def led_to(
 ) -> int:
     """The number of the closure to which the motion leads; 0 where it is not sure of any."""
     here = found[-1]
-    predicted = prediction(group, found, at)
+    predicted, closures = prediction(group, found, at), closures[:, : len(group.targets)]
     misses = np.abs(closures - predicted).max(axis=1)
     misses = np.where(np.isfinite(misses), misses, np.inf)
     if not len(misses) or not np.isfinite(misses).any():
@@ -258,10 +296,10 @@ def narrowed(group: Numbered, low: Node, high: Node) -> tuple[Node, Node]:
     at = low.at + (high.at - low.at) * share
     between = low.points[:, None] + (high.points - low.points)[:, None] * share
     closures = group.places(at)
-    misses = np.abs(closures - between).max(axis=1)
+    misses = np.abs(closures[:, : len(group.targets)] - between).max(axis=1)
     numbers = np.where(np.isfinite(misses), misses, np.inf).argmin(axis=0) + 1
     for k, number in enumerate(numbers.tolist()):
-        node = Node(float(at[k]), number, closures[number - 1, :, k])
+        node = group.node(float(at[k]), number, closures[:, :, k])
         if number != low.number:
             return low, node
         low = node

@@ -117,13 +117,12 @@ def numbered_path(group: Numbered, start: float) -> Path:
     upward = cut(group, ahead, Event("window", start), high)
     if sweep.whole and not end.dead:
         returns = same_place(ahead[0], ahead[-1])
-        return Path((counted_from_nought(upward) if returns else upward,), True, returns)
+        return Path((counted_from_nought(upward, start) if returns else upward,), True, returns)
     behind, end = nodes(group, start, min(far[1], start))
     low = Event("dead" if end.dead else "window", end.at, (), end.beyond if end.dead else None)
     downward = tuple(reversed(cut(group, behind, Event("window", start), low)))
     turned = tuple(replace(piece, low=piece.high, high=piece.low) for piece in downward)
-    joined = replace(upward[0], low=turned[-1].low)
-    return Path(((*turned[:-1], joined, *upward[1:]),), False, False)
+    return Path((joined_at(turned, upward),), False, False)
 
 
 def cut(group: Numbered, found: list[Node], start: Event, end: Event) -> Range:
@@ -240,10 +239,11 @@ def counted_from_nought(pieces: Range, start: float) -> Range:
 
 def gone_in(pieces: Range, start: float) -> dict[str, float]:
     """By how many degrees links go in a whole turn after which all stands as before."""
-    first, last = pieces[0].course.turned, pieces[-1].course.turned
-    if first is None or last is None:
+    course = pieces[-1].course
+    if course.turned is None:
         return {}
-    return {link: last.near(link, start + TURN) - first.near(link, start) for link in first.angles}
+    ends = pieces[0].course.angles(start), course.angles(start + TURN)
+    return {link: TURN * round((ends[1][link] - angle) / TURN) for link, angle in ends[0].items()}
 
 
 def turned_back(piece: Piece, turns: int, gone: dict[str, float]) -> Piece:

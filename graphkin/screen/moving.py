@@ -242,8 +242,8 @@ def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:
     """Near which angle (degrees) each link counts from which place of the driver on."""
     for name, link in tracing.counting.items():
         assert tracing.turned is not None
-        at, near = zip(*tracing.turned.steps(link), strict=True)
-        yield {"place": tracing.inputs[name], "at": at, "near": near}
+        near = tracing.turned.near[link].tolist()
+        yield {"place": tracing.inputs[name], "at": tracing.turned.at.tolist(), "near": near}
 
 
 def way_through(course: Course, tracing: Tracing, reach: Reach) -> dict[str, Any]:

@@ -84,7 +84,7 @@ class Tracing:
         """How far such links turn as the driver moves, which is in its unit."""
         sweep = sweep_of(self.mechanism.scene)
         turned = through(followed(sweep).ranges[0])
-        return None if turned is None else Turned(turned.at / self.driven.metres, turned.angles)
+        return None if turned is None else Turned(turned.at / self.driven.metres, turned.near)
 
     def counted(self, drawn: Trace) -> dict[int, Any]:
         """The steps that hold the angles near which these links count, traced."""
@@ -94,11 +94,11 @@ class Tracing:
             if step.action is None or step.action.key != "counted-near" or "k" not in step.says:
                 continue
             link = step.says["k"]
-            if self.turned is None or link not in self.turned.angles:
+            if self.turned is None or link not in self.turned.near:
                 continue
             name = name_of(link)
             self.counting[name] = link
-            self.shelf.inputs[name] = float(self.turned.near(link, self.driven.start))
+            self.shelf.inputs |= self.near(self.driven.start)
             angle = Number(self.graph, self.graph.input(name))
             _, heading, near = step.args
             found |= {heading: traced_kind().direction(angle), near: angle * (pi / 180)}
@@ -106,8 +106,8 @@ class Tracing:
 
     def near(self, at: Any) -> dict[str, Any]:
         """The angles near which links count at places of the driver, by their inputs."""
-        links = self.counting.items()
-        return {name: self.turned.near(link, at) for name, link in links if self.turned}
+        every = {} if self.turned is None else self.turned.values(at)
+        return {name: every[name] for name in self.counting}
 
     # --- groups of higher class ----------------------------------------------------------------
 
