@@ -142,11 +142,16 @@ def stands_still(sweep: Sweep, path: Path) -> Problem:
 
 
 def places(sweep: Sweep, path: Path, steps: int) -> Reals:
-    """The places of the rows: a whole turn in equal steps from nought, a range between its ends."""
+    """The places of the rows: a whole turn in equal steps from nought, a range between its ends.
+
+    A whole turn that does not come back has a row at its end, too.
+    """
     if sweep.whole:
         even = np.arange(steps) * (TURN / steps)
+        if path.whole and not path.returns:
+            return path.ranges[0][0].low.at + np.append(even, TURN)
         if path.whole:
-            return even if path.returns else even + path.ranges[0][0].low.at
+            return even
         every = np.concatenate([even - TURN, even, even + TURN])
         parts = [every[(low <= every) & (every <= high)] for low, high in spans(path)]
         missing = even[~closing(even, np.concatenate(parts))]

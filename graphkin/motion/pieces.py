@@ -27,6 +27,7 @@ from graphkin.motion.numbered import (
 )
 from graphkin.motion.refine import TOUCH
 from graphkin.motion.sweep import Sweep
+from graphkin.steps.program import Target
 
 ALIKE = 1e-8
 """Degrees within which two places are one."""
@@ -207,14 +208,22 @@ def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
 
 def repeats(pieces: Range, start: float) -> bool:
     """Whether every link stands after a whole turn as before it; wheels need not."""
+    return max(misses(pieces, start, start + TURN).values()) <= BACK
+
+
+def misses(pieces: Range, start: float, stop: float) -> dict[Target, float]:
+    """By how much points and links stand otherwise at the end of some pieces than at their start.
+
+    In parts of the mechanism's size, and as the size of the change of a unit axis.
+    """
     first, last = pieces[0].course, pieces[-1].course
     targets = [t for t in first.program.targets if t[0] in ("position", "axis")]
     before = first.columns(np.array([start]), targets)
-    after = last.columns(np.array([start + TURN]), targets)
+    after = last.columns(np.array([stop]), targets)
     places = np.array([before[t][0] for t in targets if t[0] == "position"])
     size = float(np.abs(places - places.mean()).max())
-    misses = {t: abs(before[t][0] - after[t][0]) for t in targets}
-    return all(m <= BACK * (size if t[0] == "position" else 1) for t, m in misses.items())
+    units = {"position": size, "axis": 1.0}
+    return {t: float(abs(before[t][0] - after[t][0])) / units[t[0]] for t in targets}
 
 
 def counted_from_nought(pieces: Range, start: float) -> Range:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from graphkin.motion.events import Singular
     from graphkin.motion.limits import Follower, Limit
     from graphkin.motion.loop import Loop
+    from graphkin.motion.pieces import Path
     from graphkin.motion.sweep import Sweep
 
 FLAT = 1e-10
@@ -83,9 +84,7 @@ def range_words(cycle: Cycle) -> list[str]:
     sweep = cycle.sweep
     if cycle.path.whole:
         words = ["every angle of the driver: it turns fully"]
-        if not cycle.path.returns:
-            words.append("after one turn the mechanism stands in another closure")
-        return words
+        return words + list(return_words(cycle.path))
     lines = []
     for pieces in cycle.path.ranges:
         low, high = pieces[0].low, pieces[-1].high
@@ -97,6 +96,26 @@ def range_words(cycle: Cycle) -> list[str]:
             line += f"; nothing stops it {' and '.join(free)}"
         lines.append(line)
     return lines
+
+
+def return_words(path: Path) -> Iterator[str]:
+    """How the mechanism stands after a turn of the driver, unless it stands as before."""
+    from graphkin.motion.period import MOST, strangers, turns_to_return
+
+    if path.returns:
+        return
+    others = strangers(path)
+    if dict(path.ranges[0][0].branches) != dict(path.ranges[0][-1].branches) or not others:
+        yield "after one turn the mechanism stands in another closure"
+        return
+    stand = "links {} stand" if len(others) > 1 else "link {} stands"
+    yield f"after one turn {stand.format(listed(others))} otherwise than before"
+    turns = turns_to_return(path)
+    yield (
+        f"after {turns} turns all stands as before"
+        if turns
+        else f"nor does all stand as before within {MOST} turns"
+    )
 
 
 def singular_words(cycle: Cycle, found: Singular) -> str:
