@@ -129,7 +129,7 @@ def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curv
 
 
 def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
-    """A curve in runs, broken where a centre is far away; it closes after a turn that comes back."""
+    """A curve in runs, broken where a centre is far away; a turn that comes back closes it."""
     import numpy as np
 
     ends = [p.position for p in whole.solution.points.values() if p.position is not None]

@@ -90,7 +90,9 @@ def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
     step = sweep.grid_step
     grid = start + np.arange(GRID + (not sweep.whole)) * step
     try:
-        course = led_both(Course(sweep, scene.branches), sweep.start, float(grid[0]), float(grid[-1]))
+        course = led_both(
+            Course(sweep, scene.branches), sweep.start, float(grid[0]), float(grid[-1])
+        )
         margins = course.margins(grid)
     except GraphkinError:
         return []

@@ -113,9 +113,7 @@ class Course:
         wanted = [("turned", link) for link in self.counting]
         keep = [self.program.targets[target] for target in wanted]
         with np.errstate(all="ignore"):
-            trace = run_batch(
-                self.program, self.program.needed(wanted), values, batch_kind(), keep
-            )
+            trace = run_batch(self.program, self.program.needed(wanted), values, batch_kind(), keep)
         return {link: spread(trace.value("turned", link), count) for link in self.counting}
 
     def angles(self, at: float) -> dict[str, float]:

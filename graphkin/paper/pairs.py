@@ -159,6 +159,27 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 yield words(key, line=straight(drawing, rolling), **fields)
     if any(link.rolls for link in scene.links.values()):
         yield words("page.no_slip")
+    yield from whole_turns(drawing)
+
+
+def whole_turns(drawing: Drawing) -> Iterator[str]:
+    """How far links have turned since the start, where wheels depend on it and pins do not say."""
+    scene, words = drawing.scene, drawing.words
+    rolls = [rolling for link in scene.links.values() for rolling in link.rolls]
+    for link in scene.links.values():
+        if not any(counts(drawing, number, link) for number in drawing.trace.values):
+            continue
+        stated = next((each.turns[link.name] for each in rolls if link.name in each.turns), None)
+        turns = "0" if stated is None else words.decimal(stated.written(scene.values))
+        key = "page.turned_half" if turns == "0" else "page.turned_whole"
+        yield words(key, axis=axis_of(drawing, link), turns=turns)
+
+
+def counts(drawing: Drawing, number: int, link: Link) -> bool:
+    """Whether a step takes the angle of a link within half a turn of another."""
+    step = drawing.trace.program.steps[number]
+    known = step.action is not None and step.action.key == "counted-near"
+    return known and step.says.get("k") == link.name
 
 
 def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:

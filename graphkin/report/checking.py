@@ -15,10 +15,12 @@ from graphkin.report.motion import flat_words, is_flat, verdict_words
 from graphkin.report.record import plain, settings_words
 from graphkin.report.structure import group_lines, structure
 from graphkin.report.table import labelled, listed, table
+from graphkin.scene.findings import numbered
 from graphkin.scene.model import Scene
 from graphkin.steps.crossings import crossings
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
+from graphkin.structure.counting import counting
 from graphkin.structure.drivers import driver_problem
 from graphkin.structure.groups import Higher
 from graphkin.structure.order import decompose
@@ -45,6 +47,7 @@ class Checking:
             yield from self.closing()
             yield from labelled("rank", self.rank())
             trace = self.mechanism.trace()
+            yield from labelled("turns", turns_lines(trace, scene))
             by_hand = self.mechanism.trace(self.mechanism.asked(), by_hand=True)
             yield from labelled("crossings", crossing_lines(by_hand))
             yield from labelled("note", fallen_together(scene, trace))
@@ -133,6 +136,34 @@ def range_words(mechanism: Mechanism) -> str:
     if not found:
         return f"closes for no {what} of the driver"
     return f"closes for driver {what}s {reached_words(scene, found)}"
+
+
+def turns_lines(trace: Trace, scene: Scene) -> list[str]:
+    """Which angle links are taken to have, where their pins leave whole turns open."""
+    found = []
+    for step in trace.program.steps:
+        if step.action is None or step.action.key != "counted-near" or "k" not in step.says:
+            continue
+        link = step.says["k"]
+        angle, near = degrees(trace.value("turned", link)), degrees(trace.values[step.args[-1]])
+        found += [
+            f"link {link} stands at {angle:.2f}°, the angle within half a turn of {near:g}°",
+            "  its pins do not show how often it went round since the start of "
+            f"{place_of_turns(scene, link)};",
+            f"  turns = {{ {link} = … }} there says how many whole turns are to be added",
+        ]
+    return found
+
+
+def place_of_turns(scene: Scene, link: str) -> str:
+    """The key of what rolls and counts the angle of a link."""
+    rolling = counting(scene).get(link)
+    return next(
+        numbered(f"links.{each.name}.rolls", n, len(each.rolls))
+        for each in scene.links.values()
+        for n, own in enumerate(each.rolls)
+        if own is rolling or rolling is None
+    )
 
 
 def crossing_lines(trace: Trace) -> list[str]:

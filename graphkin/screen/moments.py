@@ -9,7 +9,7 @@ and accelerations grow beyond all bounds; an animation ends before.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import GraphkinError, Problem, SceneError
