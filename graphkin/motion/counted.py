@@ -45,9 +45,12 @@ def named_angles(scene: Scene) -> tuple[dict[str, Quantity], dict[str, Any]]:
     """The angles near which links count as named values in degrees, and those of the scene."""
     near = counted_near(scene)
     values = {name_of(link): degrees_of(angle, scene) for link, angle in near.items()}
-    return {
-        link: Quantity(name, Name(name), "deg") for link, name in zip(near, values, strict=True)
-    }, values
+    return {link: named_angle(link) for link in near}, values
+
+
+def named_angle(link: str) -> Quantity:
+    """The named angle near which a link counts."""
+    return Quantity(name_of(link), Name(name_of(link)), "deg")
 
 
 def degrees_of(angle: Quantity, scene: Scene) -> Any:

@@ -78,7 +78,7 @@ class Sweep:
         self, branches: Mapping[str, Branch], here: Mapping[str, Any] | None = None
     ) -> Scene:
         """The scene, ready for arrays, with its closures picked as given, standing at one place."""
-        found = self.scene.values if here is None else here
+        found: Mapping[str, Any] = self.scene.values if here is None else here
         values = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in found.items()}
         return replace(self.scene, branches=dict(branches), values=values)
 

@@ -147,7 +147,8 @@ def reach_of(
 ) -> Reach | None:
     """The range about the start in which some outputs are finite; None where it is a mere place.
 
-    ``near`` gives the further inputs of the graph at places of the driver. A gap narrower than half a degree may be passed.
+    ``near`` gives the further inputs of the graph at places of the driver. A gap narrower than half
+    a degree may be passed.
     """
     import numpy as np
 

@@ -16,7 +16,10 @@ from graphkin.scene.model import FRAME, Rolling, Scene
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.structure.graph import contacts
 
-WHOLE = {"deg": Number(Fraction(360)), "rad": Pair("*", Number(Fraction(2)), Name(CONSTANT))}
+WHOLE: Mapping[str, Tree] = {
+    "deg": Number(Fraction(360)),
+    "rad": Pair("*", Number(Fraction(2)), Name(CONSTANT)),
+}
 """A turn in the units of angles."""
 
 
