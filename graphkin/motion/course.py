@@ -19,6 +19,7 @@ from graphkin.scene.model import Branch, Scene
 from graphkin.steps.batch import BLOCK, run_batch, run_blocks
 from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, Trace, evaluate
+from graphkin.steps.wheels import counted_link
 from graphkin.structure.groups import Group
 from graphkin.structure.order import decompose
 
@@ -105,7 +106,7 @@ class Course:
         return tuple(
             of
             for (what, of), n in self.program.targets.items()
-            if what == "turned" and n in moving and steps[n].says.get("k") == of
+            if what == "turned" and n in moving and counted_link(steps[n]) == of
         )
 
     def counted(self, values: Mapping[str, Any], count: int) -> dict[str, Reals]:

@@ -15,6 +15,7 @@ from graphkin.paper.symbolic import bar, symbol
 from graphkin.scene.contacts import contact_letters
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
+from graphkin.steps.wheels import counted_link
 from graphkin.text import MINUS, Words
 
 SWINGS = ("swing", "swing-through")
@@ -166,20 +167,15 @@ def whole_turns(drawing: Drawing) -> Iterator[str]:
     """How far links have turned since the start, where wheels depend on it and pins do not say."""
     scene, words = drawing.scene, drawing.words
     rolls = [rolling for link in scene.links.values() for rolling in link.rolls]
+    steps = drawing.trace.program.steps
+    counted = {counted_link(steps[number]) for number in drawing.trace.values}
     for link in scene.links.values():
-        if not any(counts(drawing, number, link) for number in drawing.trace.values):
+        if link.name not in counted:
             continue
         stated = next((each.turns[link.name] for each in rolls if link.name in each.turns), None)
         turns = "0" if stated is None else words.decimal(stated.written(scene.values))
         key = "page.turned_half" if turns == "0" else "page.turned_whole"
         yield words(key, axis=axis_of(drawing, link), turns=turns)
-
-
-def counts(drawing: Drawing, number: int, link: Link) -> bool:
-    """Whether a step takes the angle of a link within half a turn of another."""
-    step = drawing.trace.program.steps[number]
-    known = step.action is not None and step.action.key == "counted-near"
-    return known and step.says.get("k") == link.name
 
 
 def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:

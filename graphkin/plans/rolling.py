@@ -22,6 +22,7 @@ from graphkin.steps.wheels import (
     between_tracks,
     contact_of_wheels,
     contact_on_track,
+    counted_link,
     counted_near,
     less_axis,
     opposite,
@@ -256,10 +257,10 @@ def angle_of(pen: Pen, shapes: Shapes, link: str) -> int:
 
 def refuse_idle_turns(pen: Pen) -> None:
     """Raise StructureError for stated turns of links that no wheel counts by their pins."""
-    open_ = {step.says["k"] for step in pen.steps if step.action is counted_near}
+    counted = {counted_link(step) for step in pen.steps}
     problems = []
     for link, rolling in stated(pen.scene).items():
-        if link in open_:
+        if link in counted:
             continue
         found = f"no wheel depends on how often link {link} went round"
         if any(turns_link(driver, link) for driver in pen.scene.drivers):

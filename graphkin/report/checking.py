@@ -20,6 +20,7 @@ from graphkin.scene.model import Scene
 from graphkin.steps.crossings import crossings
 from graphkin.steps.gather import gathered
 from graphkin.steps.run import Trace
+from graphkin.steps.wheels import counted_link
 from graphkin.structure.counting import counting
 from graphkin.structure.drivers import driver_problem
 from graphkin.structure.groups import Higher
@@ -142,9 +143,9 @@ def turns_lines(trace: Trace, scene: Scene) -> list[str]:
     """Which angle links are taken to have, where their pins leave whole turns open."""
     found = []
     for step in trace.program.steps:
-        if step.action is None or step.action.key != "counted-near" or "k" not in step.says:
+        link = counted_link(step)
+        if link is None:
             continue
-        link = step.says["k"]
         angle, near = degrees(trace.value("turned", link)), degrees(trace.values[step.args[-1]])
         found += [
             f"link {link} stands at {angle:.2f}°, the angle within half a turn of {near:g}°",

@@ -21,6 +21,7 @@ from graphkin.steps.graph import Graph
 from graphkin.steps.run import Trace
 from graphkin.steps.traced import Number
 from graphkin.steps.tracer import traced_kind
+from graphkin.steps.wheels import counted_link
 
 SLACK = 1e-6
 """Parts of the mechanism by which a bar's length may be off where it still closes."""
@@ -91,10 +92,8 @@ class Tracing:
         found: dict[int, Any] = {}
         for number in drawn.values:
             step = drawn.program.steps[number]
-            if step.action is None or step.action.key != "counted-near" or "k" not in step.says:
-                continue
-            link = step.says["k"]
-            if self.turned is None or link not in self.turned.near:
+            link = counted_link(step)
+            if link is None or self.turned is None or link not in self.turned.near:
                 continue
             name = name_of(link)
             self.counting[name] = link

@@ -1,0 +1,186 @@
+"""Links that go round without being driven: wheels on them move on and never leap."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from graphkin.errors import GraphkinError
+from graphkin.loci import curves_of
+from graphkin.mechanism import Mechanism, load
+from graphkin.motion.cycle import Cycle, cycle
+from graphkin.motion.driving import stated
+from graphkin.motion.period import strangers, turns_to_return
+from graphkin.ranges import closing_ranges
+from graphkin.report.checking import Checking
+from graphkin.scene.read import read_text
+from graphkin.screen.driven import INPUT, driven_by
+from graphkin.screen.shelf import runner
+from graphkin.screen.tracing import Tracing
+from tests.examples.scenes import FILES
+
+OWN = {path.stem: path for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))}
+ROLLING = OWN | {name: path for name, path in FILES.items() if "rolls" in path.read_text("utf-8")}
+DRAG_LINK = OWN["drag-link-planet"].read_text("utf-8")
+ARM, SUN, PLANET, BAR = 0.070, 0.040, 0.030, 0.025
+"""Of the planet on the drag link (m): its arm, both radii, and from its centre to Q."""
+FEW = 90
+"""Places of a sweep; then as many between."""
+
+
+@cache
+def scene(name: str) -> Mechanism:
+    return load(ROLLING[name])
+
+
+def planet(turns: float = 0.0, start: float = 0.0) -> Mechanism:
+    """The planet on the drag link, its arm counted from a start and gone round so often more."""
+    rolls = f"rolls = {{ on = 0, start = {{ 3 = {start} }}, turns = {{ 3 = {turns} }} }}"
+    return Mechanism(read_text(DRAG_LINK.replace("rolls = { on = 0 }", rolls), Path("planet.toml")))
+
+
+def planet_point(centre, arm_angle):
+    """Q by Willis: on a fixed sun the planet turns 1 + sun/planet times as far as its arm."""
+    return centre + BAR * np.exp(1j * arm_angle * (1 + SUN / PLANET))
+
+
+def steps_of(found: Cycle):
+    """The largest step of any point between neighbours, and by how much one goes too far.
+
+    Twice as far as its speed allows is too far. Beside dead points, where speeds are without bound,
+    nothing is compared.
+    """
+    way, driver = np.diff(found.at), found.sweep.driver
+    time = (
+        way * found.sweep.per_unit / (1 if driver is None else abs(stated(driver, found.scene)[1]))
+    )
+    beside = (way < 1.5 * np.median(way)) & (np.diff(found.piece) == 0)
+    if not found.path.whole:
+        ends = [(low + (high - low) / 10, high - (high - low) / 10) for low, high in found.ranges]
+        inner = np.any([(low < found.at) & (found.at < high) for low, high in ends], axis=0)
+        beside &= inner[1:] & inner[:-1]
+    largest, over = 0.0, 0.0
+    for name, point in found.solution.points.items():
+        if "@" in name:  # the point of one link under another's is at each place another one
+            continue
+        place = np.broadcast_to(point.position, found.at.shape)
+        speed = np.abs(np.broadcast_to(point.velocity, found.at.shape))
+        step = np.abs(np.diff(place))
+        largest = max(largest, step[beside].max())
+        over = max(over, (step - 2 * np.maximum(speed[1:], speed[:-1]) * time)[beside].max())
+    return largest, over
+
+
+@pytest.mark.parametrize("name", ROLLING)
+def test_no_point_moves_farther_than_its_speed_allows(name):
+    few = cycle(scene(name), steps=FEW)
+    many = few.along(np.unique([*few.at, *(few.at[1:] + few.at[:-1]) / 2]))
+    found = steps_of(few), steps_of(many)
+    assert max(over / largest for largest, over in found) < 1e-3
+    assert 0.4 * found[0][0] < found[1][0] < 0.6 * found[0][0]
+
+
+@pytest.mark.parametrize("name", [name for name in OWN if name != "gear-drives-four-bar"])
+def test_the_witness_agrees_in_every_row(name):
+    assert cycle(scene(name), steps=90).witnessed.agrees.all()
+
+
+def test_a_planet_on_a_drag_link_stands_as_willis_says_through_three_turns():
+    found = cycle(scene("drag-link-planet"), steps=540, low=-480, high=600)
+    points = {name: found.solution.points[name].position for name in ("O2", "B", "Q")}
+    arm = np.unwrap(np.angle(points["B"] - points["O2"]))
+    here = arm[np.searchsorted(found.at, 60.0)]
+    arm -= 2 * np.pi * np.rint(here / (2 * np.pi))
+    assert np.ptp(arm) > 6 * np.pi - 1
+    assert np.abs(points["Q"] - planet_point(points["B"], arm)).max() < 1e-12
+    assert found.witnessed.agrees.all()
+
+
+@pytest.mark.parametrize("turns", [-2, 0, 1, 7])
+@pytest.mark.parametrize("start", [0, 170, -170, 400])
+def test_stated_turns_are_added_to_the_angle_within_half_a_turn_of_the_start(turns, start):
+    mechanism = planet(turns, start)
+    solution = mechanism.solve()
+    centre = solution.points["B"].position
+    angle = np.angle(centre - solution.points["O2"].position) - np.radians(start)
+    angle = np.angle(np.exp(1j * angle)) + 2 * np.pi * turns
+    assert abs(solution.points["Q"].position - planet_point(centre, angle)) < 1e-14
+    assert mechanism.witness(solution).agrees
+
+
+def test_a_turn_more_is_what_the_motion_leads_to_in_a_turn():
+    later = cycle(scene("drag-link-planet"), steps=4, low=60, high=420).solution.points["Q"]
+    stated = planet(1).solve().points["Q"]
+    assert abs(later.position[-1] - stated.position) < 1e-14
+    assert abs(later.velocity[-1] - stated.velocity) < 1e-14
+
+
+def test_the_witness_holds_a_solution_against_the_turns_that_the_scene_states():
+    other = planet(1)
+    assert not other.witness(planet(0).solve()).agrees
+
+
+def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
+    mechanism = scene("whitworth-gears")
+    assert closing_ranges(mechanism.scene) == [(0.0, 360.0)]
+    tracing = Tracing(mechanism, driven_by(mechanism.scene))
+    trace = tracing.traced(mechanism.trace())
+    point = trace.value("position", "C")
+    at = np.arange(0.0, 360.0)
+    run = runner(tracing.graph, [point.node, point.imag.node])
+    x, y = run({INPUT: at, **tracing.near(at)})
+    rows = cycle(mechanism).along(at)
+    assert np.abs(x + 1j * y - rows.solution.points["C"].position).max() < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("name", "links", "turns"),
+    [
+        ("drag-link-planet", ("4",), 3),
+        ("gear-before-and-after", ("5", "6"), 2),
+        ("geared-five-bar", ("2", "3", "4"), 2),
+        ("planet-on-coupler", (), 1),
+    ],
+)
+def test_a_mechanism_comes_back_after_as_many_turns_as_its_wheels_need(name, links, turns):
+    path = cycle(scene(name), steps=4).path
+    assert path.whole
+    assert path.returns is (turns == 1)
+    assert strangers(path) == links
+    assert turns_to_return(path) == turns
+
+
+def test_a_path_that_does_not_come_back_is_drawn_from_end_to_end():
+    (curve,) = (each for each in curves_of(scene("drag-link-planet")) if each.kind == "trajectory")
+    (run,) = curve.runs
+    ways = np.abs(np.diff(run))
+    assert ways.max() < 3 * np.median(ways)
+    assert abs(run[-1] - run[0]) > 0.02
+
+
+def test_check_says_near_which_angle_a_link_counts():
+    text = "\n".join(Checking(planet(1, 90)).lines())
+    assert "link 3 stands at 393.51°, the angle within half a turn of 450°" in text
+    assert "links.4.rolls" in text
+    assert "turns  " not in "\n".join(Checking(load(FILES["gears-planet"])).lines())
+
+
+WRONG = {
+    "{ 3 = 0.5 }": "links.4.rolls.turns.3: 0.5 turns; expected a whole number of turns",
+    "{ 9 = 1 }": "links.4.rolls.turns.9: link 9 is not in [links]",
+    "{ 1 = 1 }": "links.4.rolls.turns.1: a driver gives the angle of link 1",
+    "{ 2 = 1 }": "links.4.rolls.turns.2: no wheel depends on how often link 2 went round",
+    "{ 4 = 1 }": "links.4.rolls.turns.4: link 4 rolls, which counts its whole turns",
+    "1": "links.4.rolls.turns: 1; expected a table",
+}
+
+
+@pytest.mark.parametrize("turns", WRONG)
+def test_turns_that_cannot_be_meant_are_refused_at_their_place(turns):
+    text = DRAG_LINK.replace("on = 0 }", f"on = 0, turns = {turns} }}")
+    with pytest.raises(GraphkinError, match=r"links\.4\.rolls\.turns") as caught:
+        Mechanism(read_text(text, Path("planet.toml"))).solve()
+    assert WRONG[turns] in str(caught.value)
