@@ -11,7 +11,7 @@ import numpy as np
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import ALIKE, Piece, Range
+from graphkin.motion.pieces import ALIKE, BACK, Piece, Range
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.scene.model import Closure, Link, Scene
 from graphkin.steps.program import Target
@@ -133,10 +133,11 @@ def follower(
     """The limits of one follower in one range; None for one that stands still throughout."""
     pieces = cycle.path.ranges[number]
     at = samples(pieces)
-    past = at[-1] + APART * np.arange(2, 4) if whole(cycle, number) else at[:0]
+    again = whole(cycle, number) and comes_back(cycle, pieces, place, speed)
+    past = at[-1] + APART * np.arange(2, 4) if again else at[:0]
     enough = ENOUGH if any(searched(piece) for piece in pieces) else 0.0
     turns = refined(np.append(at, past), speed, enough)
-    if whole(cycle, number):
+    if again:
         over = turns >= ends(pieces)[1] - ALIKE
         turns = np.sort(np.where(over, np.maximum(turns - TURN, pieces[0].low.at), turns))
     every = np.unique(np.concatenate([ends(pieces), at, turns]))
@@ -160,7 +161,7 @@ def follower(
         low,
         high,
         full,
-        time_ratio(cycle, limits) if whole(cycle, number) and not full else None,
+        time_ratio(cycle, limits) if again and not full else None,
     )
 
 
@@ -179,6 +180,14 @@ def extreme(at: Reals, where: Reals, turns: Reals, sign: int) -> Limit:
 def whole(cycle: Cycle, number: int) -> bool:
     """Whether a range goes all the way round."""
     return cycle.path.whole and number == 0
+
+
+def comes_back(cycle: Cycle, pieces: Range, place: Value, speed: Value) -> bool:
+    """Whether a follower stands and moves after a whole turn as before; wheels may not."""
+    if cycle.path.returns:
+        return True
+    both = [np.asarray(value(ends(pieces))) for value in (place, speed)]
+    return all(abs(b - a) <= BACK * max(1.0, abs(a), abs(b)) for a, b in both)
 
 
 def samples(pieces: Range) -> Reals:

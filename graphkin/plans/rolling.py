@@ -251,7 +251,8 @@ def angle_of(pen: Pen, shapes: Shapes, link: str) -> int:
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
         near = pen.near.get(link, exact(0, "deg"))
         ends = pen.given("direction", near, k=link), pen.given("number", near, k=link)
-        found = pen.draw(counted_near, axis(pen, shapes, link), *ends, k=link)
+        says: Says = {"k": link} if pen.turns(link) else {}
+        found = pen.draw(counted_near, axis(pen, shapes, link), *ends, **says)
         return pen.want("turned", link, found)
 
 

@@ -9,17 +9,21 @@ import numpy as np
 import pytest
 
 from graphkin.errors import GraphkinError
+from graphkin.handout import drawings_of, proved
 from graphkin.loci import curves_of
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated
 from graphkin.motion.period import strangers, turns_to_return
+from graphkin.paper.data import given
+from graphkin.paper.richtext import plain
 from graphkin.ranges import closing_ranges
 from graphkin.report.checking import Checking
 from graphkin.scene.read import read_text
 from graphkin.screen.driven import INPUT, driven_by
 from graphkin.screen.shelf import runner
 from graphkin.screen.tracing import Tracing
+from graphkin.text import words
 from tests.examples.scenes import FILES
 
 OWN = {path.stem: path for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))}
@@ -166,6 +170,23 @@ def test_check_says_near_which_angle_a_link_counts():
     assert "link 3 stands at 393.51°, the angle within half a turn of 450°" in text
     assert "links.4.rolls" in text
     assert "turns  " not in "\n".join(Checking(load(FILES["gears-planet"])).lines())
+
+
+SAID = {
+    "en": "from its starting position O2B has turned by{} at most 180° either way",
+    "ro": "din poziția inițială O2B s-a rotit cu{} cel mult 180° într-un sens sau în celălalt",
+    "it": "dalla posizione iniziale O2B ha compiuto una rotazione di{} al più 180° in un verso "
+    "o nell’altro",
+}
+AND = {"en": " −2·360° and", "ro": " −2·360° și cu", "it": " −2·360° e di"}
+
+
+@pytest.mark.parametrize("language", SAID)
+def test_a_sheet_says_how_far_a_link_has_turned_where_wheels_depend_on_it(language):
+    for mechanism, more in ((planet(0), ""), (planet(-2), AND[language])):
+        verdict = proved(mechanism, mechanism.solve())
+        drawing = drawings_of(mechanism, verdict, words(language))[0]
+        assert SAID[language].format(more) in [plain(piece) for piece in given(drawing)]
 
 
 WRONG = {
