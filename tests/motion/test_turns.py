@@ -115,6 +115,14 @@ def test_stated_turns_are_added_to_the_angle_within_half_a_turn_of_the_start(tur
     assert mechanism.witness(solution).agrees
 
 
+def test_a_gear_drives_a_four_bar_as_far_as_that_drives_it():
+    """The two are one linkage; the group that closes by trial counts its arm within the trial."""
+    gear = cycle(scene("four-bar-drives-gear"), steps=3600).solution.points
+    swing = np.ptp(np.unwrap(np.angle(gear["M"].position - gear["O2"].position)))
+    ((low, high),) = cycle(scene("gear-drives-four-bar"), steps=4).ranges
+    assert high - low == pytest.approx(np.degrees(swing), abs=1e-3)
+
+
 def test_a_turn_more_is_what_the_motion_leads_to_in_a_turn():
     later = cycle(scene("drag-link-planet"), steps=4, low=60, high=420).solution.points["Q"]
     stated = planet(1).solve().points["Q"]
