@@ -155,6 +155,7 @@ def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
         ("gear-before-and-after", ("5", "6"), 2),
         ("geared-five-bar", ("2", "3", "4"), 2),
         ("planet-on-coupler", (), 1),
+        ("gear-drives-drag-link", (), 1),
     ],
 )
 def test_a_mechanism_comes_back_after_as_many_turns_as_its_wheels_need(name, links, turns):
