@@ -42,14 +42,16 @@ def laid(moving: Moving, x: float) -> Mapping[str, Laid] | None:
 def reckoned(moving: Moving, x: float) -> list[float] | None:
     """The outputs at a place of the driver; None where a group does not close."""
     tracing, course = moving.tracing, moving.data["course"]
-    inputs: dict[str, Any] = {INPUT: np.array([x])}
+    inputs: dict[str, Any] = {INPUT: np.array([x]), **tracing.near(np.array([x]))}
     if tracing.closings:
         at, turn = np.array(course["at"]), course["turn"]
         place = at[0] + (x - at[0]) % turn if turn else x
         near = tuple(np.interp(place, at, column) for column in np.array(course["states"]).T)
         tried = {place - 1 for place in course["places"]}
         near = tuple(n if k in tried else float(np.sign(n)) for k, n in enumerate(near))
-        state = solver(tracing.graph, INPUT, tracing.closings, moving.data["reach"])(x, near)
+        size = moving.data["reach"]
+        solve = solver(tracing.graph, INPUT, tracing.closings, tracing.counting, tracing.near, size)
+        state = solve(x, near)
         if state is None:
             return None
         names = (name for each in tracing.closings for name in each.names)

@@ -15,6 +15,7 @@ import numpy as np
 
 from graphkin.arithmetic import FLOAT
 from graphkin.mechanism import Mechanism
+from graphkin.motion.course import Course
 from graphkin.motion.sweep import names, sweep_of
 from graphkin.paper.field import Field
 from graphkin.paper.layout import Layout, spans
@@ -54,7 +55,8 @@ def redrawn(
         overrides[program.seconds] = drawn[program.seconds]
     overrides = {n: value for n, value in overrides.items() if n in drawn}
     trace = run(program, sorted(drawn), scene.values, FLOAT, overrides=overrides)
-    here = replace(sheet.drawing, scene=sweep.with_branches(scene.branches, place), trace=trace)
+    standing = Course(sweep, scene.branches).standing(place)
+    here = replace(sheet.drawing, scene=standing, trace=trace)
     fields = Layout(roomy(sheet.layout.mechanism), roomy(sheet.layout.plan), {})
     layout = Layout(fields.mechanism, fields.plan, spans(here, fields))
     boards = left_board(here, layout, "key"), right_board(here, layout, "key")
