@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from graphkin.errors import GraphkinError
 from graphkin.scene.known import quoted
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
@@ -14,8 +14,14 @@ if TYPE_CHECKING:
     from graphkin.motion.course import Course
     from graphkin.motion.sweep import Sweep
 
-HALVINGS = 20
-"""How often the last step at the end of a range is halved."""
+WORK = 60_000_000
+"""Steps of trials within which positions are searched: about a second."""
+FEWEST = 180
+"""Positions that are searched whatever they cost."""
+NARROWINGS = 5
+"""How often the last step at the end of a range is cut into parts."""
+PARTS = 16
+"""Parts into which it is cut, all at once."""
 NOISE = 1e-12
 """Sine of crossing of lines that are parallel throughout, but for rounding."""
 MOST = 3
@@ -32,22 +38,55 @@ FREE = {
 Range = tuple[float, float]
 
 
+@dataclass(frozen=True, slots=True)
+class Closing:
+    """Where a mechanism closes while one driver moves: ranges of its position (degrees or m).
+
+    ``searched`` counts the positions that were looked at, where a bound on the work left out some;
+    it is 0 elsewhere.
+    """
+
+    ranges: list[Range]
+    searched: int = 0
+
+    @property
+    def bound(self) -> str:
+        """Words for a search that was bounded; empty elsewhere."""
+        if not self.searched:
+            return ""
+        return (
+            f"searched at {self.searched} positions of the driver; "
+            "what lies between two of them is not seen"
+        )
+
+
 def where_it_closes(scene: Scene) -> str:
     """Words for the positions of each driver at which every position can be drawn."""
-    known = [
-        (driver, reached_words(scene, closing_ranges(scene, n), n))
-        for n, driver in enumerate(scene.drivers[:MOST], 1)
-    ]
+    return closes_where(scene, closings(scene))
+
+
+def closings(scene: Scene) -> list[Closing]:
+    """Where each driver closes a mechanism, the other drivers as they stand."""
+    return [closing(scene, n) for n in range(1, len(scene.drivers[:MOST]) + 1)]
+
+
+def closes_where(scene: Scene, known: Sequence[Closing]) -> str:
+    """Words for where each driver closes a mechanism."""
+    bound = next((f" ({found.bound})" for found in known if found.bound), "")
     if len(scene.drivers) == 1:
-        ((driver, words),) = known
-        noun = "angle" if driver.kind == "turn" else "position"
-        if words:
-            return f"it closes for driver {noun}s {words}"
-        return f"it closes for no {noun} of the driver: check the lengths"
-    told = [f"{driver_words(driver)} from {words}" for driver, words in known if words]
+        noun = "angle" if scene.drivers[0].kind == "turn" else "position"
+        if known[0].ranges:
+            return f"it closes for driver {noun}s {reached_words(scene, known[0].ranges)}{bound}"
+        return f"it closes for no {noun} of the driver: check the lengths{bound}"
+    told = [
+        f"{driver_words(driver)} from {reached_words(scene, found.ranges, n)}"
+        for n, (driver, found) in enumerate(zip(scene.drivers, known, strict=False), 1)
+        if found.ranges
+    ]
     if not told:
-        return "no driver alone can close it: check lengths, sides and the drivers' positions"
-    return f"it closes, the other drivers as they stand, for {'; or for '.join(told)}"
+        words = "no driver alone can close it: check lengths, sides and the drivers' positions"
+        return f"{words}{bound}"
+    return f"it closes, the other drivers as they stand, for {'; or for '.join(told)}{bound}"
 
 
 def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
@@ -66,36 +105,49 @@ def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
 
 def slid_words(scene: Scene, found: Range, number: int) -> str:
     """One range of a driver that slides or rolls."""
+    from graphkin.motion.driving import GRID
+
     sweep, unit = swept(scene, number), scene.units["length"]
     low, high = found
-    free = low <= sweep.low + sweep.grid_step, high >= sweep.high - sweep.grid_step
+    step = (sweep.high - sweep.low) / GRID
+    free = low <= sweep.low + step, high >= sweep.high - step
     first, last = (f"{end / float(LENGTHS[unit]):.6g}" for end in found)
     return FREE[free].format(first, last, unit)
 
 
-def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
-    """The ranges of a driver's position (degrees or m) for which all positions can be drawn.
+def closing(scene: Scene, number: int = 1) -> Closing:
+    """For which positions of a driver all positions can be drawn.
 
     The closures are those that the scene picks, the other drivers stand. One turn is looked at, or
-    as far as all lengths together reach; [(0, 360)] is a whole turn.
+    as far as all lengths together reach; [(0, 360)] is a whole turn. Where groups are closed by
+    trial so many positions are searched as the work allows, which the result says.
     """
+    from graphkin.errors import GraphkinError
+    from graphkin.motion.course import Course
+    from graphkin.motion.driving import GRID
+
+    course = Course(swept(scene, number), scene.branches)
+    try:
+        count = min(GRID, max(FEWEST, WORK // max(course.trials, 1)))
+        found = ranges_of(course, count)
+    except GraphkinError:
+        return Closing([])
+    return Closing(found, count if count < GRID else 0)
+
+
+def ranges_of(course: Course, count: int) -> list[Range]:
+    """The ranges in which a course closes, from so many positions, evenly spread."""
     import numpy as np
 
     from graphkin.motion.counted import led_both
-    from graphkin.motion.course import Course
-    from graphkin.motion.driving import GRID, TURN
+    from graphkin.motion.driving import TURN
 
-    sweep = swept(scene, number)
+    sweep = course.sweep
     start = TURN * (sweep.start // TURN) if sweep.whole else sweep.low
-    step = sweep.grid_step
-    grid = start + np.arange(GRID + (not sweep.whole)) * step
-    try:
-        course = led_both(
-            Course(sweep, scene.branches), sweep.start, float(grid[0]), float(grid[-1])
-        )
-        margins = course.margins(grid)
-    except GraphkinError:
-        return []
+    step = (sweep.high - sweep.low) / count
+    grid = start + np.arange(count + (not sweep.whole)) * step
+    course = led_both(course, sweep.start, float(grid[0]), float(grid[-1]))
+    margins = course.margins(grid)
     closed = np.isfinite(margins).all(axis=0)
     if len(margins) > 1 and np.nanmin(margins[:-1], axis=0, initial=1.0).max(initial=0.0) < NOISE:
         return []
@@ -110,8 +162,10 @@ def closing_ranges(scene: Scene, number: int = 1) -> list[Range]:
     ends = np.flatnonzero(closed & ~np.roll(closed, -1))
     if ends[0] < starts[0]:
         ends = np.roll(ends, -1)
-    lows, highs = refined(course, grid[starts], -step), refined(course, grid[ends], step)
-    pairs = [(float(low), float(high)) for low, high in zip(lows, highs, strict=True)]
+    steps = np.repeat([-step, step], [len(starts), len(ends)])
+    at = refined(course, np.concatenate([grid[starts], grid[ends]]), steps)
+    lows, highs = at[: len(starts)].tolist(), at[len(starts) :].tolist()
+    pairs = zip(lows, highs, strict=True)
     return sorted((low - (TURN if high < low else 0), high) for low, high in pairs)
 
 
@@ -127,16 +181,25 @@ def swept(scene: Scene, number: int) -> Sweep:
     return sweep_of(scene, driver=number, low=-far, high=far)
 
 
-def refined(course: Course, at: Any, step: float) -> Any:
+def refined(course: Course, at: Any, steps: Any) -> Any:
     """The ends of closing ranges, each between a position that closes and one a step further."""
-    closing, size = at, step
-    for _ in range(HALVINGS):
-        size /= 2
-        further = closing + size
-        if course.sweep.whole:
-            further = course.sweep.start // 360 * 360 + further % 360
-        closing = closing + size * course.closes(further)
-    return closing
+    import numpy as np
+
+    share = np.arange(1, PARTS) / PARTS
+    for _ in range(NARROWINGS):
+        between = at[:, None] + steps[:, None] * share
+        tried = within_turn(course, between)
+        closes = course.closes(tried.ravel()).reshape(between.shape)
+        passed = np.cumprod(closes, axis=1).sum(axis=1)
+        at, steps = at + steps * passed / PARTS, steps / PARTS
+    return at
+
+
+def within_turn(course: Course, at: Any) -> Any:
+    """Positions of a driver that turns fully, taken into the turn in which it stands."""
+    if not course.sweep.whole:
+        return at
+    return course.sweep.start // 360 * 360 + at % 360
 
 
 def driver_words(driver: Driver) -> str:

@@ -9,7 +9,7 @@ from graphkin.alignment import closed_by, in_line
 from graphkin.arithmetic import FLOAT
 from graphkin.errors import ClosureError, Problem
 from graphkin.meeting import Meeting, loci_of, meeting
-from graphkin.ranges import MOST, closing_ranges, where_it_closes
+from graphkin.ranges import closes_where, closings, where_it_closes
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS, shortest
 from graphkin.steps.program import Part, Program, Step
@@ -61,14 +61,10 @@ def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Probl
     """The problem of two loci that miss each other, or touch and do not cross."""
     hint = DEAD
     if found.apart:
-        alone = found.missed < TOUCH * found.size and not closes_elsewhere(scene)
-        hint = ALONE if alone else where_it_closes(scene)
+        known = closings(scene)
+        alone = found.missed < TOUCH * found.size and not any(each.ranges for each in known)
+        hint = ALONE if alone else closes_where(scene, known)
     return not_found(program, number, why_not(scene, program, number, found), hint)
-
-
-def closes_elsewhere(scene: Scene) -> bool:
-    """Whether any driver alone can be moved to where everything closes."""
-    return any(closing_ranges(scene, n) for n in range(1, len(scene.drivers[:MOST]) + 1))
 
 
 def not_found(program: Program, number: int, reason: str, hint: str) -> Problem:
@@ -110,8 +106,9 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
         found = f"links {links} do not close{least_miss(scene, failed)}"
         return Problem("position", found, "loci that cross", where_it_closes(scene))
     elsewhere = ""
-    if closes_elsewhere(scene):
-        elsewhere = f"; with closure {error.asked} {where_it_closes(scene)}"
+    known = closings(scene)
+    if any(each.ranges for each in known):
+        elsewhere = f"; with closure {error.asked} {closes_where(scene, known)}"
     ways = "1 way" if error.ways == 1 else f"{error.ways} ways"
     return Problem(
         f"branches.{branch_of(scene, links)}",

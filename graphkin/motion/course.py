@@ -19,6 +19,7 @@ from graphkin.scene.model import Branch, Scene
 from graphkin.steps.batch import BLOCK, run_batch, run_blocks
 from graphkin.steps.program import Program, Target
 from graphkin.steps.run import StepFailed, Trace, evaluate
+from graphkin.steps.trying import Closer
 from graphkin.steps.wheels import counted_link
 from graphkin.structure.groups import Group
 from graphkin.structure.order import decompose
@@ -122,6 +123,23 @@ class Course:
         here = np.array([at])
         found = self.counted(self.values(here), 1)
         return {link: float(np.degrees(row[0])) for link, row in found.items()}
+
+    @cached_property
+    def trials(self) -> int:
+        """How many steps of trials one position of the driver costs; 0 without such groups."""
+        work = 0
+        values = self.values(np.array([self.sweep.start]))
+        for n in self.early:
+            action = self.program.steps[n].action
+            if action is None or not isinstance(action.value, Closer):
+                continue
+            args = self.program.steps[n].args
+            before = Program(self.program.steps, {("", str(arg)): arg for arg in args})
+            with np.errstate(all="ignore"):
+                needed = before.needed(before.targets)
+                trace = run_batch(self.program, needed, values, batch_kind(), args)
+            work += action.value.trying.work([np.atleast_1d(trace.values[arg]) for arg in args])
+        return work
 
     def margins(self, at: Any) -> Reals:
         """The sine of every crossing (rows as ``crossings``) for each u (N,); NaN does not close.

@@ -8,7 +8,7 @@ from math import degrees
 from graphkin.closures import Choice, choices
 from graphkin.errors import ClosureError, GraphkinError, Problem, WitnessError
 from graphkin.mechanism import Mechanism
-from graphkin.ranges import closing_ranges, reached_words
+from graphkin.ranges import Closing, closing, reached_words
 from graphkin.report.coincident import fallen_together
 from graphkin.report.crossings import crossing
 from graphkin.report.motion import flat_words, is_flat, verdict_words
@@ -65,7 +65,7 @@ class Checking:
             lines += closure_lines(choice)
         legend = ["(* as the scene says)"] if lines else ["nothing to choose"]
         yield from labelled("closures", [*lines, *legend])
-        yield from labelled("range", [range_words(mechanism)])
+        yield from labelled("range", range_lines(mechanism))
 
     def rank(self) -> list[str]:
         """The true mobility in words; a wrong number of drivers for it is a problem.
@@ -118,25 +118,30 @@ def closure_lines(choice: Choice) -> list[str]:
     return lines
 
 
-def range_words(mechanism: Mechanism) -> str:
+def range_lines(mechanism: Mechanism) -> list[str]:
     """The positions of the driver for which everything closes, for one driver."""
-    scene = mechanism.scene
-    if len(scene.drivers) != 1:
-        return "not swept: it is for mechanisms with one driver"
+    if len(mechanism.scene.drivers) != 1:
+        return ["not swept: it is for mechanisms with one driver"]
+    found = closing(mechanism.scene)
+    return [range_words(mechanism, found), *([found.bound] if found.bound else [])]
+
+
+def range_words(mechanism: Mechanism, found: Closing) -> str:
+    """Where the only driver closes everything."""
+    scene, ranges = mechanism.scene, found.ranges
     turns = scene.drivers[0].kind == "turn"
-    found = closing_ranges(scene)
     what = "angle" if turns else "position"
-    if any(isinstance(group, Higher) for group in mechanism.groups) and found:
-        where = "every" if found == [(0.0, 360.0)] else "some"
+    if any(isinstance(group, Higher) for group in mechanism.groups) and ranges:
+        where = "every" if ranges == [(0.0, 360.0)] else "some"
         words = f"has the closure of that number for {where} {what} of the driver"
         if where == "some":
-            words += f": {reached_words(scene, found)}"
+            words += f": {reached_words(scene, ranges)}"
         return f"{words}; numbers change hands at dead points: graphkin cycle follows the motion"
-    if turns and found == [(0.0, 360.0)]:
+    if turns and ranges == [(0.0, 360.0)]:
         return "closes for every angle of the driver: it turns fully"
-    if not found:
+    if not ranges:
         return f"closes for no {what} of the driver"
-    return f"closes for driver {what}s {reached_words(scene, found)}"
+    return f"closes for driver {what}s {reached_words(scene, ranges)}"
 
 
 def turns_lines(trace: Trace, scene: Scene) -> list[str]:

@@ -20,6 +20,14 @@ GROWN = 4.0
 """How many times the misfit of an interval may grow within it before it counts as a pole."""
 SURE = 8
 """Rounds after which a misfit that has grown is taken for a pole."""
+NEXT = 4e-16
+"""How far apart two neighbouring numbers lie, in parts of their size."""
+DEEPEST = 1e3
+"""How deep a misfit may dip within three places, in parts of how far it rises at the outer two.
+
+A parabola with two roots within dips an eighth, an edge half; what only rounding moves rises not
+at all.
+"""
 GOLDEN = 0.3819660112501051
 """The smaller part of a way divided in the golden ratio."""
 
@@ -28,7 +36,7 @@ def roots(misfit: Misfit, grid: Array) -> tuple[Array, Array]:
     """Every root of n functions, each on its own grid of places (n, M): (function, place) of each.
 
     Between neighbours of the grid a change of sign is a root, unless it is a pole. Where the
-    misfit turns back towards nought its least value is looked for, and where a function breaks off
+    misfit turns back towards zero its least value is looked for, and where a function breaks off
     the very end of it, so that two roots close together are found there too.
     """
     import numpy as np
@@ -55,23 +63,24 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
     element, at = np.nonzero(there[:, :-1] != there[:, 1:])
     first = there[element, at]
     inside = np.where(first, grid[element, at], grid[element, at + 1])
-    outside = np.where(first, grid[element, at + 1], grid[element, at])
-    start, end = inside, outside
+    start, end = inside.copy(), np.where(first, grid[element, at + 1], grid[element, at])
     for _ in range(ROUNDS):
-        middle = (start + end) / 2
-        good = np.isfinite(misfit(element, middle))
-        start, end = np.where(good, middle, start), np.where(good, end, middle)
-        if not (abs(end - start) > 4e-16 * np.maximum(abs(start), abs(end))).any():
+        wide = abs(end - start) > NEXT * np.maximum(abs(start), abs(end))
+        if not (live := np.flatnonzero(wide)).size:
             break
+        middle = (start[live] + end[live]) / 2
+        good = np.isfinite(misfit(element[live], middle))
+        start[live[good]], end[live[~good]] = middle[good], middle[~good]
     crossed = misfit(element, inside) * misfit(element, start) < 0
     low, high = np.minimum(inside, start), np.maximum(inside, start)
     return [(element[crossed], low[crossed], high[crossed])]
 
 
 def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array, Array, Array]]:
-    """Intervals with two roots where a function comes near nought between three places of a grid.
+    """Intervals with two roots where a function comes near zero between three places of a grid.
 
-    Golden section towards the least misfit, until it crosses nought or has been found.
+    Golden section towards the least misfit, until it crosses zero, has been found, or stands so
+    much higher than it rises on both sides that it cannot fall to zero between them.
     """
     import numpy as np
 
@@ -80,20 +89,25 @@ def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array,
     turns = (here <= size[:, :-2]) & (here <= size[:, 2:])
     turns &= (near == np.sign(value[:, :-2])) & (near == np.sign(value[:, 2:]))
     element, at = np.nonzero(turns)
+    sign = near[element, at]
     low, best, high = (grid[element, at + k] for k in (0, 1, 2))
-    sign, least = near[element, at], here[element, at]
-    ends = low, high
+    below, least, above = (size[element, at + k] for k in (0, 1, 2))
+    ends = low.copy(), high.copy()
     for _ in range(ROUNDS):
-        longer = high - best > best - low
-        trial = np.where(longer, best + GOLDEN * (high - best), best - GOLDEN * (best - low))
-        found = sign * misfit(element, trial)
-        better = found < least
-        low = np.where(better & longer, best, np.where(~better & ~longer, trial, low))
-        high = np.where(better & ~longer, best, np.where(~better & longer, trial, high))
-        best, least = np.where(better, trial, best), np.where(better, found, least)
         waiting = (least > 0) & (high - low > 1e-9 * (ends[1] - ends[0]))
-        if not waiting.any():
+        waiting &= ~(least > DEEPEST * (np.maximum(below, above) - least))
+        if not (live := np.flatnonzero(waiting)).size:
             break
+        start, middle, end = low[live], best[live], high[live]
+        longer = end - middle > middle - start
+        trial = middle + GOLDEN * np.where(longer, end - middle, start - middle)
+        found = sign[live] * misfit(element[live], trial)
+        better = found < least[live]
+        new_end = np.where(better, middle, trial), np.where(better, least[live], found)
+        up = better == longer
+        low[live[up]], below[live[up]] = (each[up] for each in new_end)
+        high[live[~up]], above[live[~up]] = (each[~up] for each in new_end)
+        best[live[better]], least[live[better]] = trial[better], found[better]
     crossed = least <= 0
     which, middle = element[crossed], best[crossed]
     return [(which, ends[0][crossed], middle), (which, middle, ends[1][crossed])]
@@ -102,27 +116,31 @@ def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array,
 def closed_in(misfit: Misfit, which: Array, low: Array, high: Array) -> Array:
     """The root in each interval, by the Illinois variant of false position; NaN at a pole.
 
-    Dowell and Jarratt (1971). Both ends must differ in sign, or be nought.
+    Dowell and Jarratt (1971). Both ends must differ in sign, or be zero.
     """
     import numpy as np
 
-    left, right = misfit(which, low), misfit(which, high)
+    low, high = low.copy(), high.copy()
+    left, right = np.array(misfit(which, low)), np.array(misfit(which, high))
     height = np.maximum(abs(left), abs(right))
     best: Array = np.where(abs(left) <= abs(right), low, high)
     least: Array = np.minimum(abs(left), abs(right))
+    live = np.flatnonzero(least != 0)
     for turn in range(ROUNDS):
-        with np.errstate(all="ignore"):
-            trial = high - right * (high - low) / (right - left)
-        inside = (trial - low) * (trial - high) < 0
-        trial = np.where(inside, trial, (low + high) / 2)
-        value = misfit(which, trial)
-        best = np.where(abs(value) < least, trial, best)
-        least = np.minimum(abs(value), least)
-        other = value * right < 0
-        low, left = np.where(other, high, low), np.where(other, right, left / 2)
-        high, right = trial, value
-        pole = (turn >= SURE) & (abs(value) > GROWN * height)
-        narrow = abs(high - low) <= 4e-16 * np.maximum(abs(low), abs(high))
-        if (pole | narrow | (least == 0) | (abs(trial - low) < 1e-300)).all():
+        if not live.size:
             break
+        start, end, before, after = low[live], high[live], left[live], right[live]
+        with np.errstate(all="ignore"):
+            trial = end - after * (end - start) / (after - before)
+        inside = (trial - start) * (trial - end) < 0
+        trial = np.where(inside, trial, (start + end) / 2)
+        value = misfit(which[live], trial)
+        best[live] = np.where(abs(value) < least[live], trial, best[live])
+        least[live] = np.minimum(abs(value), least[live])
+        other = value * after < 0
+        low[live], left[live] = np.where(other, end, start), np.where(other, after, before / 2)
+        high[live], right[live] = trial, value
+        pole = (turn >= SURE) & (abs(value) > GROWN * height[live])
+        narrow = abs(trial - low[live]) <= NEXT * np.maximum(abs(low[live]), abs(trial))
+        live = live[~(pole | narrow | (least[live] == 0) | (abs(trial - low[live]) < 1e-300))]
     return np.where(least <= CLOSE * height, best, np.nan)

@@ -144,6 +144,14 @@ class Trial:
             row = np.linspace(-1, 1, int(np.nan_to_num(count, nan=2 * SAMPLES)) + 1)
         return np.broadcast_to(row, (size, len(row)))
 
+    def work(self, known: Sequence[Any]) -> int:
+        """How many steps run where everything that closes is sought on known values, at least.
+
+        Each sign doubles the windows in which the rest is tried.
+        """
+        tried = self.shares(known, 1).shape[1]
+        return int(tried * (2 ** (len(self.signs) + 1) - 1) * len(self.ready.moving))
+
     def grid(self, known: Sequence[Any], size: int) -> Any:
         """The trial values of each element: a round, or as far to both sides as can be needed."""
         import numpy as np

@@ -15,6 +15,12 @@ from graphkin.steps.guides import swing
 from graphkin.steps.roots import Array, Misfit, roots
 from graphkin.steps.vocabulary import arc_cuts_line, arcs_meet
 
+TOGETHER = 2.0**-25
+"""Distance of the centres of two equal circles, in parts of both radii, that may be rounding.
+
+Beside a flat crossing rounding is as large as the root of eps.
+"""
+
 
 class Windows(NamedTuple):
     """Whose each window is (W,), and its places from end to end (W, M)."""
@@ -24,9 +30,14 @@ class Windows(NamedTuple):
 
 
 def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
-    """By how much two circles meet: positive where they cross, negative where they do not."""
-    distance = abs(n.centre - m.centre)
-    return ((m.radius + n.radius) ** 2 - distance**2) * (distance**2 - (m.radius - n.radius) ** 2)
+    """By how much two circles meet: positive where they cross, negative where they do not.
+
+    Equal circles that fall together do not: their centres may stay together on all the way, and
+    where the circles cross is then rounding.
+    """
+    distance, most = abs(n.centre - m.centre), m.radius + n.radius
+    least = (m.radius - n.radius) ** 2 + (TOGETHER * most) ** 2
+    return (most**2 - distance**2) * (distance**2 - least)
 
 
 def line_reached(line: Line, circle: Circle, *_: Any) -> Any:

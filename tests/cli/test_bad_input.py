@@ -357,7 +357,8 @@ def test_a_group_of_class_three_that_does_not_close(said: Said) -> None:
     words = said(scene("stephenson-3-crank", ("C-D = 220", "C-D = 20")))
     assert words == (
         "position: links 1, 3, 2, 4 do not close: they miss each other by 167.6 mm; expected loci "
-        "that cross; it closes for no angle of the driver: check the lengths"
+        "that cross; it closes for no angle of the driver: check the lengths "
+        "(searched at 1678 positions of the driver; what lies between two of them is not seen)"
     )
 
 
