@@ -8,8 +8,10 @@ Where the count may deceive, the rank of its equations in some position decides.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
+from heapq import heappop, heappush
 from itertools import combinations
 from math import comb
 
@@ -26,6 +28,8 @@ MOST = 20_000
 FULL = 1e-9
 """Smallest over largest singular value above which equations determine a group."""
 
+Set = tuple[int, tuple[int, ...]]
+"""How many links a set has, and which, by their number."""
 Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
@@ -93,14 +97,19 @@ def groups(scene: Scene, loops: Equations) -> list[Group]:
 def stages(scene: Scene, loops: Equations) -> list[Group]:
     """All groups, single links too, in the order in which one after the other is known.
 
-    Links that nothing determines are in none of them.
+    Links that nothing determines are in none of them. A set of one or two links is looked at when
+    one of its neighbours has become known, so that the work grows with the number of joints.
     """
-    known, found = frozenset({FRAME}), list[Group]()
-    every, ties = joints(loops), tied(scene, loops)
-    while group := ready(scene, loops, known, every, ties):
+    net, known, found = Net(scene, loops), frozenset({FRAME}), list[Group]()
+    waiting = net.sets_beside({FRAME}, known)
+    while True:
+        group = first_ready(net, known, waiting) or larger(net, known)
+        if group is None:
+            return found
         found.append(group)
         known |= set(group.links)
-    return found
+        for each in net.sets_beside(group.links, known):
+            heappush(waiting, each)
 
 
 def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equations) -> bool:
@@ -138,29 +147,84 @@ def tied(scene: Scene, loops: Equations) -> tuple[Joint, ...]:
     return (*wheels, *drivers)
 
 
-def ready(
-    scene: Scene,
-    loops: Equations,
-    known: frozenset[str],
-    every: tuple[Joint, ...],
-    ties: tuple[Joint, ...],
-) -> Group | None:
-    """The smallest group that the known links determine, as written first."""
-    unknown = [link for link in loops.links if link not in known]
-    open_pairs = [joint.links for joint in every if known.isdisjoint(joint.links)]
-    open_pairs += [joint.links[:2] for joint in ties if known.isdisjoint(joint.links[:2])]
-    pairs = sorted(
-        {tuple(sorted(links, key=loops.links.index)) for links in open_pairs},
-        key=lambda links: [loops.links.index(link) for link in links],
-    )
-    for size in range(1, min(LARGEST, len(unknown)) + 1):
-        if comb(len(unknown), size) > MOST and size > 2:
+class Net:
+    """The joints and ties of a scene by the links that they join.
+
+    Links are counted in the order written; sets of them are kept with their size first, so that
+    the smallest set comes first, and of sets of one size the one that is written first.
+    """
+
+    def __init__(self, scene: Scene, loops: Equations) -> None:
+        self.scene, self.loops = scene, loops
+        self.order = {link: n for n, link in enumerate(loops.links)}
+        self.joints = by_link(joints(loops))
+        self.ties = by_link(tied(scene, loops))
+
+    def near(self, links: Iterable[str]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+        """The joints and the ties that some links have, in order."""
+        chosen = tuple(links)
+        first, second = (
+            {n: joint for link in chosen for n, joint in table[link]}
+            for table in (self.joints, self.ties)
+        )
+        return tuple(first[n] for n in sorted(first)), tuple(second[n] for n in sorted(second))
+
+    def sets_beside(self, links: Iterable[str], known: frozenset[str]) -> list[Set]:
+        """The sets of one and of two unknown links, joined together, beside some links."""
+        every, ties = self.near(links)
+        beside = {link for joint in (*every, *ties) for link in joint.links} - known
+        found: set[Set] = set()
+        for link in beside & self.order.keys():
+            found.add((1, (self.order[link],)))
+            mine, tied_to = self.near((link,))
+            others = {each for joint in mine for each in joint.links}
+            others |= {each for tie in tied_to if link in tie.links[:2] for each in tie.links[:2]}
+            pairs = ({link, each} for each in (others & self.order.keys()) - known - {link})
+            found |= {(2, tuple(sorted(self.order[each] for each in pair))) for pair in pairs}
+        return sorted(found)
+
+    def ready(self, links: tuple[str, ...], known: frozenset[str]) -> Group | None:
+        """The group that some links make, if it is determined."""
+        group = group_of(links, known, *self.near(links))
+        taken = sum(joint.takes for joint in (*group.inner, *group.outer, *group.ties))
+        if taken >= 3 * len(links) and determined(self.scene, self.loops, group, taken):
+            return group
+        return None
+
+
+def by_link(every: tuple[Joint, ...]) -> dict[str, list[tuple[int, Joint]]]:
+    """The joints of each link, numbered in their order."""
+    found = defaultdict[str, list[tuple[int, Joint]]](list)
+    for number, joint in enumerate(every):
+        for link in dict.fromkeys(joint.links):
+            found[link].append((number, joint))
+    return found
+
+
+def first_ready(net: Net, known: frozenset[str], waiting: list[Set]) -> Group | None:
+    """The first of the sets that wait (a heap) that the known links determine.
+
+    Those that they do not are dropped until a neighbour of theirs is known.
+    """
+    while waiting:
+        _, numbers = heappop(waiting)
+        links = tuple(net.loops.links[number] for number in numbers)
+        if known.isdisjoint(links) and (group := net.ready(links, known)):
+            return group
+    return None
+
+
+def larger(net: Net, known: frozenset[str]) -> Group | None:
+    """The smallest group of three links and more that the known links determine, as written first.
+
+    None beyond so many sets.
+    """
+    unknown = [link for link in net.loops.links if link not in known]
+    for size in range(3, min(LARGEST, len(unknown)) + 1):
+        if comb(len(unknown), size) > MOST:
             return None
-        sets: Iterable[tuple[str, ...]] = pairs if size == 2 else combinations(unknown, size)
-        for links in sets:
-            group = group_of(links, known, every, ties)
-            taken = sum(joint.takes for joint in (*group.inner, *group.outer, *group.ties))
-            if taken >= 3 * size and determined(scene, loops, group, taken):
+        for links in combinations(unknown, size):
+            if group := net.ready(links, known):
                 return group
     return None
 
@@ -171,12 +235,12 @@ def group_of(
     every: tuple[Joint, ...],
     ties: tuple[Joint, ...],
 ) -> Group:
-    """A set of links with its joints."""
+    """A set of links with its joints, of those that its links have."""
     mine = set(links)
     outer = between(mine, known, every)
     inner = among(mine, every, {joint.pin for joint in outer})
-    within = [j for j in ties if mine.intersection(j.links) and mine | known >= set(j.links)]
-    return Group(links, inner, outer, known, tuple(within))
+    within = tuple(j for j in ties if mine | known >= set(j.links))
+    return Group(links, inner, outer, known, within)
 
 
 def between(links: set[str], others: frozenset[str], every: tuple[Joint, ...]) -> tuple[Joint, ...]:
