@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.errors import ClosureError, GraphkinError, Problem
+from graphkin.errors import ClosureError, GraphkinError, Problem, SceneError
 from graphkin.motion.course import Flags, Reals, spread
 from graphkin.motion.driving import TURN
 from graphkin.motion.events import Singular, singulars
@@ -27,6 +27,12 @@ if TYPE_CHECKING:
 
 BESIDE = 1e-6
 """How near to a singular place (degrees, mm or ms) a row tells nothing."""
+SHARE = 1e-3
+"""The same in parts of a window that is narrower than a thousand times that."""
+LISTED = 6
+"""Ranges told in a message."""
+FULL = 10_000_000
+"""Values that a cycle holds: its rows times what is told of each."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -122,17 +128,41 @@ def cycle(
     that there is not, ClosureError where nothing closes.
     """
     sweep = sweep_of(mechanism.scene, driver=driver, low=low, high=high)
+    refuse_steps(mechanism, sweep, steps)
     path = followed(sweep, branches)
     wanted = None if targets is None else tuple(targets)
     found = filled(mechanism, sweep, path, places(sweep, path, steps), targets=wanted)
     if not len(found.at):
-        raise ClosureError(stands_still(sweep, path))
+        raise ClosureError(no_rows(sweep, path, steps))
     return found
 
 
-def stands_still(sweep: Sweep, path: Path) -> Problem:
-    """The problem of a driver that has no room to move, at a dead point on both sides."""
-    ends = " and ".join(f"from {low:.6g} to {high:.6g} {sweep.unit}" for low, high in spans(path))
+def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int) -> None:
+    """Steps that there is no room for, or that doubles cannot tell apart; raises SceneError."""
+    most = FULL // max(len(mechanism.program.answers), 1)
+    if not 1 <= steps <= most:
+        found = f"{steps} steps of {len(mechanism.program.answers)} quantities"
+        raise SceneError(Problem("--steps", found, f"1 to {most} steps for this mechanism"))
+    least = 4 * float(np.spacing(max(abs(sweep.low), abs(sweep.high))))
+    if (step := (sweep.high - sweep.low) / steps) < least:
+        found = f"{sweep.low:.17g} to {sweep.high:.17g} in {steps} steps of {step:.1e} {sweep.unit}"
+        hint = "show more, or in fewer steps"
+        raise SceneError(Problem("--from, --to", found, f"steps of at least {least:.1e}", hint))
+
+
+def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
+    """The problem of steps that all miss the ranges, or of a driver that has no room to move.
+
+    It has none where a dead point lies on both sides.
+    """
+    known = spans(path)
+    ends = " and ".join(f"from {low:.10g} to {high:.10g}" for low, high in known[:LISTED])
+    ends += f" {sweep.unit}" + (
+        f" and in {len(known) - LISTED} more ranges" * (len(known) > LISTED)
+    )
+    if max(high - low for low, high in known) > (sweep.high - sweep.low) / (1000 * steps):
+        found = f"it closes {ends}, where none of {steps} steps falls"
+        return Problem("--steps", found, "smaller steps", "ask for more, or for a smaller window")
     return Problem(
         "the cycle",
         f"it closes {ends} only, where nothing moves",
@@ -219,6 +249,7 @@ def columns_at(
     ``near`` nought lets positions stand at the dead points themselves.
     """
     usual = BESIDE if sweep.what in ("turn", "time") else BESIDE / 1000
+    usual = min(usual, SHARE * (sweep.high - sweep.low))
     which, within = assigned(sweep, path, at, usual if near is None else near)
     columns: dict[Target, Any] = {}
     margins: dict[str, Reals] = {}

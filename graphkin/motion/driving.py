@@ -11,9 +11,11 @@ from graphkin.scene.model import At, Driver, Scene
 from graphkin.scene.quantity import Quantity
 
 What = Literal["turn", "slide", "roll", "time"]
+UNITS = {"turn": "deg", "slide": "m", "roll": "m", "time": "s"}
+"""Unit of what is swept."""
 TURN = 360.0
 GRID = 7200
-"""Positions tried in a sweep when its events are looked for: in one turn every 0.05 degrees."""
+"""Positions of a whole sweep at which its events are looked for: in a turn every 0.05 degrees."""
 
 
 def stated(driver: Driver, scene: Scene) -> tuple[float, float, float]:

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from graphkin.motion.course import Course, Reals
+from graphkin.motion.driving import GRID
 from graphkin.motion.refine import AROUND, TOUCH, last_closing, least_square, touching
 from graphkin.plane import Line
 
@@ -20,6 +21,12 @@ SUSPECT = 0.3
 """Sine of a crossing below which a minimum is looked at more closely."""
 WIDE = 3
 """Steps of the grid between the samples from which a change point is found."""
+FEWEST = 64
+"""Positions at which events are looked for in a window, however narrow."""
+WITHIN = 4
+"""Steps of the grid by which the parts of a long way overlap."""
+PAST = 2
+"""Positions past the end of a window that are looked at."""
 NARROW = 2
 """Positions of the grid in a row that do not close, and may be one change point."""
 
@@ -39,12 +46,35 @@ class Event:
 
 
 def next_event(course: Course, start: float, stop: float) -> Event:
-    """The first dead point or change point on the way; the window's end if there is none."""
+    """The first dead point or change point on the way; the window's end if there is none.
+
+    A long way is gone part by part, each of which begins a little within the one before.
+    """
     step = course.sweep.grid_step
-    count = max(int(np.ceil(abs(stop - start) / step)), 1)
-    grid = np.linspace(start, stop, count + 1)
+    here, way = start, 1.0 if stop > start else -1.0
+    while abs(stop - here) > 1.5 * GRID * step:
+        middle = here + way * GRID * step
+        event = event_between(course, here, middle)
+        if event.kind != "window":
+            return event
+        here = middle - way * WITHIN * step
+    return event_between(course, here, stop)
+
+
+def event_between(course: Course, start: float, stop: float) -> Event:
+    """The first dead point or change point on a short way; its end if there is none.
+
+    In a window it is looked for a little past the end, too: a change point is seen from both sides.
+    """
     if start == stop:
         return Event("window", stop)
+    step = course.sweep.grid_step
+    least = 1 if course.sweep.whole else FEWEST
+    count = max(int(np.ceil(abs(stop - start) / step)), least)
+    grid = np.linspace(start, stop, count + 1)
+    each, step = (stop - start) / count, min(step, abs(stop - start) / count)
+    if not course.sweep.whole:
+        grid = np.append(grid, stop + each * np.arange(1, PAST + 1))
     margins = course.margins(grid)
     margins[:, 0] = np.where(np.isfinite(margins[:, 0]), margins[:, 0], 0.0)
     closed = np.array(np.isfinite(margins).all(axis=0))
@@ -54,8 +84,8 @@ def next_event(course: Course, start: float, stop: float) -> Event:
     for k in suspects(margins[:, :last], closed[:last]):
         event = looked_at(course, grid, k)
         if event is not None and abs(event.at - start) > 0.01 * step:
-            return event
-    if end is None:
+            return event if abs(event.at - start) <= abs(stop - start) else Event("window", stop)
+    if end is None or abs(grid[end] - start) >= abs(stop - start):
         return Event("window", stop)
     return dead(course, float(grid[end]), float(grid[end + 1]))
 

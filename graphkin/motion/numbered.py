@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from graphkin.arithmetic import batch_kind
+from graphkin.errors import ClosureError, Problem
 from graphkin.motion.counted import following
 from graphkin.motion.course import Course, Reals, spread
-from graphkin.motion.driving import TURN
 from graphkin.scene.model import Closure
 from graphkin.steps.batch import run_batch
 from graphkin.steps.trying import Closer
@@ -154,9 +154,9 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
     The course of the group then counts how far links turn on the way.
     """
     course = group.course
-    span = course.sweep.high - course.sweep.low
-    whole = TURN if course.sweep.what == "turn" else span
+    whole = course.sweep.usual
     count = max(int(np.ceil(abs(stop - start) / whole * PLACES)), 2)
+    refuse_more(course, count)
     grid = np.linspace(start, stop, count + 1)
     some = CHUNK if course.counting else len(grid)
     followed = following(course, start)
@@ -181,7 +181,7 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
         if number:
             found.append(group.node(target, number, known[target]))
             ahead.pop()
-        elif abs(target - found[-1].at) < ENOUGH * span:
+        elif abs(target - found[-1].at) < ENOUGH * whole:
             node = leap(group, found, grid, known)
             if node is None:
                 return found, Stop(found[-1].at, True, target)
@@ -191,7 +191,19 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
             between = np.linspace(found[-1].at, target, PARTS + 1)[1:-1].tolist()
             known |= closures_at(group, between)
             ahead += between[::-1]
-    return found, Stop(found[-1].at, True, ahead[-1])
+    refuse_more(course, MOST + 1)
+    raise AssertionError
+
+
+def refuse_more(course: Course, count: int) -> None:
+    """A motion is followed through so many places and no more; raises ClosureError."""
+    if count > MOST:
+        sweep = course.sweep
+        found = (
+            f"from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit} it has to be tried at more"
+        )
+        most = f"at most {MOST} positions of the driver"
+        raise ClosureError(Problem("the cycle", found, most, "show less with --from and --to"))
 
 
 def closures_at(group: Numbered, at: Sequence[float]) -> dict[float, Reals]:
@@ -274,7 +286,7 @@ def changes(group: Numbered, found: list[Node]) -> list[tuple[float, float, int]
 
     Both places are one, but for a leap.
     """
-    span = group.course.sweep.high - group.course.sweep.low
+    span = group.course.sweep.usual
     marks = []
     for k in range(1, len(found)):
         if found[k].leapt:

@@ -11,7 +11,7 @@ from math import floor, sqrt
 
 import numpy as np
 
-from graphkin.errors import ClosureError, Problem
+from graphkin.errors import ClosureError, Problem, SceneError
 from graphkin.motion.change import beyond
 from graphkin.motion.counted import led
 from graphkin.motion.course import Branches, Course, Reals
@@ -34,6 +34,9 @@ ALIKE = 1e-8
 BACK = 1e-6
 """Miss after a whole turn, in parts of the mechanism's size, with which it has come back."""
 MOST_PIECES = 400
+"""Pieces into which change points may part a range."""
+MOST_WAYS = 200
+"""How many turns, or ways of a slide, a motion is followed from where the scene stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,9 +83,10 @@ def followed(sweep: Sweep, branches: Branches | None = None) -> Path:
     course = Course(sweep, sweep.original.branches if branches is None else branches)
     course = led(course, sweep.stands, sweep.start)
     ranges: list[Range] = []
+    refuse_far(sweep)
     if (group := numbered(course)) is not None and course.closes(np.array([sweep.start]))[0]:
-        return numbered_path(group, sweep.start)
-    grid = sweep.low + (np.arange(GRID) + 0.5) * sweep.grid_step
+        return shown(sweep, numbered_path(group, sweep.start))
+    grid = sweep.low + (np.arange(GRID) + 0.5) * ((sweep.high - sweep.low) / GRID)
     free = course.closes(grid)
     whole = returns = False
     start = beside_touch(course, sweep.start)
@@ -106,7 +110,49 @@ def followed(sweep: Sweep, branches: Branches | None = None) -> Path:
                 "graphkin check shows what is wrong",
             )
         )
-    return Path(tuple(ranges), whole, returns)
+    return shown(sweep, Path(tuple(ranges), whole, returns))
+
+
+def shown(sweep: Sweep, path: Path) -> Path:
+    """The part of a path that lies in the window; raises ClosureError where there is none."""
+    if sweep.whole:
+        return path
+    ranges = tuple(found for found in (within(sweep, each) for each in path.ranges) if found)
+    if ranges:
+        return replace(path, ranges=ranges)
+    spans = [f"{found[0].low.at:.10g} to {found[-1].high.at:.10g}" for found in path.ranges]
+    raise ClosureError(
+        Problem(
+            "--from, --to",
+            f"it closes nowhere from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit}",
+            "a window that the driver reaches",
+            f"it closes from {', from '.join(spans)} {sweep.unit}",
+        )
+    )
+
+
+def within(sweep: Sweep, found: Range) -> Range:
+    """The pieces of a range that lie in the window, cut at its ends."""
+    pieces = []
+    for piece in found:
+        low, high = piece.low, piece.high
+        low = Event("window", sweep.low) if low.at < sweep.low else low
+        high = Event("window", sweep.high) if high.at > sweep.high else high
+        if low.at < high.at:
+            pieces.append(replace(piece, low=low, high=high))
+    return tuple(pieces)
+
+
+def refuse_far(sweep: Sweep) -> None:
+    """A motion is followed from where the scene stands, so far and no farther."""
+    ends = min(sweep.low, sweep.start), max(sweep.high, sweep.start)
+    ways = (ends[1] - ends[0]) / sweep.usual
+    if ways > MOST_WAYS:
+        unit = sweep.unit
+        most = f"at most {MOST_WAYS * sweep.usual:.6g} {unit}"
+        found = f"{sweep.low:.10g} to {sweep.high:.10g} {unit}, followed from {sweep.start:.6g}"
+        hint = "give a window that is narrower, or nearer to where the scene stands"
+        raise SceneError(Problem("--from, --to", found, most, hint))
 
 
 def numbered_path(group: Numbered, start: float) -> Path:
@@ -159,7 +205,7 @@ def seed(grid: Reals, free: np.ndarray) -> float:
 
 def covered(sweep: Sweep, found: Range, grid: Reals) -> np.ndarray:
     """Which positions of the grid a range passes, whole turns apart."""
-    low, high, half = found[0].low.at, found[-1].high.at, sweep.grid_step
+    low, high, half = found[0].low.at, found[-1].high.at, float(grid[1] - grid[0])
     whole = sweep.what == "turn" and sweep.whole
     turns = [k * TURN for k in range(-2, 3)] if whole else [0.0]
     passed = np.zeros(len(grid), dtype=bool)
@@ -280,7 +326,8 @@ def marched(course: Course, start: float, stop: float) -> Range:
         low, high = (here, event) if forward else (event, here)
         pieces.append(Piece(low, high, course))
         if event.kind != "change":
-            break
+            return tuple(pieces) if forward else tuple(reversed(pieces))
         course = beyond(course, event, 1 if forward else -1)
         here = event
-    return tuple(pieces) if forward else tuple(reversed(pieces))
+    found = f"more than {MOST_PIECES} change points from {start:.6g} to {stop:.6g}"
+    raise ClosureError(Problem("the cycle", found, "fewer", "show less with --from and --to"))

@@ -13,13 +13,12 @@ from typing import Any
 
 from graphkin.errors import Problem, SceneError
 from graphkin.motion.counted import named_angles
-from graphkin.motion.driving import GRID, TURN, What, stated, timed
-from graphkin.motion.window import window
+from graphkin.motion.driving import GRID, TURN, UNITS, What, stated, timed
+from graphkin.motion.window import usual, window
 from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import Branch, Driver, Scene
 from graphkin.scene.quantity import LENGTHS, Quantity
 
-UNITS = {"turn": "deg", "slide": "m", "roll": "m", "time": "s"}
 SYMBOLS = {"turn": "phi", "slide": "s", "roll": "s", "time": "t"}
 
 
@@ -30,6 +29,7 @@ class Sweep:
     u is the swept driver's position in degrees or metres, or the time in seconds; ``start`` is
     where the scene stands, ``low`` to ``high`` the window. ``whole`` tells that the window is one
     turn, which closes on itself. ``number`` counts drivers from 1, None for the time.
+    ``usual`` is the way, in the unit of u, that is swept where no window is stated.
     """
 
     scene: Scene
@@ -40,6 +40,7 @@ class Sweep:
     low: float
     high: float
     whole: bool
+    usual: float
 
     @property
     def unit(self) -> str:
@@ -71,8 +72,8 @@ class Sweep:
 
     @property
     def grid_step(self) -> float:
-        """The step of the grid on which events are looked for."""
-        return (self.high - self.low) / GRID
+        """The step of the grid on which events are looked for, whatever window is shown."""
+        return self.usual / GRID
 
     def with_branches(
         self, branches: Mapping[str, Branch], here: Mapping[str, Any] | None = None
@@ -127,7 +128,8 @@ def sweep_of(
         start = stated(scene.drivers[number - 1], scene)[0]
         start = start % TURN if what == "turn" and not wheels(scene) else start
     first, last, whole = window(scene, what, number, start, low, high)
-    return Sweep(named(scene, number), scene, what, number, start, first, last, whole)
+    way = usual(scene, what, number, first, last)
+    return Sweep(named(scene, number), scene, what, number, start, first, last, whole, way)
 
 
 def wheels(scene: Scene) -> bool:

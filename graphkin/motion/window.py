@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi, radians, sqrt
+from math import isfinite, pi, radians, sqrt
 from typing import Any
 
 from graphkin.errors import Problem, SceneError
-from graphkin.motion.driving import GRID, TURN, What, reach_of, stated, timed
+from graphkin.motion.driving import GRID, TURN, UNITS, What, reach_of, stated, timed
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Link, Scene
 
@@ -26,8 +26,25 @@ def window(
     high: float | None,
 ) -> tuple[float, float, bool]:
     """The window of the sweep, and whether it is one turn that closes on itself."""
-    if low is not None and high is not None and not low < high:
-        raise SceneError(Problem("--from, --to", f"{low:g} to {high:g}", "a window that grows"))
+    for option, bound in (("--from", low), ("--to", high)):
+        if bound is not None and not isfinite(bound):
+            raise SceneError(Problem(option, f"{bound:g}", "a finite number"))
+    first, last, whole = unbounded(scene, what, number, start, low, high)
+    if not first < last:
+        found = f"{first:.10g} to {last:.10g} {UNITS[what]}"
+        raise SceneError(Problem("--from, --to", found, "a window that grows"))
+    return first, last, whole
+
+
+def unbounded(
+    scene: Scene,
+    what: What,
+    number: int | None,
+    start: float,
+    low: float | None,
+    high: float | None,
+) -> tuple[float, float, bool]:
+    """The window with what is not bounded filled in: a turn, the way of a slide, a time."""
     if what == "turn":
         if low is None and high is None:
             return start, start + TURN, True
@@ -42,6 +59,18 @@ def window(
         start -= room / 2
         return start if low is None else low, start + room if high is None else high, False
     return start - room if low is None else low, start + room if high is None else high, False
+
+
+def usual(scene: Scene, what: What, number: int | None, low: float, high: float) -> float:
+    """The whole way of a sweep of no stated bounds, on which events are looked for, in its unit.
+
+    A window on the time, where nothing says how long a scene is shown, is its own.
+    """
+    try:
+        first, last, _ = unbounded(scene, what, number, 0.0, None, None)
+    except SceneError:
+        return max(high, 0.0) - min(low, 0.0)
+    return last - first
 
 
 def wheel_turn(link: Link, scene: Scene) -> float:

@@ -1,0 +1,108 @@
+"""Windows of a cycle: as narrow as a zoom on a dead point, and no wider than can be followed."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from graphkin.errors import ClosureError, SceneError
+from graphkin.mechanism import load
+from graphkin.motion import cycle
+from graphkin.motion.course import Course
+from graphkin.motion.driving import GRID
+from graphkin.report.cycle import cycle_lines
+from graphkin.report.cycle_table import cycle_table
+from tests.motion.linkages import four_bar, slider_crank
+
+
+@pytest.fixture
+def searched(monkeypatch) -> list[int]:
+    """How many positions are looked at, each time that events are sought."""
+    counts: list[int] = []
+    margins = Course.margins
+
+    def counted(self, at):
+        counts.append(len(np.atleast_1d(at)))
+        return margins(self, at)
+
+    monkeypatch.setattr(Course, "margins", counted)
+    return counts
+
+
+def rocker():
+    """A triple rocker: |AO2| = 4 where coupler and rocker are in line, 9 + 4 - 12 cos φ = 16."""
+    return four_bar(3, 2, 2, 2, angle=60), float(np.degrees(np.arccos(-3 / 12)))
+
+
+@pytest.mark.parametrize("width", [1e2, 1.0, 1e-2, 1e-4, 1e-6, 1e-8])
+def test_a_window_about_a_dead_point_shows_it(width, searched):
+    mechanism, dead = rocker()
+    found = cycle(mechanism, low=dead - width / 2, high=dead + width / 2, steps=20)
+    assert [(each.kind, each.at) for each in found.singulars] == [
+        ("dead", pytest.approx(dead, abs=1e-12))
+    ]
+    assert len(found.at) == 10
+    assert found.at.min() >= dead - width / 2
+    assert found.witnessed.agrees.all()
+    assert f"{dead:.4f}"[:6] in "\n".join(cycle_lines(found))
+    assert cycle_table(found).count("\n") >= len(found.at)
+    assert sum(searched) < 5 * GRID
+
+
+@pytest.mark.parametrize("width", [1e-3, 1e-6])
+def test_a_window_beside_a_dead_point_is_whole_or_empty(width):
+    mechanism, dead = rocker()
+    before = cycle(mechanism, low=dead - 2 * width, high=dead - width, steps=10)
+    assert len(before.at) == 11
+    assert not before.singulars
+    assert before.ranges == ((dead - 2 * width, dead - width),)
+    with pytest.raises(ClosureError, match=r"it closes nowhere from .*; it closes from "):
+        cycle(mechanism, low=dead + width, high=dead + 2 * width)
+
+
+@pytest.mark.parametrize("at", [180, -180, 540])
+@pytest.mark.parametrize("width", [50.0, 1e-1, 1e-3])
+def test_a_change_point_within_a_window_is_found(at, width):
+    """A parallelogram has its change points at whole and half turns."""
+    found = cycle(four_bar(2, 4, 2, 4, angle=50), low=at - width / 3, high=at + width, steps=12)
+    assert [(each.kind, each.at) for each in found.singulars] == [("change", pytest.approx(at))]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (float("nan"), 1, "--from: nan; expected a finite number"),
+        (0, float("inf"), "--to: inf; expected a finite number"),
+        (20, 10, "--from, --to: 20 to 10 deg; expected a window that grows"),
+        (0, 1e7, "--from, --to: 0 to 10000000 deg, followed from 60; expected at most 72000 deg"),
+        (-1e15, 0, "expected at most 72000 deg; give a window that is narrower, or nearer to"),
+        (1e15, None, "expected at most 72000 deg"),
+        (60, 60 + 1e-13, "expected steps of at least"),
+    ],
+)
+def test_a_window_that_cannot_be_shown_is_refused_in_one_sentence(low, high, words, searched):
+    mechanism, _ = rocker()
+    with pytest.raises(SceneError, match=re.escape(words)) as caught:
+        cycle(mechanism, low=low, high=high)
+    assert len(caught.value.problems) == 1
+    assert not searched
+
+
+@pytest.mark.parametrize("steps", [0, 1_000_000, 10**9])
+def test_steps_for_which_there_is_no_room_are_refused(steps):
+    with pytest.raises(SceneError, match=r"--steps: .* expected 1 to \d+ steps"):
+        cycle(load("pump", n=7), steps=steps)
+
+
+def test_a_window_of_many_turns_is_followed_part_by_part(searched):
+    found = cycle(slider_crank(2, 5), low=0, high=7200, steps=10)
+    assert found.at == pytest.approx(np.arange(11) * 720)
+    assert max(searched) <= 1.5 * GRID + 2
+
+
+def test_steps_that_all_miss_the_ranges_are_told():
+    mechanism, dead = rocker()
+    with pytest.raises(ClosureError, match=r"--steps: it closes .* where none of 1 steps falls"):
+        cycle(mechanism, low=dead + 1, high=360 + dead + 1, steps=1)
