@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from graphkin.accuracy.labels import GREY
 from graphkin.accuracy.scope import ASKED
 from graphkin.accuracy.study import Study
-from graphkin.curves.style import COLOURS, INK, heading, new_figure
+from graphkin.curves.style import COLOURS, INK, heading, new_figure, titled
 from graphkin.steps.timed import Timing
 
 if TYPE_CHECKING:
@@ -21,7 +21,8 @@ def bars(study: Study, machine: str) -> Figure:
     figure = new_figure(11.2, 4.6)
     left, right = figure.subplots(1, 2, sharey=True)
     scopes = study.scopes
-    figure.suptitle(
+    titled(
+        figure,
         f"What is not asked costs nothing: {study.mechanism.scene.title}",
         fontweight="bold",
         fontsize=12.5,

@@ -12,7 +12,7 @@ from graphkin.accuracy.labels import GREY, Name, name_points
 from graphkin.accuracy.methods import Row
 from graphkin.accuracy.pencils import PENCILS
 from graphkin.accuracy.study import Study
-from graphkin.curves.style import COLOURS, INK, heading, new_figure
+from graphkin.curves.style import COLOURS, INK, heading, new_figure, titled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,8 +71,11 @@ def ladder(study: Study, machine: str) -> Figure:
     which = shown_quantity(study.rows)
     spots = [spot for row in study.rows if (spot := spot_of(row, which)) is not None]
     left, right = figure.subplots(1, 2, width_ratios=(1.12, 1))
-    figure.suptitle(
-        f"What accuracy costs: {study.mechanism.scene.title}", fontweight="bold", fontsize=13
+    titled(
+        figure,
+        f"What accuracy costs: {study.mechanism.scene.title}",
+        fontweight="bold",
+        fontsize=13,
     )
     footnote(figure, study, which, machine)
     whole(figure, left, spots)

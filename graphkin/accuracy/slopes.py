@@ -12,7 +12,7 @@ from graphkin.accuracy.labels import GREY, Name, name_points
 from graphkin.accuracy.ladder import A4
 from graphkin.accuracy.pencils import FINE
 from graphkin.accuracy.study import Study
-from graphkin.curves.style import COLOURS, INK, PALE, heading, new_figure
+from graphkin.curves.style import COLOURS, INK, PALE, heading, new_figure, titled
 from graphkin.motion.course import Reals
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def slopes(study: Study, machine: str) -> Figure | None:
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     named: list[tuple[Axes, list[Name], list[tuple[float, float]]]] = []
     to_end = found.approach.end != "range"
-    figure.suptitle(title_of(study), fontweight="bold", fontsize=12.5)
+    titled(figure, title_of(study), fontweight="bold", fontsize=12.5)
     for n, ax in enumerate(panels):
         ends = panel(ax, study, n)
         heading(ax, TITLES[n] if to_end else QUANTITIES[n].capitalize())

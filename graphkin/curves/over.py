@@ -20,8 +20,10 @@ from graphkin.curves.style import (
     heading,
     legend,
     new_figure,
+    some_of,
     span_of,
     subscripted,
+    titled,
 )
 from graphkin.motion.driving import TURN
 
@@ -33,9 +35,13 @@ WIDTH = 8.0
 PANEL = 2.15
 """Height of a panel in inches; 0.9 more for title and axis."""
 MOST_PANELS = 6
+MOST_CURVES = 8
+"""Curves of one panel: as many as there are inks, and as one line of a legend holds."""
 TURNS = (15, 30, 45, 60, 90, 180, 360)
 """Steps of an axis of angles in degrees."""
 TICKS = 13
+LEAST_TICKS = 2
+"""Steps of an axis of angles from which on it has ticks at whole parts of a turn."""
 
 Curve = tuple[str, np.ndarray, str, object]
 """A label, values, a colour and a stroke."""
@@ -72,7 +78,7 @@ def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
     if quantity == "position":
         unit, factor = found.length_unit, found.per_length
     known = [n for n in points if getattr(found.solution.points[n], quantity) is not None]
-    shown = known[:MOST_PANELS]
+    shown, more = some_of(known, MOST_PANELS, "points")
     panels = []
     for name in shown:
         value = np.asarray(getattr(found.solution.points[name], quantity)) * factor
@@ -89,12 +95,13 @@ def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
                 (f"{subscripted(letter, name)} along y", value.imag, COLOURS[1], DASHES[2]),
             ]
         panels.append((f"Point {name}", unit, curves))
-    return stacked(found, title, panels)
+    return stacked(found, title + more, panels)
 
 
 def of_links(found: Sampled, links: Sequence[str]) -> Figure:
     """Three panels: angles, angular velocities, angular accelerations of links."""
     panels = []
+    links, more = some_of(links, MOST_CURVES, "links")
     angles = [
         (subscripted("\\theta", name), angle, colour(i), dash(i))
         for i, name in enumerate(links)
@@ -115,7 +122,7 @@ def of_links(found: Sampled, links: Sequence[str]) -> Figure:
                 curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
         if curves:
             panels.append((words, unit, curves))
-    return stacked(found, "Turning of the links", panels)
+    return stacked(found, f"Turning of the links{more}", panels)
 
 
 def line_of(found: Sampled, link: str) -> tuple[str, ...]:
@@ -140,6 +147,7 @@ def of_slides(found: Sampled, blocks: Sequence[str]) -> Figure:
     """Three panels: coordinate, speed, acceleration of every block along its guide."""
     unit = found.length_unit
     panels = []
+    blocks, more = some_of(blocks, MOST_CURVES, "blocks")
     for quantity, letter, words, units, factor in (
         ("position", "s", "Coordinate along the guide", unit, found.per_length),
         ("speed", "\\dot{s}", "Speed along the guide", "m/s", 1.0),
@@ -153,7 +161,7 @@ def of_slides(found: Sampled, blocks: Sequence[str]) -> Figure:
                 curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
         if curves:
             panels.append((words, units, curves))
-    return stacked(found, "Blocks on their guides", panels)
+    return stacked(found, f"Blocks on their guides{more}", panels)
 
 
 def stacked(
@@ -161,7 +169,7 @@ def stacked(
 ) -> Figure:
     """Panels one below the other over one axis of the driver."""
     figure = new_figure(WIDTH, PANEL * len(panels) + 0.9)
-    figure.suptitle(f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
+    titled(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     at = found.broken(found.at * axis_factor(found))
     for ax, (words, unit, curves) in zip(axes, panels, strict=True):
@@ -196,10 +204,10 @@ def driver_axis(found: Sampled, ax: Axes) -> None:
     if sweep.what == "turn":
         if sweep.whole and high - low > 0.9 * TURN:
             low, high = min(low, 0.0), max(high, low + TURN)
-        step = next((s for s in TURNS if (high - low) / s < TICKS), 360)
-        ax.set_xticks(
-            np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1) * step
-        )
+        step = next((s for s in TURNS if (high - low) / s < TICKS), None)
+        if step is not None and high - low > LEAST_TICKS * step:
+            ticks = np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
+            ax.set_xticks(ticks * step)
         name = found.scene.drivers[(sweep.number or 1) - 1].link
         ax.set_xlabel(f"driver's angle φ of link {name}, deg")
     elif sweep.what == "time":

@@ -9,7 +9,7 @@ import numpy as np
 
 from graphkin.curves.mechanism import draw, stand_of
 from graphkin.curves.sampled import Sampled, moving_points
-from graphkin.curves.style import COLOURS, FAINT, INK, colour, new_figure
+from graphkin.curves.style import COLOURS, FAINT, INK, colour, new_figure, some_of, titled
 from graphkin.motion.centrodes import Centrodes, centrodes, links_with_centrodes
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ SIDE = 7.2
 """Longer side of a picture in inches."""
 ROOM = 0.09
 """Free space around, in the longer side of what is drawn."""
+MOST_PATHS = 16
+"""Paths in one picture: each ink twice."""
 MARKS = 12
 """Dots on the path of a point in a whole turn: one every 30 degrees."""
 FAR = 1.6
@@ -51,12 +53,12 @@ def path_points(found: Sampled) -> list[str]:
 def paths(found: Sampled) -> Figure:
     """The path of every point of interest, the mechanism where the scene stands."""
     stand = stand_of(found.cycle, found.per_length)
+    names, more = some_of(path_points(found), MOST_PATHS, "points")
     curves = {
-        name: np.asarray(found.solution.points[name].position) * found.per_length
-        for name in path_points(found)
+        name: np.asarray(found.solution.points[name].position) * found.per_length for name in names
     }
     box = box_of([np.array(list(stand.places.values())), *curves.values()])
-    figure, ax = plane(found, "Paths of points", box)
+    figure, ax = plane(found, f"Paths of points{more}", box)
     draw(ax, stand, breadth_of(box))
     for i, (name, curve) in enumerate(curves.items()):
         line = found.broken(curve)
@@ -150,7 +152,7 @@ def plane(found: Sampled, title: str, box: Box) -> tuple[Figure, Axes]:
     wide, high = box[1] - box[0], box[3] - box[2]
     scale = SIDE / max(wide, high)
     figure = new_figure(max(wide * scale, 5.2) + 0.7, max(high * scale, 2.6) + 1.5)
-    figure.suptitle(f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
+    titled(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
     ax = figure.subplots()
     ax.set_xlim(box[0], box[1])
     ax.set_ylim(box[2], box[3])

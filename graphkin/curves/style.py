@@ -6,6 +6,7 @@ import io
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
+from warnings import catch_warnings, filterwarnings
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,7 +59,9 @@ def look() -> Iterator[None]:
     """Draw in the look of this house, whatever a user's settings say."""
     import matplotlib as mpl
 
-    with mpl.rc_context():
+    with mpl.rc_context(), catch_warnings():
+        # A title may hold signs that the font lacks; the picture shows a box for each.
+        filterwarnings("ignore", message="Glyph .* missing from font")
         mpl.rcdefaults()
         mpl.rcParams.update(LOOK)  # type: ignore[arg-type]
         yield
@@ -88,6 +91,18 @@ def written(figure: Figure, kind: str) -> bytes:
 def without_trailing_blanks(data: bytes) -> bytes:
     """The lines of a text without blanks at their ends."""
     return b"\n".join(line.rstrip() for line in data.split(b"\n"))
+
+
+def titled(figure: Figure, text: str, **how: Any) -> None:
+    """The title of a figure as it is written: a scene's title is text and no formula."""
+    figure.suptitle(text, parse_math=False, **how)
+
+
+def some_of(names: Sequence[str], most: int, noun: str) -> tuple[list[str], str]:
+    """The first of some names that a picture has room for, and words where there are more."""
+    if len(names) <= most:
+        return list(names), ""
+    return list(names[:most]), f" ({most} of {len(names)} {noun}; the table holds all)"
 
 
 def legend(ax: Axes, *, columns: int = 8) -> None:

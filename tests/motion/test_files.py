@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import csv
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from graphkin.curves.files import picture_files
+from graphkin.curves.over import pictures
+from graphkin.curves.sampled import sampled
+from graphkin.curves.style import look
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion import cycle
 from graphkin.report.cycle import cycle_lines
 from graphkin.report.cycle_table import cycle_table
 from graphkin.report.table import labelled
 from graphkin.scene.read import read_text
+from tests.bench.chain import scene as chain
 from tests.cli.conftest import Run, run  # noqa: F401
 from tests.motion.linkages import five_bar, four_bar, slider_crank
 
@@ -197,3 +202,23 @@ def test_a_follower_between_dead_points_swings():
 
 def test_a_label_is_never_run_into_its_line():
     assert labelled("in range 12", ["link upper"]) == ["in range 12 link upper"]
+
+
+@pytest.mark.parametrize("title", ["$x^$", "$$", "50 $ and 5 \\\\$ more", "\\\\frac{", "a_b^c"])
+def test_a_title_is_text_and_no_formula(title):
+    scene = replace(load("pump", n=7).scene, title=title)
+    files = picture_files(cycle(Mechanism(scene), steps=8), "pump", ["png"])
+    assert len(files) > 5
+
+
+def test_a_picture_of_many_links_shows_some_and_says_of_how_many():
+    """Legends of a hundred names leave no room for curves."""
+    found = sampled(cycle(Mechanism(read_text(chain(20), "chain", None, {})), steps=8), 24)
+    with look():
+        for name, noun in (("velocities", "points"), ("turning", "links")):
+            figure = pictures(found)[name]()
+            figure.canvas.draw()
+            assert f" of {21 if noun == 'points' else 40} {noun}; the table holds all" in (
+                figure.get_suptitle()
+            )
+            assert min(ax.get_position().height for ax in figure.axes) > 0.08
