@@ -25,8 +25,9 @@ DOUBLE = 53
 class Agreement:
     """How doubles and balls of as many bits stand to the certified answers.
 
-    ``single`` and ``batch`` are the largest errors over the bound 64·eps·(L/l)/s³, ``tightness``
-    the largest radius of a ball over it; ``contained`` of ``answers`` balls hold the truth.
+    ``single`` and ``batch`` are the largest errors over the bound 64·eps·(L/l)/s³. Of ``answers``
+    balls ``bounded`` have a radius, the largest of which is ``tightness`` over that bound, and
+    ``contained`` of these hold the truth.
     """
 
     bound: float
@@ -34,6 +35,7 @@ class Agreement:
     batch: float
     tightness: float
     contained: int
+    bounded: int
     answers: int
 
 
@@ -54,8 +56,8 @@ def agreement(reference: Reference) -> Agreement:
         float(bounds.max()),
         float(single.max()),
         float(batch.max()),
-        float(radii.max()),
-        contained(balls, reference),
+        float(radii[np.isfinite(radii)].max(initial=0.0)),
+        *contained(balls, reference),
         len(targets) * count,
     )
 
@@ -69,10 +71,12 @@ def bounds_of(reference: Reference) -> Reals:
     return np.asarray(SHARE * EPS * stretch / reference.sines**3)
 
 
-def contained(balls: Sequence[Found], reference: Reference) -> int:
-    """How many balls hold the balls of the reference whole."""
-    return sum(
-        bool(found[target].contains(sure[target]))
+def contained(balls: Sequence[Found], reference: Reference) -> tuple[int, int]:
+    """How many balls hold the balls of the reference whole, of how many that have a radius."""
+    pairs = [
+        (ball, sure[target])
         for found, sure in zip(balls, reference.found, strict=True)
-        for target in found
-    )
+        for target, ball in found.items()
+        if bool(ball.is_finite())
+    ]
+    return sum(bool(ball.contains(sure)) for ball, sure in pairs), len(pairs)

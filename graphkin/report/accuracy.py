@@ -153,10 +153,19 @@ def agreement_lines(found: Agreement) -> Iterator[str]:
         f"Doubles keep to {max(found.single, found.batch):.1g} of their bound 64·ε·(L/l)/s³ = "
         f"{found.bound:.1g} (L, l longest and shortest bar, s the sine of the flattest crossing)."
     )
+    radius = f"their radius is at most {found.tightness:.1g} times that bound"
+    if found.bounded == found.answers:
+        yield (
+            f"Balls of {DOUBLE} bits hold the true value in {found.contained} of {found.answers} "
+            f"answers; {radius}."
+        )
+        return
     yield (
-        f"Balls of {DOUBLE} bits hold the true value in {found.contained} of {found.answers} "
-        f"answers; their radius is at most {found.tightness:.1g} times that bound."
+        f"Balls of {DOUBLE} bits bound {found.bounded} of {found.answers} answers; elsewhere they "
+        "grow too wide from step to step to tell anything."
     )
+    if found.bounded:
+        yield f"They hold the true value in {found.contained} of these {found.bounded}; {radius}."
 
 
 def flat_lines(study: Study) -> Iterator[str]:

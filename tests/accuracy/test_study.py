@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from graphkin.accuracy import machine
+from graphkin.accuracy.agreement import Agreement
 from graphkin.accuracy.answers import error
 from graphkin.accuracy.files import picture_files
 from graphkin.accuracy.flat import LAW
@@ -23,7 +24,7 @@ from graphkin.accuracy.study import Study, study
 from graphkin.handout import scales
 from graphkin.kinds import ball_kind
 from graphkin.mechanism import load
-from graphkin.report.accuracy import HEADS, accuracy_lines, accuracy_table
+from graphkin.report.accuracy import HEADS, accuracy_lines, accuracy_table, agreement_lines
 from tests.cli.conftest import Run, run  # noqa: F401
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -238,6 +239,19 @@ def test_what_is_told_names_reference_machine_and_slopes():
     ):
         assert words in text
     assert all(len(line) < 170 for line in text.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("held", "bounded", "words"),
+    [
+        (6, 6, "Balls of 53 bits hold the true value in 6 of 6 answers; their radius"),
+        (4, 4, "They hold the true value in 4 of these 4; their radius is at most 3 times"),
+        (0, 0, "Balls of 53 bits bound 0 of 6 answers; elsewhere they grow too wide"),
+    ],
+)
+def test_balls_without_a_radius_are_not_said_to_miss_the_truth(held, bounded, words):
+    lines = list(agreement_lines(Agreement(1e-14, 0.1, 0.1, 3.0, held, bounded, 6)))
+    assert any(line.startswith(words) for line in lines)
 
 
 def test_pictures_are_the_same_bytes_with_the_same_clock():
