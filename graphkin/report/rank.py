@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice
 from math import pi
 
 from graphkin.errors import GraphkinError, StructureError
@@ -18,6 +19,8 @@ from graphkin.structure.groups import Tie
 from graphkin.structure.mobility import count
 
 Places = Mapping[str, complex]
+TOLD = 10
+"""Idle links and contacts that are told; each of them is a count of its own."""
 NUDGE = Fraction(1, 50)
 """How far the drivers are moved to leave a singular position, in radians or longest bars."""
 
@@ -54,10 +57,12 @@ class Rank:
         """Which constraints take a freedom that others have taken already."""
         many = "one constraint is" if surplus == 1 else f"{surplus} constraints are"
         yield f"{surplus} more than the count: {many} idle, taking what others take already"
-        found = list(self.idle())
+        found = list(islice(self.idle(), TOLD + 1))
         if not found:
             return
-        first, *others = found
+        first, *others = found[:TOLD]
+        if len(found) > TOLD:
+            others.append("others")
         also = f" (or {listed(others)})" if others else ""
         right = ", and the count is right" if surplus == 1 else ""
         yield f"without {first}{also} the motion is the same{right}"

@@ -15,6 +15,8 @@ from graphkin.structure.joints import partner
 from graphkin.structure.mobility import count
 
 VERBS = {"turn": "turns", "slide": "slides", "roll": "rolls"}
+MOST_LOOPS = 24
+"""Rings of four links that are told."""
 NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight")
 
 
@@ -95,8 +97,11 @@ def loop_lines(scene: Scene) -> list[str]:
         return ["none: an open chain"]
     noun = "closed loop" if loops == 1 else "independent closed loops"
     lines = [f"{loops} {noun}"]
-    for loop in single_loops(scene):
+    single = single_loops(scene)
+    for loop in single[:MOST_LOOPS]:
         lines += single_loop_lines(scene, loop)
+    if len(single) > MOST_LOOPS:
+        lines.append(f"and {len(single) - MOST_LOOPS} more rings of four links")
     return lines
 
 

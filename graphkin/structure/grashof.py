@@ -6,7 +6,7 @@ fully against all the others, or no link against any.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal
@@ -130,12 +130,12 @@ def compare(one: float, other: float) -> int:
 def single_loops(scene: Scene) -> tuple[Loop, ...]:
     """The loops of four links with four pins, or three pins and a slide, the frame's first."""
     found: list[Loop] = []
-    every = Joints(scene)
+    every, bodies = Joints(scene), Bodies(scene)
     for links in four_cycles(every):
         beside = zip(links, (*links[1:], links[0]), strict=True)
         joined = [every.between(link, (other,)) for link, other in beside]
         if all(len(pairs) == 1 for pairs in joined):
-            loop = loop_of(scene, links, [pairs[0] for pairs in joined])
+            loop = loop_of(bodies, links, [pairs[0] for pairs in joined])
             found += [] if loop is None else [loop]
     return tuple(sorted(found, key=lambda loop: FRAME not in loop.links))
 
@@ -152,11 +152,26 @@ def four_cycles(every: Joints) -> Iterator[tuple[str, str, str, str]]:
                     yield first, second, third, last
 
 
-def loop_of(scene: Scene, links: Sequence[str], joints: Sequence[Joint]) -> Loop | None:
+class Bodies(dict[str, Mapping[str, complex]]):
+    """The points of each link in its own axes (m), found once."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+
+    def __missing__(self, link: str) -> Mapping[str, complex]:
+        self[link] = body(self.scene, link)
+        return self[link]
+
+    def bar(self, link: str, one: str, other: str) -> float:
+        """The distance of two points on a link (m)."""
+        return abs(self[link][one] - self[link][other])
+
+
+def loop_of(bodies: Bodies, links: Sequence[str], joints: Sequence[Joint]) -> Loop | None:
     """A ring of four links by its pairs: link i is joined to the next by joint i."""
     pins = [joint.point for joint in joints if isinstance(joint, Pin)]
     if len(set(pins)) == 4:
-        lengths = [bar(scene, link, pins[i - 1], pins[i]) for i, link in enumerate(links)]
+        lengths = [bodies.bar(link, pins[i - 1], pins[i]) for i, link in enumerate(links)]
         a, b, c, d = links
         return FourBar((a, b, c, d), (lengths[0], lengths[1], lengths[2], lengths[3]))
     if len(pins) != 3 or len(set(pins)) != 3:
@@ -168,11 +183,11 @@ def loop_of(scene: Scene, links: Sequence[str], joints: Sequence[Joint]) -> Loop
     points = [j.point for j in (*joints[turned + 1 :], *joints[:turned]) if isinstance(j, Pin)]
     if ring[0] != slide.block:
         ring, points = ring[::-1], points[::-1]
-    return slider_crank(scene, slide, ring, points)
+    return slider_crank(bodies, slide, ring, points)
 
 
 def slider_crank(
-    scene: Scene, slide: Sliding, ring: Sequence[str], points: Sequence[str]
+    bodies: Bodies, slide: Sliding, ring: Sequence[str], points: Sequence[str]
 ) -> SliderCrank | None:
     """The loop from the block over the rod and the crank to the guide's link, and its pins.
 
@@ -180,7 +195,8 @@ def slider_crank(
     """
     block, rod, crank, guide = ring
     at_block, middle, at_guide = points
-    line, own, base = guide_line(scene, slide.slide), body(scene, block), body(scene, guide)
+    scene, own, base = bodies.scene, bodies[block], bodies[guide]
+    line = guide_line(scene, slide.slide)
     across = own[at_block] - own[scene.links[block].points[0]]
     if across and slide.slide != scene.links[block].slides[0]:
         return None
@@ -189,13 +205,7 @@ def slider_crank(
     return SliderCrank(
         guide,
         block,
-        (crank, bar(scene, crank, middle, at_guide)),
-        (rod, bar(scene, rod, at_block, middle)),
+        (crank, bodies.bar(crank, middle, at_guide)),
+        (rod, bodies.bar(rod, at_block, middle)),
         float(offset),
     )
-
-
-def bar(scene: Scene, link: str, one: str, other: str) -> float:
-    """The distance of two points on a link (m)."""
-    points = body(scene, link)
-    return abs(points[one] - points[other])

@@ -26,9 +26,19 @@ def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -
     """The smallest group that closes after one link has been tried, as written first.
 
     Of two wheels that turn one another the larger is tried: all round it the smaller goes farther.
+    A link is tried among those that pairs and drivers join it to: no other can follow it.
     """
+    tied = [{driver.link, driver.against} for driver in waiting]
+    part_of = {
+        link: part
+        for links in joints.apart(known, tied)
+        for part in (joints.part(links),)
+        for link in links
+    }
     found = [
-        group for trial in trials(joints, known) for group in tried(joints, known, waiting, trial)
+        group
+        for trial in trials(joints, known)
+        for group in tried(part_of[trial.link], known, waiting, trial)
     ]
     scene = joints.scene
     return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)

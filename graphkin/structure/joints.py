@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
+from copy import copy
 
 from graphkin.errors import Problem, StructureError
 from graphkin.scene.model import FRAME, Scene
@@ -19,6 +20,7 @@ class Joints:
         self.scene = scene
         self.owners = sharers(scene)
         self.order = {name: i for i, name in enumerate((FRAME, *scene.links))}
+        self.names: tuple[str, ...] = tuple(scene.links)
         self.others: dict[str, list[Sliding | Contact]] = {name: [] for name in self.order}
         for link in scene.links.values():
             for slide in link.slides:
@@ -57,7 +59,28 @@ class Joints:
 
     def unknown(self, known: Collection[str]) -> Iterator[str]:
         """The links that are not known, as written."""
-        return (name for name in self.scene.links if name not in known)
+        return (name for name in self.names if name not in known)
+
+    def part(self, links: Collection[str]) -> Joints:
+        """The same pairs, where only some links are looked at as unknown."""
+        part = copy(self)
+        part.names = tuple(name for name in self.names if name in links)
+        return part
+
+    def apart(self, known: Collection[str], tied: Iterable[set[str]]) -> Iterator[set[str]]:
+        """The unknown links in parts that neither pairs nor the sets ``tied`` join, as written."""
+        left = set(self.unknown(known))
+        for first in self.names:
+            if first not in left:
+                continue
+            part, new = {first}, {first}
+            while new:
+                beside = {other for link in new for other in self.neighbours(link)}
+                beside |= {link for each in tied if each & new for link in each}
+                new = (beside & left) - part
+                part |= new
+            left -= part
+            yield part
 
 
 def refuse_loose(contact: Contact) -> None:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from graphkin.errors import StructureError
 from graphkin.structure.graph import Contact, Pin, pairs
 from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Higher, Tie
+from graphkin.structure.joints import Joints
 from graphkin.structure.mobility import count, kutzbach
 from graphkin.structure.order import decompose
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, scene_of, shipped
@@ -548,3 +549,18 @@ def test_two_cranks_may_turn_against_the_frame():
     assert (first.link, second.link, dyad.type) == ("1", "4", "RRR")
     solution = mechanism.solve()
     assert mechanism.witness(solution).agrees
+
+
+@pytest.mark.parametrize("cranks", [10, 20])
+def test_a_link_is_tried_among_those_that_it_is_joined_to(cranks, monkeypatch):
+    """Cranks that nothing drives: each is tried alone, not with all the others."""
+    asked = []
+    between = Joints.between
+    monkeypatch.setattr(
+        Joints, "between", lambda self, *args: (asked.append(args), between(self, *args))[1]
+    )
+    pivots = "".join(f"O{k} = [{k}, 0]\n" for k in range(cranks))
+    links = "".join(f"[links.{k}]\nO{k}-A{k} = 1\n" for k in range(1, cranks))
+    drivers = "[[drivers]]\nturn = 1\nangle = 30\nspeed = 1\n"
+    decompose(scene_of(f"[frame]\n{pivots}{links}{drivers}"))
+    assert len(asked) < 16 * cranks
