@@ -37,6 +37,10 @@ PANEL = 2.15
 MOST_PANELS = 6
 MOST_CURVES = 8
 """Curves of one panel: as many as there are inks, and as one line of a legend holds."""
+LINE = 84
+"""Letters above a panel that lie on one line."""
+NAMED = 11
+"""What the stroke and the name of a curve take of it, in letters."""
 TURNS = (15, 30, 45, 60, 90, 180, 360)
 """Steps of an axis of angles in degrees."""
 TICKS = 13
@@ -109,7 +113,8 @@ def of_links(found: Sampled, links: Sequence[str]) -> Figure:
     ]
     if angles:
         lines = ", ".join(f"{n}: {'-'.join(line_of(found, n))}" for n in links if line_of(found, n))
-        panels.append((f"Angle of the line of each link ({lines})", "deg", angles))
+        which = f" ({lines})" if len(lines) < LINE else ", from its first point to its second"
+        panels.append((f"Angle of the line of each link{which}", "deg", angles))
     for quantity, letter, words, unit in (
         ("omega", "\\omega", "Angular velocity, counter-clockwise positive", "rad/s"),
         ("epsilon", "\\varepsilon", "Angular acceleration", "rad/s²"),
@@ -183,7 +188,7 @@ def stacked(
             ax.margins(y=0.5)
         ax.axhline(0, color=FAINT, linewidth=0.6, zorder=1)
         ax.set_ylabel(unit)
-        heading(ax, words)
+        heading(ax, words, raised=len(words) + NAMED * len(curves) > LINE)
         legend(ax)
         singular_lines(found, ax)
     figure.align_ylabels(axes)

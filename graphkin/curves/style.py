@@ -121,9 +121,9 @@ def legend(ax: Axes, *, columns: int = 8) -> None:
         )
 
 
-def heading(ax: Axes, text: str) -> None:
-    """The heading of a panel, at the left above it."""
-    ax.set_title(text, loc="left", fontweight="bold")
+def heading(ax: Axes, text: str, *, raised: bool = False) -> None:
+    """The heading of a panel, at the left above it; raised, above a long legend."""
+    ax.set_title(text, loc="left", fontweight="bold", pad=20 if raised else None)
 
 
 def colour(number: int) -> str:
