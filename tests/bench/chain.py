@@ -21,6 +21,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.plans.compile import write
 from graphkin.scene.read import read_scene
 from graphkin.steps.batch import run_blocks
+from graphkin.steps.gather import gathered
 from graphkin.steps.press import Press
 from graphkin.structure.order import decompose
 
@@ -74,6 +75,9 @@ def costs(dyads: int) -> dict[str, float]:
     program = mechanism.program
     found["choosing the steps"] = timed(partial(program.needed, program.targets))
     found["one position"] = timed(mechanism.trace)
+    for name, targets in (("everything", None), ("one velocity", [("velocity", "B1")])):
+        solution = gathered(mechanism.trace(targets))
+        found[f"the check of {name}"] = timed(partial(mechanism.witness, solution))
     needed, keep = program.needed(program.targets), list(program.targets.values())
     values = {"phi": np.linspace(0, 360, POSITIONS, endpoint=False)}
     press = Press(program)
