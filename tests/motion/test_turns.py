@@ -17,7 +17,7 @@ from graphkin.motion.driving import stated
 from graphkin.motion.period import strangers, turns_to_return
 from graphkin.paper.data import given
 from graphkin.paper.richtext import plain
-from graphkin.ranges import closing_ranges
+from graphkin.ranges import closing
 from graphkin.report.checking import Checking
 from graphkin.scene.read import read_text
 from graphkin.screen.driven import INPUT, driven_by
@@ -137,7 +137,7 @@ def test_the_witness_holds_a_solution_against_the_turns_that_the_scene_states():
 
 def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
     mechanism = scene("whitworth-gears")
-    assert closing_ranges(mechanism.scene) == [(0.0, 360.0)]
+    assert closing(mechanism.scene).ranges == [(0.0, 360.0)]
     tracing = Tracing(mechanism, driven_by(mechanism.scene))
     trace = tracing.traced(mechanism.trace())
     point = trace.value("position", "C")
