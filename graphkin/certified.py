@@ -21,6 +21,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene
 from graphkin.steps.program import Step, Target
+from graphkin.steps.refining import in_doubles
 from graphkin.steps.run import StepFailed, Trace, evaluate
 from graphkin.steps.trying import Closer
 
@@ -112,6 +113,35 @@ class Balls:
         if ratio is None or not ratio.size.terms:
             return place
         return sharpened(place, ratio.start + ratio.shift / ratio.size)
+
+    def in_doubles(self) -> Trace:
+        """The doubles next to the middles of the balls."""
+        trace = self.trace
+        values, margins = (
+            {number: nearest(value) for number, value in found.items()}
+            for found in (trace.values, trace.margins)
+        )
+        return Trace(trace.program, values, margins)
+
+
+def nearest(value: Any) -> Any:
+    """The doubles next to the middles of a value made of balls."""
+    if isinstance(value, tuple):
+        return type(value)(*(nearest(part) for part in value))
+    return in_doubles(value)
+
+
+def decided(mechanism: Mechanism, digits: int, targets: Iterable[Target] | None) -> Trace | None:
+    """What balls find of some targets, in doubles, where rounding leaves doubles without any.
+
+    None where balls do not find every position either, as at a dead point itself.
+    """
+    certifier = Certifier.of(mechanism, targets)
+    for bits, narrowed in precisions(digits):
+        found = certifier.run(bits, narrowed)
+        if not found.blame:
+            return found.in_doubles()
+    return None
 
 
 # --- what the scene states, and what follows from it whatever the numbers are --------------------

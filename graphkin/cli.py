@@ -17,16 +17,17 @@ from graphkin.console import FAILED, Desk, complain, say
 from graphkin.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from graphkin.mechanism import Mechanism
     from graphkin.paper.scale import Scales
     from graphkin.report.record import Record
     from graphkin.scene.model import Scene
+    from graphkin.steps.program import Target
     from graphkin.steps.run import Trace
     from graphkin.steps.solution import Solution, Verdict
 
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
-LOST = 0.1
-"""Bound of an error, in parts of the largest, from which no digit is sure."""
 
 
 @click.group(cls=Desk, invoke_without_command=True, context_settings=HELP)
@@ -172,15 +173,17 @@ def solve(
       graphkin solve mine.toml --json > mine.json
     """
     from graphkin.report.record import record
+    from graphkin.report.sure import sure_of
     from graphkin.steps.gather import gathered
 
     mechanism = mechanism_of(name, settings)
     targets = mechanism.asked() if asked else None
-    trace = mechanism.trace(targets)
+    trace, drawable = traced(mechanism, targets, digits)
     solution = gathered(trace)
     verdict = verdict_on(mechanism, solution)
-    undrawn = asked and pencil is None and not as_json
-    drawn_at = None if undrawn else scales_of(mechanism)
+    solution = sure_of(solution, verdict)
+    drawn = drawable and not (asked and pencil is None and not as_json)
+    drawn_at = scales_of(mechanism) if drawn else None
     found = record(mechanism.scene, solution, verdict, drawn_at, asked=asked)
     if digits is not None:
         from graphkin.report.certified import certify
@@ -197,8 +200,28 @@ def solve(
         say(motion_words(mechanism.scene, solution, found, verdict))
         tell(lines)
     uncertain = not_certified(found)
-    if doubts(mechanism.scene, trace, solution, verdict) or uncertain:
+    doubtful = doubts(mechanism.scene, trace, solution, verdict, proved=digits is not None)
+    if doubtful or uncertain:
         leave(FAILED)
+
+
+def traced(
+    mechanism: Mechanism, targets: Iterable[Target] | None, digits: int | None
+) -> tuple[Trace, bool]:
+    """The construction, and whether doubles can draw it: where digits are asked balls decide."""
+    from graphkin.errors import ClosureError
+
+    try:
+        return mechanism.trace(targets), True
+    except ClosureError:
+        if digits is None:
+            raise
+        from graphkin.certified import decided
+
+        trace = decided(mechanism, digits, targets)
+        if trace is None:
+            raise
+        return trace, False
 
 
 def by_pencil(
@@ -247,22 +270,27 @@ def not_certified(found: Record) -> bool:
     return bool(undecided)
 
 
-def doubts(scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | None) -> bool:
-    """Warn of a flat crossing and of a witness that disagrees; True when there is any doubt."""
+def doubts(
+    scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | None, *, proved: bool = False
+) -> bool:
+    """Warn of a flat crossing, of what no digit is sure of, and of a witness that disagrees.
+
+    True when there is any doubt. Digits that are ``proved`` are sure, whatever doubles lose.
+    """
     from graphkin.report.motion import flat_words, verdict_words
+    from graphkin.report.sure import digits_words, unsure_words
     from graphkin.steps.solution import FAIR
 
     flat = solution.margin < FAIR
     if flat:
-        bound = ""
-        if verdict is not None and verdict.limit < LOST:
-            bound = f"; it is good to {verdict.limit:.1e} of the largest of its kind"
-        elif verdict is not None:
-            bound = "; in doubles no digit of it is sure"
-        complain(f"{flat_words(scene, trace)}{bound}")
+        sure = f"; sure digits: {digits_words(verdict)}" if verdict and not proved else ""
+        complain(f"{flat_words(scene, trace)}{sure}")
+    unsure = verdict is not None and bool(verdict.unsure) and not proved
+    if verdict is not None and unsure:
+        complain(unsure_words(verdict))
     if verdict is not None and not verdict.agrees:
         complain(f"the independent check {verdict_words(verdict, scene)}")
-    return flat or verdict is None or not verdict.agrees
+    return flat or verdict is None or not verdict.agrees or unsure
 
 
 for command in (sheet, cycle, accuracy, print_sheets, grade, new, variants, studio):

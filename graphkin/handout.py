@@ -89,6 +89,15 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
     verdict = mechanism.witness(solution)
     if not verdict.agrees:
         raise WitnessError(disagreements(mechanism.scene, verdict))
+    if verdict.unsure:
+        raise WitnessError(
+            Problem(
+                verdict.unsure[0],
+                "no digit of it is sure: flat crossings enlarge the rounding of doubles beyond it",
+                "crossings that are less flat, one after the other",
+                "move the driver; no sheet is handed out",
+            )
+        )
     return verdict
 
 

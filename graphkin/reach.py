@@ -23,7 +23,10 @@ FLAT = 1e-6
 BLIND = 2.0**-26
 """Sine of a crossing, the root of eps, below which no digit of a velocity is right."""
 MOVING = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION)
-DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
+DEAD = (
+    "at this dead point, or so near to one that doubles cannot tell (solve --digits can), the "
+    "driver's speed determines no other: change the driver's position"
+)
 
 ALONE = "it closes at this dead point alone: change the lengths"
 
@@ -236,7 +239,7 @@ def refuse_blind(scene: Scene, trace: Trace) -> None:
             continue
         if falls(step):
             raise ClosureError(no_direction(step))
-        words = f"{in_line(scene, program, number)}, a dead point"
+        words = f"{in_line(scene, program, number)} as far as doubles tell, a dead point"
         raise ClosureError(not_found(program, number, words, DEAD))
 
 

@@ -9,14 +9,13 @@ import numpy as np
 
 from graphkin.accuracy.answers import Found, Reference, rows_of
 from graphkin.accuracy.methods import batch_work, found_singly, radii_in
+from graphkin.accuracy.routes import columns_of, in_floats, start_before
 from graphkin.arithmetic import FLOAT
 from graphkin.kinds import ball_kind
 from graphkin.loops.equations import equations
+from graphkin.loops.solve import closed_from
 from graphkin.motion.course import Reals
 
-EPS = 2.0**-52
-SHARE = 64.0
-"""The bound of a double's error is so many units, times L/l and the sine's power."""
 DOUBLE = 53
 """Bits of a ball that has as many as a double."""
 
@@ -25,9 +24,10 @@ DOUBLE = 53
 class Agreement:
     """How doubles and balls of as many bits stand to the certified answers.
 
-    ``single`` and ``batch`` are the largest errors over the bound 64·eps·(L/l)/s³. Of ``answers``
-    balls ``bounded`` have a radius, the largest of which is ``tightness`` over that bound, and
-    ``contained`` of these hold the truth.
+    ``bound`` is the largest bound of a double's error over the largest of its quantity, ``single``
+    and ``batch`` the largest errors over their bounds. Of ``answers`` balls ``bounded`` have a
+    radius, the largest of which is ``tightness`` over its bound, and ``contained`` of these hold
+    the truth.
     """
 
     bound: float
@@ -48,12 +48,11 @@ def agreement(reference: Reference) -> Agreement:
     )()
     balls = found_singly(reference, ball_kind(DOUBLE))
     bounds = bounds_of(reference)
-    parts = bounds[:, None] * reference.scales
-    single = reference.missed(found_singly(reference, FLOAT)) / parts
-    batch = reference.missed(rows_of(columns, count)) / parts
-    radii = radii_in(balls, reference) / parts
+    single = reference.missed(found_singly(reference, FLOAT)) / bounds
+    batch = reference.missed(rows_of(columns, count)) / bounds
+    radii = radii_in(balls, reference) / bounds
     return Agreement(
-        float(bounds.max()),
+        float((bounds / reference.scales).max()),
         float(single.max()),
         float(batch.max()),
         float(radii[np.isfinite(radii)].max(initial=0.0)),
@@ -63,12 +62,14 @@ def agreement(reference: Reference) -> Agreement:
 
 
 def bounds_of(reference: Reference) -> Reals:
-    """The bound 64·eps·(L/l)/s³ of each position (P,): longest and shortest bar, flattest sine."""
-    loops = equations(reference.places.course.scene)
-    stretch = float(loops.size[0] / loops.least[0])
-    if not np.isfinite(stretch) or stretch < 1:
-        stretch = 1.0
-    return np.asarray(SHARE * EPS * stretch / reference.sines**3)
+    """The largest bound of each quantity at each position, (P, 3), as the witness has it."""
+    places = reference.places
+    scene, values = places.course.scene, in_floats(places.repeated(len(places.at)))
+    start = start_before(reference, scene, values)
+    bounds = closed_from(equations(scene, values), start, singular=True).rounding
+    every = columns_of(bounds, reference)
+    rows = [np.stack([every[t] for t in some if t in every]) for some in reference.answers.targets]
+    return np.stack([row.max(axis=0) for row in rows], axis=1)
 
 
 def contained(balls: Sequence[Found], reference: Reference) -> tuple[int, int]:

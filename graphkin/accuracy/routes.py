@@ -24,8 +24,9 @@ from graphkin.accuracy.methods import (
 from graphkin.accuracy.stopwatch import Effort
 from graphkin.errors import GraphkinError
 from graphkin.loops.bodies import Reals
-from graphkin.loops.equations import Equations, equations
+from graphkin.loops.equations import equations
 from graphkin.loops.motion import Motion
+from graphkin.loops.rounding import Rounding
 from graphkin.loops.solve import newton, ratios_at
 from graphkin.motion.sweep import names
 from graphkin.scene.model import Scene
@@ -121,12 +122,12 @@ def newton_work(
 
     def work() -> dict[Target, Any]:
         with np.errstate(all="ignore"):
-            unknowns, _, _ = newton(loops, start, settled=tolerance)
+            unknowns, _ = newton(loops, start, settled=tolerance)
             ratios = ratios_at(loops, unknowns)
             speed, push = loops.drives.speed, loops.drives.acceleration
             rates = ratios.rates(speed)
             motion = Motion.of(loops, unknowns, rates, ratios.accelerations(speed, push))
-        return columns_of(loops, motion, reference)
+        return columns_of(motion, reference)
 
     return work
 
@@ -142,14 +143,14 @@ def start_before(reference: Reference, scene: Scene, before: Values) -> Reals:
     return started(scene, equations(scene, before), gathered(trace, scene.links))[0]
 
 
-def columns_of(loops: Equations, motion: Motion, reference: Reference) -> dict[Target, Any]:
-    """The answers as arrays, from the motion that the loops give."""
+def columns_of(motion: Motion | Rounding, reference: Reference) -> dict[Target, Any]:
+    """The answers as arrays, from the motion that the loops give, or their bounds."""
     found: dict[Target, Any] = {}
     for targets in reference.answers.targets:
         for what, name in targets:
             if what in QUANTITIES:
                 found[what, name] = motion.point(name)[QUANTITIES.index(what)]
-            elif (guide := loops.guide_index(name)) is not None:
+            elif (guide := motion.loops.guide_index(name)) is not None:
                 found[what, name] = motion.slide(guide)[OF_BLOCKS.index(what)]
     return found
 

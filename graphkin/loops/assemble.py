@@ -19,7 +19,7 @@ from graphkin.loops.equations import Equations, equations, undriven
 from graphkin.loops.groups import Group, speaks_of, stages
 from graphkin.loops.motion import Motion
 from graphkin.loops.poses import Pose, pose_of, setting_of, spot, unknowns_of
-from graphkin.loops.solve import AT_REST, LoopSolution, closed_from, in_bars, largest, newton
+from graphkin.loops.solve import AT_REST, LoopSolution, closed_from, largest, newton, scaled
 from graphkin.loops.start import Start
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 
@@ -78,8 +78,8 @@ def anywhere(loops: Equations) -> Reals:
     everything = np.ones(free.unknown_count, dtype=np.bool_)
     with np.errstate(all="ignore"):
         zero = np.zeros((1, free.unknown_count))
-        found, _, _ = newton(free, scattered(free, zero, everything, TRIES))
-        gaps = largest(in_bars(free, found)[0])
+        found, _ = newton(free, scattered(free, zero, everything, TRIES))
+        gaps = largest(scaled(free, found)[0])
     if (gaps < AT_REST).any():
         return found[gaps < AT_REST]
     raise WitnessError(

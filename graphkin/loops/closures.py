@@ -16,7 +16,8 @@ from graphkin.loops.equations import Equations, equations
 from graphkin.loops.groups import Group, Joint, Mask, moved_by
 from graphkin.loops.motion import Motion
 from graphkin.loops.poses import pose_of, setting_of, unknowns_of
-from graphkin.loops.solve import CLOSED, in_bars, largest, newton
+from graphkin.loops.rounding import Standing
+from graphkin.loops.solve import CLOSED, largest, linear_solve, newton, scaled
 from graphkin.loops.wholes import as_meant, counted_freely, settle
 from graphkin.scene.model import Scene
 
@@ -30,8 +31,12 @@ ROUNDS, ENOUGH = 10, 2
 """Most rounds, and how many in a row that bring nothing new end the search."""
 SHORT = 14
 """Iterations after which most starts have closed, if they ever do."""
+LAST, NEARBY = 40, 1e-3
+"""Most steps from where the loops nearly close to where they do, and the longest of them."""
 SAME = 1e-6
-"""Distance, in bars or radians, below which two closures are one."""
+"""Distance, in radians or the sizes of slides, below which rounding may make two closures one."""
+LEVEL, EITHER = 1e-9, 8
+"""Least such distance, and how many bounds of an error lie between two ways to one closure."""
 
 
 def other_closure(loops: Equations, motion: Motion, dyad: Group) -> tuple[Reals, Reals]:
@@ -64,18 +69,27 @@ def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
     return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
 
 
-def closure_number(scene: Scene, loops: Equations, group: Group, row: Reals, setting: int) -> int:
-    """Which closure of a group the unknowns ``row`` (K + m,) of a setting are: 1, 2, …; 0 if none.
+def closure_numbers(
+    scene: Scene, loops: Equations, group: Group, row: Reals, setting: int
+) -> range:
+    """Which closure of a group the unknowns ``row`` (K + m,) of a setting may be; empty if none.
 
-    The links known before are held in place, and those that come after left out.
+    One number, 1, 2, …, unless rounding hides whether others, before it, are one closure, two or
+    none. The links known before are held in place, and those that come after left out.
     """
     values = setting_of(loops, setting)
     part = equations(scene, values, group.known | set(group.links))
     stands = unknowns_of(part, pose_of(loops, row, setting))
-    for number, closure in enumerate(closures(part, stands, group), 1):
-        if np.abs(wrapped(part, closure - stands)).max() < SAME:
-            return number
-    return 0
+    every = closures(part, stands, group)
+    if not len(every):
+        return range(0)
+    away = np.abs(wrapped(part, every - stands)).max(axis=1)
+    nearest = int(np.argmin(away))
+    if not away[nearest] < SAME:
+        return range(0)
+    moving = moved_by(part, group)
+    hidden = int((~Standing.of(part, every[: nearest + 1]).regular[:, moving]).any(axis=1).sum())
+    return range(nearest + 1 - hidden, nearest + 2 + hidden)
 
 
 def closures(part: Equations, stands: Reals, group: Group) -> Reals:
@@ -95,11 +109,14 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
         thrown = scattered(part, stands, moving, starts, number)
         before = len(distinct)
         rows = closed_of(part, thrown, moving)
+        slack = slack_of(part, rows)
+        new = np.ones(len(rows), dtype=np.bool_)
         for other in distinct:
-            rows = apart(part, rows, other)
-        while len(rows):
-            distinct.append(rows[0])
-            rows = apart(part, rows, rows[0])
+            new &= apart(part, rows, other, slack)
+        while new.any():
+            n = int(np.argmax(new))
+            distinct.append(rows[n])
+            new &= apart(part, rows, rows[n], slack)
         idle = idle + 1 if len(distinct) == before else 0
         if idle == ENOUGH or (number + 1 >= ENOUGH and not distinct):
             break
@@ -108,21 +125,48 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
     return np.array(distinct).reshape(-1, part.unknown_count)
 
 
-def apart(part: Equations, rows: Reals, other: Reals) -> Reals:
-    """Those of some closed positions that are not the other one."""
-    return np.asarray(rows[np.abs(wrapped(part, rows - other)).max(axis=1) >= SAME])
+def slack_of(part: Equations, rows: Reals) -> Reals:
+    """How far apart two ways to one closed position may end, in the sizes of unknowns: (N,)."""
+    with np.errstate(all="ignore"):
+        off = largest(Standing.of(part, rows).off / part.columns)
+    return np.asarray(np.clip(EITHER * off, LEVEL, SAME))
+
+
+def apart(part: Equations, rows: Reals, other: Reals, slack: Reals) -> Mask:
+    """Which of some closed positions are not the other one: (N,)."""
+    return np.asarray(largest(wrapped(part, rows - other)) > slack)
 
 
 def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
-    """The closed positions to which Newton's method leads; stragglers alone go on to its end."""
+    """The closed positions to which Newton's method leads; stragglers alone go on to its end.
+
+    Beside a dead point the loops nearly close long before they do: only where steps have come down
+    to rounding has anything closed.
+    """
     with np.errstate(all="ignore"):
-        found, _, _ = newton(part, thrown, moving, SHORT)
-        closed = largest(in_bars(part, found)[0]) < CLOSED
-        late, _, _ = newton(part, found[~closed], moving)
-        found = np.concatenate([found[closed], late])
-        found = found[largest(in_bars(part, found)[0]) < CLOSED]
-        found = counted_freely(part, found, moving)
+        found, _ = newton(part, thrown, moving, SHORT)
+        near = largest(scaled(part, found)[0]) < CLOSED
+        late, _ = newton(part, found[~near], moving)
+        found = np.concatenate([found[near], late])
+        found = found[largest(scaled(part, found)[0]) < CLOSED]
+        found = counted_freely(part, settled_of(part, found, moving), moving)
         return found[as_meant(part, found, moving)]
+
+
+def settled_of(part: Equations, found: Reals, moving: Mask) -> Reals:
+    """Nearly closed positions led on until rounding moves them; without those that never come."""
+    slack = slack_of(part, found)
+    for _ in range(LAST):
+        residual, jacobian = scaled(part, found)
+        step = np.zeros_like(found)
+        step[:, moving] = linear_solve(jacobian[:, :, moving], residual[:, :, None])[:, :, 0]
+        moves = EITHER * largest(step) > slack
+        if not moves.any():
+            break
+        shortened = step * np.minimum(1, NEARBY / np.maximum(largest(step), NEARBY))[:, None]
+        found = np.where(moves[:, None], found - shortened * part.columns, found)
+        slack[moves] = slack_of(part, found[moves])
+    return found[~moves] if len(found) else found
 
 
 def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
@@ -169,12 +213,12 @@ def reach(loops: Equations) -> float:
 
 
 def wrapped(loops: Equations, change: Reals) -> Reals:
-    """A change of unknowns in radians and bars, angles within half a turn where no wheel rolls."""
+    """A change of unknowns in their sizes, angles within half a turn where no wheel rolls."""
     turns = change[:, : loops.turning_count]
     angles = np.angle(np.exp(1j * turns))
     for k in loops.slips.counted:
         angles[:, k - 1] = turns[:, k - 1]
-    return np.concatenate([angles, change[:, loops.turning_count :] / loops.size], axis=1)
+    return np.concatenate([angles, change[:, loops.turning_count :]], axis=1) / loops.columns
 
 
 def angle_of(loops: Equations, link: str, unknowns: Reals) -> float:

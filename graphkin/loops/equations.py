@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -40,14 +41,14 @@ from graphkin.loops.vectors import Tree, Turnings, refuse_unknown_lean, turnings
 from graphkin.scene.model import FRAME, Scene
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Equations:
     """The vector loops of a scene: chains to every link's origin, and the chains that close.
 
     ``bodies`` place each link's points about its origin; ``owners`` gives the first link of each of
     the ``points`` and the point's local coordinates (N, points); ``closing`` names what each
-    closed chain closes; ``home`` (N,) is the frame's first point; ``size`` and ``least`` (N,) are
-    the longest and shortest bar in metres.
+    closed chain closes; ``home`` (N,) is the frame's first point; ``size`` (N,) is the longest bar
+    in metres.
     """
 
     scene: Scene
@@ -65,7 +66,6 @@ class Equations:
     drives: Drives
     home: Complexes
     size: Reals
-    least: Reals
 
     @property
     def turning_count(self) -> int:
@@ -82,19 +82,27 @@ class Equations:
         """How many equations there are: two a closed chain, one a rolling pair or a driver."""
         return 2 * len(self.closing) + len(self.slips.links) + len(self.drives.turns)
 
-    @property
-    def columns(self) -> Reals:
-        """What one unit of each unknown is when lengths count in bars: (N, K + m)."""
-        metres = np.ones((len(self.size), self.unknown_count))
-        metres[:, self.turning_count :] = self.size[:, None]
-        return metres
+    @cached_property
+    def around(self) -> Reals:
+        """How long each closed chain is without its slides (m): (N, closed chains)."""
+        length = abs(self.chains.fixed[:, len(self.links) :]).sum(axis=2)
+        return np.where(length > 0, length, self.size[:, None])
 
-    @property
+    @cached_property
+    def columns(self) -> Reals:
+        """The size of each unknown: a radian, or (m) the shortest closed chain with the slide."""
+        passed = abs(self.chains.slid[len(self.links) :]) > 0
+        metres = np.where(passed, self.around[:, :, None], np.inf).min(axis=1, initial=np.inf)
+        metres = np.where(np.isfinite(metres), metres, self.size[:, None])
+        return np.concatenate([np.ones((len(self.size), self.turning_count)), metres], axis=1)
+
+    @cached_property
     def rows(self) -> Reals:
-        """What one unit of each equation is when lengths count in bars: (N, equations)."""
-        metres = np.repeat(self.size[:, None], self.equation_count, axis=1)
-        metres[:, self.equation_count - len(self.drives.turns) :][:, self.drives.turns] = 1
-        return metres
+        """The size of each equation: of its chain, of its wheels or of the driven unknown."""
+        wheels = abs(self.slips.rows[:, :, : self.turning_count]).max(axis=2, initial=0)
+        wheels = np.where(wheels > 0, wheels, self.size[:, None])
+        driven = np.where(self.drives.turns, 1, self.columns @ abs(self.drives.selects).T)
+        return np.concatenate([self.around, self.around, wheels, driven], axis=1)
 
     def closures(self, rows: Reals | Complexes) -> Reals:
         """Two real equations from each closed chain among the rows (the second axis)."""
@@ -194,7 +202,6 @@ def equations(
         drives=drives_of(scene, bodies, guides, turned, numbers, whole=bool(every)),
         home=numbers.complexes(starts[FRAME]),
         size=lengths.max(axis=1),
-        least=np.where(lengths > 0, lengths, np.inf).min(axis=1),
     )
 
 

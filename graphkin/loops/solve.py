@@ -18,21 +18,21 @@ from graphkin.loops.bodies import Reals
 from graphkin.loops.equations import Equations
 from graphkin.loops.groups import Mask
 from graphkin.loops.motion import Motion
+from graphkin.loops.rounding import Rounding, rounding
 from graphkin.loops.start import start_values
 
 ITERATIONS = 60
 SETTLED = 1e-12
-"""A step of Newton's method, in bars, after which the next would be rounding."""
+"""A step of Newton's method, in the sizes of the unknowns, after which the next is rounding."""
 NEAR = 1e-6
-"""A step, in bars, below which steps that no longer shrink are rounding too."""
+"""A step below which steps that no longer shrink are rounding too."""
 AT_REST = 1e-13
-"""Closure error, in bars, at which a longer step than that only shows that J is singular."""
+"""Closure error, in the sizes of the equations, at which a longer step than that only shows that
+J is singular."""
 LONGEST = 0.5
-"""Longest step taken at once, in bars or radians."""
+"""Longest step taken at once, in radians or the sizes of slides."""
 CLOSED = 1e-9
-"""Closure error, in bars, at which a mechanism counts as closed."""
-SINGULAR = 1e-7
-"""Smallest over largest singular value of J below which a position is singular."""
+"""Closure error, in the sizes of the equations, at which a mechanism counts as closed."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -42,19 +42,16 @@ class Report:
     """How Newton's method went; arrays of shape (N,).
 
     ``residual`` is the closure error (m) before the first iteration, ``remains`` after the last;
-    ``moved`` (m) the farthest that an unknown went, angles measured on the longest bar;
-    ``smallest`` the smallest singular value of J with lengths in bars, ``condition`` the largest
-    over it; ``bar`` (m) the longest bar. ``good`` marks the settings that closed in a position that
-    is not singular.
+    ``moved`` (m) the farthest that an unknown went; angles are measured on the longest bar.
+    ``closed`` marks the settings that closed, ``good`` those that did so in a position that no
+    rounding can make singular.
     """
 
     residual: Reals
     remains: Reals
     moved: Reals
     iterations: int
-    smallest: Reals
-    condition: Reals
-    bar: Reals
+    closed: Flags
     good: Flags
 
 
@@ -77,12 +74,13 @@ class Ratios:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LoopSolution:
-    """The loop equations solved: unknowns φ (N, unknowns), ratios, motion and report."""
+    """The loop equations solved: unknowns φ (N, unknowns), ratios, motion, bounds and report."""
 
     loops: Equations
     unknowns: Reals
     ratios: Ratios
     motion: Motion
+    rounding: Rounding
     report: Report
 
 
@@ -102,23 +100,33 @@ def solve(
     return closed_from(loops, start.unknowns)
 
 
-def closed_from(loops: Equations, start: Reals, *, accelerations: bool = True) -> LoopSolution:
+def closed_from(
+    loops: Equations, start: Reals, *, accelerations: bool = True, singular: bool = False
+) -> LoopSolution:
     """Close the loops from unknowns (N, K + m) and find the motion; raises as ``solve`` does.
 
     Without ``accelerations`` those of the motion are NaN, and the equations are derived only once.
+    With ``singular`` positions count in which no rate is sure, which the bounds then show.
     """
     refuse_undriven(loops)
     with np.errstate(all="ignore"):
-        closed, first, iterations = newton(loops, start)
-        report = report_on(loops, start, closed, first, iterations)
+        found, iterations = newton(loops, start)
+        closed = largest(scaled(loops, found)[0]) < CLOSED
+        ratios = ratios_at(loops, found, accelerations=accelerations)
+        rates = ratios.rates(loops.drives.speed)
+        seconds = ratios.accelerations(loops.drives.speed, loops.drives.acceleration)
+        bounds = rounding(loops, found, rates, seconds)
+        good = closed & (bounds.regular | singular)
+        moved = largest((found - start) / loops.columns) * loops.size
+        residual, remains = gap(loops, start), gap(loops, found)
+        report = Report(residual, remains, moved, iterations, closed, good)
         if loops.numbers.single:
-            refuse_failure(loops, closed, report)
-        unknowns = np.where(report.good[:, None], closed, np.nan)
-        ratios = ratios_at(loops, unknowns, accelerations=accelerations)
-        speed, acceleration = loops.drives.speed, loops.drives.acceleration
-        rates = ratios.rates(speed)
-        motion = Motion.of(loops, unknowns, rates, ratios.accelerations(speed, acceleration))
-    return LoopSolution(loops, unknowns, ratios, motion, report)
+            refuse_failure(loops, found, report)
+        unknowns, rates, seconds = (
+            np.where(good[:, None], values, np.nan) for values in (found, rates, seconds)
+        )
+        motion = Motion.of(loops, unknowns, rates, seconds)
+    return LoopSolution(loops, unknowns, ratios, motion, bounds, report)
 
 
 def newton(
@@ -127,22 +135,19 @@ def newton(
     moving: Mask | None = None,
     most: int = ITERATIONS,
     settled: float = SETTLED,
-) -> tuple[Reals, Reals, int]:
-    """Newton–Raphson from the start values; steps longer than half a bar are shortened to it.
+) -> tuple[Reals, int]:
+    """Newton–Raphson from the start values; steps longer than ``LONGEST`` are shortened to it.
 
     Only the unknowns ``moving`` change, all of them without it; more equations than unknowns are
-    met by least squares. Gives the unknowns, the residual of the start in bars (N,) and the number
-    of iterations, of which there are at ``most`` so many; a step shorter than ``settled`` (bars) is
-    the last.
+    met by least squares. Gives the unknowns and the number of iterations, of which there are at
+    ``most`` so many; a step shorter than ``settled`` is the last.
     """
     unknowns, done = start, np.zeros(len(start), dtype=np.bool_)
     columns = np.ones(start.shape[1], dtype=np.bool_) if moving is None else moving
     before = np.full(len(start), np.inf)
-    first = np.zeros(len(start))
     iterations = 0
     while iterations < most and not done.all():
-        residual, jacobian = in_bars(loops, unknowns)
-        first = largest(residual) if iterations == 0 else first
+        residual, jacobian = scaled(loops, unknowns)
         step = np.zeros_like(unknowns)
         step[:, columns] = -linear_solve(jacobian[:, :, columns], residual[:, :, None])[:, :, 0]
         length = largest(step)
@@ -152,11 +157,11 @@ def newton(
         unknowns = np.where(done[:, None], unknowns, unknowns + shortened * loops.columns)
         done |= length < settled
         before, iterations = length, iterations + 1
-    return unknowns, first, iterations
+    return unknowns, iterations
 
 
-def in_bars(loops: Equations, unknowns: Reals) -> tuple[Reals, Reals]:
-    """Residual (N, e) and Jacobian (N, e, u) with lengths counted in the longest bar."""
+def scaled(loops: Equations, unknowns: Reals) -> tuple[Reals, Reals]:
+    """Residual (N, e) and Jacobian (N, e, u), each equation and unknown over its own size."""
     linear = loops.chains.at(unknowns)
     residual = loops.residual(linear, unknowns) / loops.rows
     jacobian = loops.jacobian(linear) * loops.columns[:, None, :] / loops.rows[:, :, None]
@@ -189,41 +194,27 @@ def finite_rows(stack: Reals) -> Flags:
     return np.asarray(np.isfinite(stack).all(axis=(1, 2)))
 
 
-def report_on(
-    loops: Equations, start: Reals, unknowns: Reals, first: Reals, iterations: int
-) -> Report:
-    """What remains after the last iteration, and how near the position is to a singular one."""
-    residual, jacobian = in_bars(loops, unknowns)
-    remains = largest(residual)
-    finite = finite_rows(jacobian)
-    safe = np.where(finite[:, None, None], jacobian, 0)
-    values = np.linalg.svd(safe, compute_uv=False)
-    smallest, greatest = values.min(axis=1, initial=np.inf), values.max(axis=1, initial=0)
-    return Report(
-        residual=first * loops.size,
-        remains=remains * loops.size,
-        moved=largest((unknowns - start) / loops.columns) * loops.size,
-        iterations=iterations,
-        smallest=smallest,
-        condition=greatest / smallest,
-        bar=loops.size,
-        good=finite & (remains < CLOSED) & (smallest > SINGULAR * greatest),
-    )
+def gap(loops: Equations, unknowns: Reals) -> Reals:
+    """The largest closure error (m), angles of drivers measured on the longest bar: (N,)."""
+    missed = loops.residual(loops.chains.at(unknowns), unknowns)
+    turns = np.zeros(missed.shape[1], dtype=np.bool_)
+    turns[len(turns) - len(loops.drives.turns) :] = loops.drives.turns
+    return largest(missed * np.where(turns, loops.size[:, None], 1))
 
 
 def ratios_at(loops: Equations, unknowns: Reals, *, accelerations: bool = True) -> Ratios:
     """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position, or those NaN.
 
-    They are found with lengths in bars, so that metres do not drown radians.
+    Each equation and unknown is counted in its own size, so that metres do not drown radians.
     """
     linear = loops.chains.at(unknowns)
-    bars, sizes = loops.columns[:, :, None], loops.rows[:, :, None]
-    jacobian = loops.jacobian(linear) * loops.columns[:, None, :] / sizes
+    units, sizes = loops.columns[:, :, None], loops.rows[:, :, None]
+    jacobian = scaled(loops, unknowns)[1]
     count, rows, columns = jacobian.shape
     drivers = len(loops.drives.turns)
     by_driver = np.zeros((count, rows, drivers))
     by_driver[:, rows - drivers :, :] = -np.eye(drivers)
-    velocity = -linear_solve(jacobian, by_driver / sizes) * bars
+    velocity = -linear_solve(jacobian, by_driver / sizes) * units
     if not accelerations:
         return Ratios(velocity, np.full((count, columns, drivers, drivers), np.nan))
     curved = [
@@ -233,7 +224,7 @@ def ratios_at(loops: Equations, unknowns: Reals, *, accelerations: bool = True) 
     ]
     if not curved:
         return Ratios(velocity, np.zeros((count, columns, 0, 0)))
-    acceleration = -linear_solve(jacobian, np.stack(curved, axis=-1) / sizes) * bars
+    acceleration = -linear_solve(jacobian, np.stack(curved, axis=-1) / sizes) * units
     return Ratios(velocity, acceleration.reshape(count, columns, drivers, drivers))
 
 
@@ -255,7 +246,7 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
     """Say why one scene has no motion: it does not close, or its position is singular."""
     if report.good[0]:
         return
-    if not report.remains[0] < CLOSED * report.bar[0]:
+    if not report.closed[0]:
         spare = loops.equation_count - loops.unknown_count
         hint = (
             f"{spare} more equations than unknowns must be met, too: what is over-constrained "
@@ -273,9 +264,8 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
     raise WitnessError(
         Problem(
             "loops",
-            "singular position: the smallest singular value of the loop equations is "
-            f"{report.smallest[0]:.2g}",
-            f"more than {SINGULAR:g} of the largest",
+            "singular position, or so near to one that rounding hides the difference",
+            "a position in which the drivers' speeds determine all others",
             "which positions are singular depends on the driver: drive another link or move on",
         )
     )
@@ -283,7 +273,7 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
 
 def widest(loops: Equations, unknowns: Reals) -> str:
     """What is farthest from closing: a joint, a rolling contact or a driver."""
-    gaps = np.abs(in_bars(loops, unknowns)[0][0])
+    gaps = np.abs(scaled(loops, unknowns)[0][0])
     chains = len(loops.closing)
     joints = np.hypot(gaps[:chains], gaps[chains : 2 * chains])
     rolls = [f"the contact of link {links[0]} with {links[1]}" for links in loops.slips.links]

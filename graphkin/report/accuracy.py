@@ -150,8 +150,9 @@ def shown(error: float | None) -> str:
 def agreement_lines(found: Agreement) -> Iterator[str]:
     """How doubles and balls of as many bits keep to the bound of doubles."""
     yield (
-        f"Doubles keep to {max(found.single, found.batch):.1g} of their bound 64·ε·(L/l)/s³ = "
-        f"{found.bound:.1g} (L, l longest and shortest bar, s the sine of the flattest crossing)."
+        f"Doubles keep to {max(found.single, found.batch):.1g} of their bound, at most "
+        f"{found.bound:.1g} of the largest of a quantity (4·ε of all that enters, led through the "
+        "loop equations: 1/s, 1/s² and 1/s³ for each crossing on the way)."
     )
     radius = f"their radius is at most {found.tightness:.1g} times that bound"
     if found.bounded == found.answers:

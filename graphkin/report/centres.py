@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cmath import phase
+from cmath import isfinite, phase
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from math import degrees
@@ -10,6 +10,7 @@ from typing import Any
 
 from graphkin.arithmetic import at
 from graphkin.plane import Ratio
+from graphkin.report.sure import UNKNOWN
 from graphkin.report.table import NOISE, Cell, number, table
 from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.solution import LinkMotion, PointMotion, Solution
@@ -17,10 +18,16 @@ from graphkin.structure.graph import guides_under
 
 FAR = 1e9
 """Breadths of the mechanism beyond which a centre counts as at infinity."""
+NOT_SURE = "not sure"
 
 
 def place_of(ratio: Ratio | None, breadth: float) -> complex | None:
-    """The point that a ratio names (m); None at infinity, and where no point is singled out."""
+    """The point that a ratio names (m); None at infinity, and where no point is singled out.
+
+    NaN where no digit of it is sure.
+    """
+    if ratio is not None and not isfinite(ratio.shift):
+        return UNKNOWN
     if ratio is None or abs(ratio.shift) >= FAR * breadth * abs(ratio.size):
         return None
     return complex(ratio.start + ratio.shift / ratio.size)
@@ -29,13 +36,15 @@ def place_of(ratio: Ratio | None, breadth: float) -> complex | None:
 def breadth_of(solution: Solution) -> float:
     """Half the perimeter of the box around all points (m), 1 when they all coincide."""
     places = [p.position for p in solution.points.values() if p.position is not None]
+    places = [z for z in places if isfinite(z)]
     xs, ys = [z.real for z in places], [z.imag for z in places]
     return (max(xs) - min(xs) + max(ys) - min(ys) if places else 0.0) or 1.0
 
 
 def largest(values: Iterable[complex | float | None]) -> float:
-    """The largest magnitude among values; nought when there is none."""
-    return max((abs(value) for value in values if value is not None), default=0.0)
+    """The largest magnitude among values that are known; zero when there is none."""
+    known = (abs(value) for value in values if value is not None)
+    return max((size for size in known if isfinite(size)), default=0.0)
 
 
 def completed(scene: Scene, solution: Solution) -> Solution:
@@ -106,6 +115,8 @@ def turning_of_guide(
 
 def centre_words(ratio: Ratio | None, breadth: float) -> str:
     """Where an instantaneous centre lies (m), or the direction in which it is at infinity."""
+    if ratio is not None and not isfinite(ratio.shift):
+        return NOT_SURE
     place = place_of(ratio, breadth)
     if place is not None:
         return point_words(place)
@@ -116,6 +127,8 @@ def centre_words(ratio: Ratio | None, breadth: float) -> str:
 
 def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float) -> str:
     """Where an acceleration pole lies (m), or the common direction when it is at infinity."""
+    if ratio is not None and not isfinite(ratio.shift):
+        return NOT_SURE
     place = place_of(ratio, breadth)
     if place is not None:
         return point_words(place)
@@ -146,11 +159,17 @@ def inflection_table(links: Mapping[str, dict[str, Any]]) -> list[str]:
         circle = link["inflection"]
         pole, centre, radius = "at infinity", None, None
         if circle is not None:
-            pole, centre = (point_words(complex(*circle[key])) for key in ("pole", "centre"))
+            pole, centre = (pair_words(circle[key]) for key in ("pole", "centre"))
             radius = circle["radius"]
         rows.append([name, pole, centre, radius])
     heads = ["link", "inflection pole, m", "centre of circle, m", "radius, m"]
     return table(heads, rows) if rows else []
+
+
+def pair_words(pair: list[float | None]) -> str:
+    """The coordinates of a pair in brackets."""
+    known = [part for part in pair if part is not None]
+    return point_words(complex(*known)) if len(known) == len(pair) else NOT_SURE
 
 
 def point_words(place: complex) -> str:

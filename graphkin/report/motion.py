@@ -18,6 +18,7 @@ from graphkin.report.centres import (
 )
 from graphkin.report.crossings import crossing
 from graphkin.report.record import Record, settings_words
+from graphkin.report.sure import digits_words, is_unsure, unsure_words
 from graphkin.report.table import Cell, cleaned, number, table
 from graphkin.scene.model import Scene
 from graphkin.steps.run import Trace
@@ -41,7 +42,7 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
         inflection_table(found["links"]),
         slides_table(found["slides"]),
         scale_lines(found["scales"]) if "scales" in found else [],
-        [f"witness  {verdict_words(verdict, scene)}"],
+        [f"witness  {verdict_words(verdict, scene)}", *sure_lines(verdict)],
     ]
     return "\n\n".join("\n".join(lines) for lines in parts if lines)
 
@@ -68,16 +69,12 @@ def points_table(points: Mapping[str, Record], solution: Solution) -> list[str]:
     return table(["point", *(head for key in known for head in POINT_HEADS[key])], rows)
 
 
-def size(pair: list[float] | None) -> float:
-    """Magnitude of a pair of components."""
-    return abs(complex(*pair)) if pair is not None else 0.0
-
-
-def components(pair: list[float] | None, biggest: float, columns: int) -> list[Cell]:
+def components(pair: list[float | None] | None, biggest: float, columns: int) -> list[Cell]:
     """The two components of a vector, and its magnitude where there is a third column."""
-    if pair is None:
+    known = [part for part in pair or () if part is not None]
+    if len(known) < 2:
         return [None] * columns
-    return [cleaned(value, biggest) for value in (*pair, size(pair))[:columns]]
+    return [cleaned(value, biggest) for value in (*known, abs(complex(*known)))[:columns]]
 
 
 def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
@@ -92,7 +89,9 @@ def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
             clean = [None if value is None else cleaned(value, biggest) for value in values]
             heads += [head, f"sense of {head[0]}"]
             columns += [list(clean), [sense(value) for value in clean]]
-    rows = [row for row in zip(*columns, strict=True) if any(cell is not None for cell in row[1:])]
+    unsure = {name for name, link in solution.links.items() if is_unsure(link)}
+    every = zip(*columns, strict=True)
+    rows = [row for row in every if row[0] in unsure or any(cell is not None for cell in row[1:])]
     return table(heads, rows) if rows else []
 
 
@@ -147,12 +146,16 @@ def slides_table(slides: Mapping[str, Record]) -> list[str]:
     return table(heads, rows) if rows else []
 
 
-def scale_lines(scales: Mapping[str, float]) -> list[str]:
-    """The scale factors of the largest drawing that fits the sheet."""
+def scale_lines(scales: Mapping[str, float | None]) -> list[str]:
+    """The scale factors of the largest drawing that fits the sheet; those of plans where known."""
     kL, kv, ka = scales["kL"], scales["kv"], scales["ka"]
+    assert kL is not None
     drawn = f"1 : {kL:g}" if kL >= 1 else f"{1 / kL:g} : 1"
+    lines = [f"scale    kL = {kL:g}, drawn {drawn}"]
+    if kv is None or ka is None:
+        return lines
     return [
-        f"scale    kL = {kL:g}, drawn {drawn}",
+        *lines,
         f"         kv = {number(kv)} m/s per metre of paper, {number(kv / 1000)} m/s per mm",
         f"         ka = {number(ka)} m/s² per metre of paper, {number(ka / 1000)} m/s² per mm",
     ]
@@ -173,6 +176,14 @@ def verdict_words(verdict: Verdict | None, scene: Scene) -> str:
     if verdict.branches:
         says += f"; does not hold of [branches]: {verdict.not_as_stated(scene.branches)}"
     return f"DOES NOT AGREE: {says}"
+
+
+def sure_lines(verdict: Verdict | None) -> list[str]:
+    """How many digits are sure, and of what there is none."""
+    if verdict is None or not verdict.digits:
+        return []
+    words = [f"digits   sure: {digits_words(verdict)}"]
+    return [*words, f"         {unsure_words(verdict)}"] if verdict.unsure else words
 
 
 def is_flat(trace: Trace) -> bool:

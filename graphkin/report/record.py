@@ -47,17 +47,22 @@ def record(
         "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth_of(full))),
         **centres(scene, full),
         "slides": named(blocks(scene, full), lambda n: slide(n, full.slides[n], wanted)),
-        **drawn_at(scales),
+        **drawn_at(scales, verdict),
         "witness": witness(verdict),
         "margin": real(solution.margin),
     }
 
 
-def drawn_at(scales: Scales | None) -> Record:
-    """The scale factors of the sheets, where they were looked for."""
+def drawn_at(scales: Scales | None, verdict: Verdict | None) -> Record:
+    """The scale factors of the sheets, where they were looked for.
+
+    Those of the plans are null where there are numbers of which no digit is sure.
+    """
     if scales is None:
         return {}
-    return {"scales": {"kL": scales.kL, "kv": scales.kv, "ka": scales.ka}}
+    sure = verdict is None or not verdict.unsure
+    plans = {"kv": scales.kv, "ka": scales.ka} if sure else {"kv": None, "ka": None}
+    return {"scales": {"kL": scales.kL, **plans}}
 
 
 def wanted_of(scene: Scene, asked: bool) -> Wanted:
@@ -169,6 +174,8 @@ def witness(verdict: Verdict | None) -> Record:
         "quantity": verdict.quantity,
         "limit": real(verdict.limit),
         "branches_not_held": list(verdict.branches),
+        "digits": dict(verdict.digits),
+        "unsure": list(verdict.unsure),
     }
 
 

@@ -21,6 +21,8 @@ APART = 2.0**-30
 """How far the second trial lies from the closure in doubles, in radians or parts of its size."""
 SECANTS = 2
 """Steps along the secant that lead from a double to a longdouble."""
+CONFUSED = 0.01
+"""How near another closure is that one may be taken for, in radians or parts of its size."""
 WIDENED = 100
 """How many times the interval of a proof is widened before it is given up."""
 WIDER = 1.25
@@ -59,12 +61,27 @@ def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tup
     Raises ClosingError where doubles find no such closure, ValueError where a ball does not tell
     that the group closes.
     """
-    found, *signs, sine = trying.closed([in_doubles(value) for value in known], number)
+    doubles = [in_doubles(value) for value in known]
+    found, *signs, sine = trying.closed(doubles, number)
     tried = phase(found) if trying.turns else found
     chain = Chain(trying, known, signs, kind)
     value = refined(chain, kind.number(tried))
+    if kind.name == "ball":
+        refuse_confused(chain, value, tried, trying.beside(doubles, number))
     rest = (kind.number(each) for each in (*signs, sine))
     return (turn_by(value) if trying.turns else value, *rest)
+
+
+def refuse_confused(chain: Chain, value: Any, tried: float, others: Sequence[float]) -> None:
+    """Closures with the signs of one are surely others, and on the side where doubles find them.
+
+    Only those that lie so near that a secant might lead from one to the other are looked at.
+    """
+    for other in others:
+        if abs(other - tried) < CONFUSED * (1 if chain.trying.turns else abs(tried) or 1):
+            away = refined(chain, chain.kind.number(other)) - value
+            if not (away > 0 if other > tried else away < 0):
+                raise ValueError("the balls do not tell two closures apart")
 
 
 def in_doubles(value: Any) -> Any:

@@ -28,6 +28,8 @@ DEEPEST = 1e3
 A parabola with two roots within dips an eighth, an edge half; what only rounding moves rises not
 at all.
 """
+HIDDEN = 1e-13
+"""Least misfit, in parts of the largest, below which rounding hides whether there is a root."""
 GOLDEN = 0.3819660112501051
 """The smaller part of a way divided in the golden ratio."""
 
@@ -77,9 +79,29 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
 
 
 def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array, Array, Array]]:
-    """Intervals with two roots where a function comes near zero between three places of a grid.
+    """Intervals with two roots where a function comes near zero between three places of a grid."""
+    element, low, best, high, least = turns(misfit, grid, value)
+    crossed = least <= 0
+    which, middle = element[crossed], best[crossed]
+    return [(which, low[crossed], middle), (which, middle, high[crossed])]
 
-    Golden section towards the least misfit, until it crosses zero, has been found, or stands so
+
+def touches(misfit: Misfit, grid: Array) -> tuple[Array, Array]:
+    """Where a function comes so near zero, without crossing it, that rounding hides two roots."""
+    import numpy as np
+
+    size, places = grid.shape
+    value = misfit(np.repeat(np.arange(size), places), grid.ravel()).reshape(grid.shape)
+    element, _, best, _, least = turns(misfit, grid, value)
+    large = np.nanmax(abs(value), axis=1, initial=0)[element]
+    near = (least > 0) & (least < HIDDEN * large)
+    return element[near], best[near]
+
+
+def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Array, Array, Array]:
+    """Where functions turn back towards zero: which, three places about each, the least misfit.
+
+    Golden section towards it, until it crosses zero, then negative, has been found, or stands so
     much higher than it rises on both sides that it cannot fall to zero between them.
     """
     import numpy as np
@@ -108,9 +130,7 @@ def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array,
         low[live[up]], below[live[up]] = (each[up] for each in new_end)
         high[live[~up]], above[live[~up]] = (each[~up] for each in new_end)
         best[live[better]], least[live[better]] = trial[better], found[better]
-    crossed = least <= 0
-    which, middle = element[crossed], best[crossed]
-    return [(which, ends[0][crossed], middle), (which, middle, ends[1][crossed])]
+    return element, ends[0], best, ends[1], least
 
 
 def closed_in(misfit: Misfit, which: Array, low: Array, high: Array) -> Array:

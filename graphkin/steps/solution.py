@@ -81,10 +81,13 @@ class Verdict:
     """How far the independent route lies from the construction.
 
     ``largest_difference`` is the largest absolute difference over the largest magnitude of that
-    quantity in the scene; ``quantity`` names where it was found; ``limit`` is what was allowed.
+    quantity in the scene; ``quantity`` names where it was found; ``limit`` bounds the true error of
+    every quantity likewise. Where one differs by more than rounding explains, all three are its.
     ``residual`` (m) is the closure error before the first iteration, ``moved`` (m) the way that
     Newton's method then went. ``branches`` lists the branch conditions that do not hold,
     ``guessed`` the links that no position tells, which the witness assembled by itself.
+    ``digits`` says how many are sure of every position, velocity and acceleration; ``unsure`` names
+    the quantities of which none is, on which the verdict does not bear.
     """
 
     agrees: bool
@@ -95,6 +98,8 @@ class Verdict:
     moved: float
     branches: tuple[str, ...] = ()
     guessed: tuple[str, ...] = ()
+    digits: Mapping[str, int] = field(default_factory=dict)
+    unsure: tuple[str, ...] = ()
 
     @property
     def differs(self) -> bool:

@@ -6,14 +6,14 @@ arrays of trial positions, brackets every fit and closes in on it. Its derivativ
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from graphkin.arithmetic import FLOAT, phase
 from graphkin.kinds import kind_of
-from graphkin.steps.roots import roots
+from graphkin.steps.roots import roots, touches
 from graphkin.steps.trial import MOST, Trial
 from graphkin.steps.vocabulary import Action
 from graphkin.steps.windows import Windows, narrowed
@@ -24,6 +24,9 @@ KEPT = 16
 """Closures of a group that are kept."""
 SAME = 1e-7
 """Radians within which two angles count as one when closures are put in order."""
+
+HIDDEN = 1e-6
+"""Sine of crossing below which what doubles take for one closure may be two."""
 
 
 class ClosingError(ValueError):
@@ -85,6 +88,23 @@ class Trying(Trial):
         tried = np.exp(1j * table[:, 1]) if self.turns else table[:, 1]
         return (tried, *table[:, 2:].T)
 
+    def beside(self, known: Sequence[Any], number: int) -> list[float]:
+        """The trial values of the other closures with the signs of one, known values as scalars.
+
+        Raises ValueError where doubles may have missed two, so that numbers are not sure.
+        """
+        import numpy as np
+
+        arrays = [np.atleast_1d(value) for value in known]
+        table = self.closures(arrays).table
+        if (table[:, -1] < HIDDEN).any() or len(self.everywhere(arrays, touches)[0]):
+            raise ValueError("rounding hides how many closures there are")
+        rows = table[:, 1:-1]
+        mine = rows[number - 1]
+        alike = (rows[:, 1:] == mine[1:]).all(axis=1)
+        alike[number - 1] = False
+        return [float(np.angle(np.exp(1j * x))) if self.turns else float(x) for x in rows[alike, 0]]
+
     def polished(self, known: Sequence[Any], row: Sequence[float]) -> tuple[Any, ...]:
         """A closure in floats, with a last step along the secant."""
         tried, signs, sine = float(row[1]), [float(sign) for sign in row[2:-1]], float(row[-1])
@@ -93,21 +113,34 @@ class Trying(Trial):
 
     def closures(self, known: Sequence[Any]) -> Closures:
         """Every closure of every element of known values, in the order of their numbers."""
+        size = len(known[0]) if known else 1
+        return self.ordered(known, size, *self.everywhere(known, roots))
+
+    def everywhere(
+        self, known: Sequence[Any], sought: Callable[[Any, Any], tuple[Any, Any]]
+    ) -> tuple[Any, Any, Any]:
+        """What is sought wherever the link can be tried: elements, trial values, signs."""
         import numpy as np
 
         size = len(known[0]) if known else 1
         reach = None if self.turns else self.reaches(known, size)
-        everywhere = Windows(np.arange(size), self.shares(known, size))
-        found = list(self.fits(known, reach, (), everywhere))
+        windows = Windows(np.arange(size), self.shares(known, size))
+        found = list(self.fits(known, reach, (), windows, sought))
         owner, tried, chosen = (np.concatenate(column) for column in zip(*found, strict=True))
-        return self.ordered(known, size, owner, tried, chosen)
+        return owner, tried, chosen
 
     def fits(
-        self, known: Sequence[Any], reach: Any, signs: tuple[int, ...], windows: Windows
+        self,
+        known: Sequence[Any],
+        reach: Any,
+        signs: tuple[int, ...],
+        windows: Windows,
+        sought: Callable[[Any, Any], tuple[Any, Any]] = roots,
     ) -> Iterator[tuple[Any, Any, Any]]:
         """Every fit for sets of signs that begin so: its element, its trial value, its signs.
 
-        ``windows`` are where the dyads of the signs that are set can be drawn.
+        ``windows`` are where the dyads of the signs that are set can be drawn; ``sought`` may look
+        for other places than the roots of the misfit.
         """
         import numpy as np
 
@@ -119,14 +152,14 @@ class Trying(Trial):
         k = len(signs)
         if k == len(self.signs):
             owner, places = windows
-            row, share = roots(lambda row, at: self.misfits(*trial(owner[row], at)), places)
+            row, share = sought(lambda row, at: self.misfits(*trial(owner[row], at)), places)
             _, tried, rows = trial(owner[row], share)
             yield owner[row], tried, rows
             return
         if self.choices[k] is not None:
             windows = narrowed(lambda owner, at: self.drawable(k, *trial(owner, at)), windows)
         for sign in (1, -1):
-            yield from self.fits(known, reach, (*signs, sign), windows)
+            yield from self.fits(known, reach, (*signs, sign), windows, sought)
 
     def ordered(
         self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any

@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.loops.assemble import led_by
-from graphkin.loops.closures import closure_number, closures, other_closure, turned_side
+from graphkin.loops.assemble import LEVEL, led_by
+from graphkin.loops.bodies import Reals
+from graphkin.loops.closures import closure_numbers, closures, other_closure, turned_side
 from graphkin.loops.equations import equations
 from graphkin.loops.groups import Group, groups, speaks_of
 from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.solve import LoopSolution
 from graphkin.scene.model import Closure, Scene, Side, Way
 
-LEAST_LIMIT = 1e-9
 NUMBERED = 12
 """Settings of a batch, evenly spread, whose closures are numbered; it takes long."""
 
@@ -35,7 +35,7 @@ def branch_conditions(scene: Scene, solved: LoopSolution) -> dict[str, Flags]:
     for name, branch in stated:
         if isinstance(branch, Side):
             side = turned_side(motion, branch.first, branch.second, name)
-            found[name] = np.asarray(branch.side * side > -LEAST_LIMIT)
+            found[name] = np.asarray(branch.side * side > -side_slack(solved, name, branch))
             continue
         for group in (each for each in known if speaks_of(name, branch, each, solved.loops)):
             if isinstance(branch, Way) and group.is_dyad:
@@ -46,13 +46,23 @@ def branch_conditions(scene: Scene, solved: LoopSolution) -> dict[str, Flags]:
     return found
 
 
+def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
+    """How far rounding may put a pin on the other side of the way between two others, as a sine."""
+    start, end, place = (
+        solved.motion.point(each).place for each in (branch.first, branch.second, name)
+    )
+    errors = sum(solved.rounding.point(each).place for each in (branch.first, branch.second, name))
+    return LEVEL + errors / np.minimum(abs(end - start), abs(place - start))
+
+
 def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
     """Whether the slide of a dyad stands the stated way; with two slides there is one closure."""
     loops = solved.loops
     if len(group.slides) != 1:
         return np.ones(loops.numbers.count, dtype=np.bool_)
     stands, other = other_closure(loops, solved.motion, group)
-    return np.asarray(branch.way * (stands - other) > -LEAST_LIMIT * loops.size)
+    error = solved.rounding.slide(group.slides[0].slide).position
+    return np.asarray(branch.way * (stands - other) > -LEVEL * loops.size - 4 * error)
 
 
 def picked_rows(
@@ -66,8 +76,8 @@ def picked_rows(
     for n in settings[np.unique(spread.astype(int))]:
         if isinstance(branch, Closure):
             row = solved.unknowns[n]
-            number = closure_number(scene, solved.loops, group, row, int(n))
-            holds[n] = number == branch.number
+            numbers = closure_numbers(scene, solved.loops, group, row, int(n))
+            holds[n] = branch.number in numbers
         else:
             holds[n] = farthest(scene, branch, solved, group, name, int(n))
     return holds

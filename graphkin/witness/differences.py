@@ -1,28 +1,66 @@
-"""Every difference between a solution and the loops, over its scale."""
+"""Every difference between a solution and the loops, over its scale, and what rounding allows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from graphkin.loops.bodies import Complexes, Reals
 from graphkin.loops.motion import Motion
+from graphkin.loops.rounding import Rounding
 from graphkin.loops.solve import LoopSolution
 from graphkin.steps.solution import Solution
 from graphkin.witness.centres import centre_differences
 
 FLOOR = 1e-3
 """Share of its natural size below which a scale is not taken seriously."""
+LOST = 0.1
+"""Bound of an error, as a share of the quantity, from which no digit of it is sure."""
+LEAST_LIMIT = 1e-9
+"""Difference that is always allowed."""
+MOST_DIGITS = 15
+"""Digits that a double has."""
+POINT = ("position", "velocity", "acceleration")
+SLIDE = ("position", "speed", "acceleration", "coriolis")
 
-Differences = dict[str, Reals]
+
+class Difference(NamedTuple):
+    """A difference, the bound of its error, and the size of the quantity, all over its scale."""
+
+    found: Reals
+    bound: Reals
+    size: Reals
+
+    @property
+    def share(self) -> Reals:
+        """The bound as a share of the quantity; of a small one, as that of a thousandth."""
+        return np.asarray(self.bound / np.maximum(self.size, FLOOR))
+
+    @property
+    def sure(self) -> Any:
+        """Where some digit of the quantity is sure."""
+        return ~(self.share > LOST)
+
+    @property
+    def judged(self) -> Any:
+        """Where the difference is judged: not where both routes know nothing; NaN is."""
+        return self.sure | np.isnan(self.found)
+
+    @property
+    def limit(self) -> Reals:
+        """The largest difference that is allowed."""
+        return np.maximum(LEAST_LIMIT, self.bound)
+
+
+Differences = Mapping[str, Difference]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scales:
-    """Largest magnitude of each kind of quantity in the scene, shape (N,)."""
+    """Largest magnitude of each kind of quantity in the scene that is sure, shape (N,)."""
 
     length: Reals
     speed: Reals
@@ -31,18 +69,28 @@ class Scales:
     epsilon: Reals
 
     @classmethod
-    def of(cls, motion: Motion, length: Reals, floor: Reals | float = FLOOR) -> Scales:
-        """Measured on the loops; a quantity that is nought throughout has scale 1."""
-        slides = np.abs(motion.slides).max(axis=2, initial=0)
-        speed = np.maximum(np.abs(motion.points.velocity).max(axis=1), slides[1])
-        pushed = np.maximum(np.abs(motion.points.acceleration).max(axis=1), slides[2])
-        omega, epsilon = np.abs(motion.omega).max(axis=1), np.abs(motion.epsilon).max(axis=1)
+    def of(cls, motion: Motion, bounds: Rounding, length: Reals) -> Scales:
+        """Measured on the loops; a quantity that is zero throughout has scale 1."""
+        points, errors = motion.points, bounds.points
+        slides = np.stack(
+            [largest(*pair) for pair in zip(motion.slides, bounds.slides, strict=True)]
+        )
+        speed = np.maximum(largest(points.velocity, errors.velocity), slides[1])
+        pushed = np.maximum(largest(points.acceleration, errors.acceleration), slides[2])
+        omega = largest(motion.omega, bounds.omega)
+        epsilon = largest(motion.epsilon, bounds.epsilon)
         natural = np.maximum(speed**2 / length, omega**2 * length)
-        fastest = np.maximum(speed, floor * omega * length)
-        turning = np.maximum(omega, floor * speed / length)
-        most = np.maximum(pushed, floor * np.maximum(natural, epsilon * length))
-        twist = np.maximum(epsilon, floor * np.maximum(natural, pushed) / length)
+        fastest = np.maximum(speed, FLOOR * omega * length)
+        turning = np.maximum(omega, FLOOR * speed / length)
+        most = np.maximum(pushed, FLOOR * np.maximum(natural, epsilon * length))
+        twist = np.maximum(epsilon, FLOOR * np.maximum(natural, pushed) / length)
         return cls(length, *map(or_one, (fastest, most, turning, twist)))
+
+
+def largest(values: Reals | Complexes, bounds: Reals) -> Reals:
+    """The largest magnitude in each row of which some digit is sure; zero where there is none."""
+    sizes = np.abs(values)
+    return np.asarray(np.where(bounds > LOST * sizes, 0.0, sizes).max(axis=1, initial=0.0))
 
 
 def or_one(scale: Reals) -> Reals:
@@ -50,57 +98,88 @@ def or_one(scale: Reals) -> Reals:
     return np.where(scale == 0, 1.0, scale)
 
 
-def differing(
-    solved: LoopSolution, solution: Solution, extent: Reals, rounding: Reals | float = 0.0
-) -> Differences:
-    """Every difference that can be taken, over its scale, by the quantity's name.
-
-    ``rounding`` is the share of the limit that rounding alone accounts for. It goes with what the
-    other quantities make of a quantity, also of one that is nought: so does then its scale.
-    """
-    scales = Scales.of(solved.motion, extent, np.maximum(FLOOR, rounding))
+def differing(solved: LoopSolution, solution: Solution, extent: Reals) -> Differences:
+    """Every difference that can be taken, by the quantity's name."""
+    scales = Scales.of(solved.motion, solved.rounding, extent)
     pairs = (
-        *of_points(solved.motion, solution, scales),
-        *of_links(solved.motion, solution, scales),
+        *of_points(solved, solution, scales),
+        *of_links(solved, solution, scales),
         *of_slides(solved, solution, scales),
     )
-    count = solved.loops.numbers.count
-    compared = {
-        name: np.broadcast_to(np.abs(np.asarray(ours) - theirs) / scale, (count,))
-        for name, ours, theirs, scale in pairs
-        if ours is not None
-    }
-    return compared | dict(centre_differences(solved.motion, solution, scales))
+
+    def compared(ours: Any, theirs: Any, bound: Any, scale: Any) -> Difference:
+        return Difference(abs(ours - theirs) / scale, bound / scale, abs(theirs) / scale)
+
+    found = {name: compared(ours, *rest) for name, ours, *rest in pairs if ours is not None}
+    left = centre_differences(solved, solution, scales)
+    return found | {name: Difference(*each) for name, each in left}
 
 
-Pairs = Iterator[tuple[str, Any, Reals | Complexes, Reals]]
+Pairs = Iterator[tuple[str, Any, Reals | Complexes, Reals, Reals]]
+"""Name of a quantity, its value by the solution and by the loops, its bound, its scale."""
 
 
-def of_points(motion: Motion, solution: Solution, scales: Scales) -> Pairs:
-    """Position, velocity and acceleration of every point, ours and the loops'."""
+def of_points(solved: LoopSolution, solution: Solution, scales: Scales) -> Pairs:
+    """Position, velocity and acceleration of every point."""
+    sizes = scales.length, scales.speed, scales.acceleration
     for name, point in solution.points.items():
-        place, velocity, acceleration = motion.point(name)
-        yield f"points.{name}.position", point.position, place, scales.length
-        yield f"points.{name}.velocity", point.velocity, velocity, scales.speed
-        yield f"points.{name}.acceleration", point.acceleration, acceleration, scales.acceleration
+        ours = point.position, point.velocity, point.acceleration
+        theirs, bounds = solved.motion.point(name), solved.rounding.point(name)
+        for n, key in enumerate(POINT):
+            yield f"points.{name}.{key}", ours[n], theirs[n], bounds[n], sizes[n]
 
 
-def of_links(motion: Motion, solution: Solution, scales: Scales) -> Pairs:
-    """ω and ε of every link, ours and the loops'."""
+def of_links(solved: LoopSolution, solution: Solution, scales: Scales) -> Pairs:
+    """ω and ε of every link."""
+    motion, bounds = solved.motion, solved.rounding
     for name, link in solution.links.items():
         i = motion.index[name]
-        yield f"links.{name}.omega", link.omega, motion.omega[:, i], scales.omega
-        yield f"links.{name}.epsilon", link.epsilon, motion.epsilon[:, i], scales.epsilon
+        omega, epsilon = motion.omega[:, i], motion.epsilon[:, i]
+        yield f"links.{name}.omega", link.omega, omega, bounds.omega[:, i], scales.omega
+        yield f"links.{name}.epsilon", link.epsilon, epsilon, bounds.epsilon[:, i], scales.epsilon
 
 
 def of_slides(solved: LoopSolution, solution: Solution, scales: Scales) -> Pairs:
-    """Coordinate, speed, acceleration and Coriolis vector of every block, ours and the loops'."""
+    """Coordinate, speed, acceleration and Coriolis vector of every block."""
+    sizes = scales.length, scales.speed, scales.acceleration, scales.acceleration
     for name, slide in solution.slides.items():
         j = solved.loops.guide_index(name)
         if j is None:
             continue
-        s, speed, acceleration, coriolis = solved.motion.slide(j)
-        yield f"slides.{name}.position", slide.position, s, scales.length
-        yield f"slides.{name}.speed", slide.speed, speed, scales.speed
-        yield f"slides.{name}.acceleration", slide.acceleration, acceleration, scales.acceleration
-        yield f"slides.{name}.coriolis", slide.coriolis, coriolis, scales.acceleration
+        ours = slide.position, slide.speed, slide.acceleration, slide.coriolis
+        theirs, bounds = solved.motion.slide(j), solved.rounding.slide(j)
+        for n, key in enumerate(SLIDE):
+            yield f"slides.{name}.{key}", ours[n], theirs[n], bounds[n], sizes[n]
+
+
+KINDS = {
+    "position": "position",
+    "velocity": "velocity",
+    "omega": "velocity",
+    "speed": "velocity",
+    "acceleration": "acceleration",
+    "epsilon": "acceleration",
+    "coriolis": "acceleration",
+}
+"""Of which derivative each quantity is; centres have none."""
+
+
+def digits_of(differences: Differences) -> dict[str, int]:
+    """How many significant digits are sure of every position, velocity and acceleration.
+
+    Of one smaller than a thousandth of the largest of its kind, digits of that thousandth.
+    """
+    found: dict[str, int] = {}
+    for name, each in differences.items():
+        kind = KINDS.get(name.rpartition(".")[2])
+        if kind is not None:
+            digits = sure_digits(float(each.share[0]))
+            found[kind] = min(found.get(kind, MOST_DIGITS), digits)
+    return found
+
+
+def sure_digits(share: float) -> int:
+    """How many digits are sure of what may be off by a share of itself."""
+    if not share <= LOST:
+        return 0
+    return min(MOST_DIGITS, int(-np.log10(max(share, 1e-99))))

@@ -16,11 +16,16 @@ from graphkin.loops.solve import LoopSolution, closed_from, refuse_undriven
 from graphkin.loops.start import Start, start_values
 from graphkin.scene.model import FRAME, Scene
 from graphkin.steps.solution import Solution, Verdict
-from graphkin.witness.branches import LEAST_LIMIT, Flags, branch_conditions
-from graphkin.witness.differences import Differences, differing, or_one
+from graphkin.witness.branches import Flags, branch_conditions
+from graphkin.witness.differences import (
+    LEAST_LIMIT,
+    Difference,
+    Differences,
+    differing,
+    digits_of,
+    or_one,
+)
 from graphkin.witness.part import has_acceleration, links_concerned, scene_of
-
-EPS = 2.0**-52
 
 
 def compare(scene: Scene, solution: Solution, values: Mapping[str, Any] | None = None) -> Verdict:
@@ -30,8 +35,7 @@ def compare(scene: Scene, solution: Solution, values: Mapping[str, Any] | None =
     loops do not close or are singular, StructureError where drivers are missing.
     """
     examined = examine(scene, solution, values)
-    difference, quantity = examined.largest(0)
-    limit = float(examined.limit[0])
+    difference, quantity, limit = examined.told(0)
     broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
     report = examined.solved.report
     return Verdict(
@@ -43,6 +47,8 @@ def compare(scene: Scene, solution: Solution, values: Mapping[str, Any] | None =
         moved=float(report.moved[0]),
         branches=broken,
         guessed=examined.guessed,
+        digits=digits_of(examined.differences),
+        unsure=tuple(n for n, each in examined.differences.items() if not each.judged[0]),
     )
 
 
@@ -51,7 +57,8 @@ def compare_batch(
 ) -> tuple[Reals, Flags]:
     """Largest difference of each of N settings, and whether it and the branches agree: (N,), (N,).
 
-    A setting that either route could not solve has NaN and does not agree.
+    A setting that either route could not solve has NaN and does not agree. A quantity of which no
+    digit is sure is not judged.
     """
     examined = examine(scene, solution, values)
     return examined.worst, examined.agrees
@@ -64,28 +71,43 @@ class Examined:
     solved: LoopSolution
     differences: Differences
     branches: Mapping[str, Flags]
-    limit: Reals
     guessed: tuple[str, ...] = ()
 
     @property
     def worst(self) -> Reals:
         """The largest difference of each setting; NaN where any is unknown."""
-        if not self.differences:
-            return np.where(self.solved.report.good, 0.0, np.nan)
-        return np.asarray(np.stack(list(self.differences.values())).max(axis=0))
+        worst = np.where(self.solved.report.good, 0.0, np.nan)
+        for each in self.differences.values():
+            worst = np.maximum(worst, np.where(each.judged, each.found, 0.0))
+        return worst
 
     @property
     def agrees(self) -> Flags:
-        """Where every difference is within the limit and every branch as stated."""
-        agrees = (self.worst <= self.limit) & np.isfinite(self.limit)
+        """Where every difference is within its limit and every branch as stated."""
+        agrees = self.solved.report.good
+        for each in self.differences.values():
+            agrees = agrees & ((each.found <= each.limit) | ~each.judged)
         for holds in self.branches.values():
             agrees = agrees & holds
-        return np.asarray(agrees & self.solved.report.good)
+        return np.asarray(agrees)
 
-    def largest(self, row: int) -> tuple[float, str]:
-        """The largest difference of one setting, and the quantity where it was found."""
-        found = [(float(each[row]), name) for name, each in self.differences.items()]
-        return max(found, key=lambda pair: (np.isnan(pair[0]), pair[0]), default=(0.0, ""))
+    def told(self, row: int) -> tuple[float, str, float]:
+        """The largest difference of one setting, where it was found, and the largest limit.
+
+        Where some difference is beyond its limit: the one that is so the farthest, and its own.
+        """
+        known = {name: each for name, each in self.differences.items() if each.judged[row]}
+        beyond = {n: each for n, each in known.items() if not each.found[row] <= each.limit[row]}
+
+        def farthest(pair: tuple[str, Difference]) -> tuple[bool, float]:
+            found, limit = pair[1].found[row], pair[1].limit[row] if beyond else 1.0
+            return bool(np.isnan(found)), float(found / limit)
+
+        if not known:
+            return 0.0, "", LEAST_LIMIT
+        name, worst = max((beyond or known).items(), key=farthest)
+        limits = [each.limit[row] for each in (beyond and [worst]) or known.values()]
+        return float(worst.found[row]), name, float(max(limits))
 
 
 def examine(scene: Scene, solution: Solution, values: Mapping[str, Any] | None) -> Examined:
@@ -100,16 +122,11 @@ def examine(scene: Scene, solution: Solution, values: Mapping[str, Any] | None) 
         scene = scene_of(loops)
     refuse_undriven(loops)
     start, guessed = started(scene, loops, solution)
-    solved = closed_from(loops, start, accelerations=has_acceleration(solution))
+    solved = closed_from(loops, start, accelerations=has_acceleration(solution), singular=True)
     with np.errstate(all="ignore"):
-        extent = breadth(solved.motion)
-        margin = np.abs(loops.numbers.reals(solution.margin))
-        far = np.abs(solved.motion.points.place).max(axis=1)
-        slack = 64 * EPS * (np.maximum(extent, far) / loops.least) / margin**3
-        limit = np.maximum(LEAST_LIMIT, slack)
-        differences = differing(solved, solution, extent, slack / limit)
+        differences = differing(solved, solution, breadth(solved.motion))
         branches = branch_conditions(scene, solved)
-    return Examined(solved, differences, branches, limit, guessed)
+    return Examined(solved, differences, branches, guessed)
 
 
 def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, tuple[str, ...]]:

@@ -212,7 +212,7 @@ def test_a_flat_crossing_is_answered_with_a_warning_and_status_1(
     assert json.loads(result.stdout)["margin"] < 1e-4
     assert result.stderr.startswith("graphkin: ")
     assert "not fair to ask" in result.stderr
-    assert "in doubles no digit of it is sure" in result.stderr
+    assert "sure digits: positions 8, velocities 2, accelerations 2" in result.stderr
     assert "the lines at B (velocity) cross at a sine of" in result.stderr
 
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
 
+from graphkin.certified import Certifier
 from graphkin.loops.equations import equations
 from graphkin.loops.groups import groups
+from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
 from graphkin.witness import compare
 
@@ -101,3 +104,59 @@ def test_closures_are_counted_by_the_angle_of_the_lever(number, read, solved, wr
 
 def test_the_lever_has_several_closures():
     assert len(roots()) in (2, 4)
+
+
+CLASS_III = """
+[frame]
+O1 = [0, 0]
+O2 = [190, 0]
+O3 = [330, 90]
+[links.1]
+O1-A = 100
+[links.2]
+O2-B = 140
+[links.3]
+A-B = 166
+A-C = 150
+B-C = 110
+C = "left of A-B"
+[links.4]
+C-D = 220
+[links.5]
+O3-D = 60
+[[drivers]]
+turn = 5
+angle = "ANGLE"
+speed = 10
+acceleration = 1
+[branches]
+1 = "closure 6"
+"""
+DEAD_POINT = Fraction("101.48486907497565")
+"""The driver's angle at which the fourth and fifth of the six closures meet, in degrees."""
+
+
+@pytest.mark.parametrize("beyond", [5, 9, 12])
+def test_half_closed_positions_are_no_closures(beyond, read):
+    """Beside the dead point of two closures loops nearly close all around them; the sixth is sound.
+
+    At 1e-12 degrees rounding hides whether the two are one: the sixth may then be the fifth.
+    """
+    angle = DEAD_POINT + Fraction(1, 10**beyond)
+    scene = read(CLASS_III.replace("ANGLE", f"{angle.numerator}/{angle.denominator}"))
+    verdict = compare(scene, Mechanism(scene).solve())
+    assert verdict.branches == ()
+    assert verdict.agrees
+
+
+@pytest.mark.parametrize(("beyond", "sure"), [(5, True), (13, False)])
+def test_digits_are_proved_only_where_the_number_of_a_closure_is_sure(beyond, sure, read):
+    """At 1e-13 degrees doubles see five closures: the fifth of theirs is the sixth in truth."""
+    angle = DEAD_POINT + Fraction(1, 10**beyond)
+    text = CLASS_III.replace("ANGLE", f"{angle.numerator}/{angle.denominator}")
+    mechanism = Mechanism(read(text.replace("closure 6", "closure 5")))
+    place = Certifier.of(mechanism).run(128).trace.value("position", "A")
+    assert (place is not None) == sure
+    if sure:
+        found = mechanism.solve().points["A"].position
+        assert abs(complex(float(place.real.mid()), float(place.imag.mid())) - found) < 1e-6

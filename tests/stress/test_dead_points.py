@@ -143,6 +143,8 @@ def test_what_is_not_fair_is_never_told_without_a_word():
         except GraphkinError as error:
             assert "singular" in str(error)
             continue
+        if "links.1.omega" in verdict.unsure:
+            continue
         truth = case.truth()
         omega = truth.links["1"].omega
         error = abs(solution.links["1"].omega - float(omega)) / abs(float(omega))
