@@ -7,7 +7,7 @@ import pytest
 
 from graphkin.plane import Circle, Line, circle_meets_circle, line_meets_circle
 from graphkin.steps.roots import roots
-from graphkin.steps.wheels import turned_since
+from graphkin.steps.wheels import counted_near
 from graphkin.steps.windows import Windows, arcs_reach, line_reached, narrowed, swing_reached
 
 GRID = np.linspace(0, 10, 101)[None, :]
@@ -71,5 +71,5 @@ def meets(draw, *args):
 def test_half_a_turn_is_ahead_whatever_rounding_says(off):
     """The whole turns of wheels are counted from it."""
     axis = cmath.rect(1, cmath.pi) * complex(1, off)
-    assert turned_since(axis, 1 + 0j) == pytest.approx(cmath.pi)
-    assert turned_since(np.array([axis]), 1 + 0j) == pytest.approx(cmath.pi)
+    assert counted_near(axis, 1 + 0j, 0.0) == pytest.approx(cmath.pi)
+    assert counted_near(np.array([axis]), 1 + 0j, 0.0) == pytest.approx(cmath.pi)

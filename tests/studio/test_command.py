@@ -26,12 +26,18 @@ from graphkin.studio.server import Served, serve
 from tests.studio.pump import PUMP, desk_in, running
 
 ROOT = Path(__file__).resolve().parents[2]
+STOPPED_BY_KEYS = """
+import runpy, signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+runpy.run_module("graphkin", run_name="__main__", alter_sys=True)
+"""
+"""The command as a terminal starts it: what runs in the background is told to ignore Ctrl+C."""
 
 
 @contextmanager
 def started(folder: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
     """The command in a folder."""
-    command = [sys.executable, "-m", "graphkin", "studio", *arguments]
+    command = [sys.executable, "-c", STOPPED_BY_KEYS, "studio", *arguments]
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "BROWSER": "true"}
     with subprocess.Popen(
         command,
