@@ -48,17 +48,23 @@ def agreement(reference: Reference) -> Agreement:
     )()
     balls = found_singly(reference, ball_kind(DOUBLE))
     bounds = bounds_of(reference)
-    single = reference.missed(found_singly(reference, FLOAT)) / bounds
-    batch = reference.missed(rows_of(columns, count)) / bounds
-    radii = radii_in(balls, reference) / bounds
+    single = in_parts(reference.missed(found_singly(reference, FLOAT)), bounds)
+    batch = in_parts(reference.missed(rows_of(columns, count)), bounds)
+    radii = in_parts(radii_in(balls, reference), bounds)
     return Agreement(
-        float((bounds / reference.scales).max()),
+        float(in_parts(bounds, reference.scales).max()),
         float(single.max()),
         float(batch.max()),
         float(radii[np.isfinite(radii)].max(initial=0.0)),
         *contained(balls, reference),
         len(targets) * count,
     )
+
+
+def in_parts(errors: Reals, of: Reals) -> Reals:
+    """Errors in parts of other numbers; nothing of nothing, as of the velocities of what rests."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.where(errors == 0, 0.0, errors / of))
 
 
 def bounds_of(reference: Reference) -> Reals:

@@ -151,8 +151,11 @@ def agreement_lines(found: Agreement) -> Iterator[str]:
     """How doubles and balls of as many bits keep to the bound of doubles."""
     yield (
         f"Doubles keep to {max(found.single, found.batch):.1g} of their bound, at most "
-        f"{found.bound:.1g} of the largest of a quantity (4·ε of all that enters, led through the "
-        "loop equations: 1/s, 1/s² and 1/s³ for each crossing on the way)."
+        f"{found.bound:.1g} of the largest of a quantity"
+    )
+    yield (
+        "(4·ε of all that enters, led through the loop equations: 1/s, 1/s² and 1/s³ for each "
+        "crossing on the way)."
     )
     radius = f"their radius is at most {found.tightness:.1g} times that bound"
     if found.bounded == found.answers:

@@ -497,7 +497,8 @@ def test_at_a_dead_point_the_two_lines_are_parallel():
     assert refusal(slider(5, 5, 90)) == (
         "velocity of b: b cannot be found: AB and the guide of 3 are perpendicular to each other; "
         "expected loci that cross; "
-        "at this dead point the driver's speed determines no other: change the driver's position"
+        "at this dead point, or so near to one that doubles cannot tell (solve --digits can), "
+        "the driver's speed determines no other: change the driver's position"
     )
 
 
