@@ -238,7 +238,8 @@ def test_what_is_told_names_reference_machine_and_slopes():
         "asked only",
     ):
         assert words in text
-    assert all(len(line) < 170 for line in text.splitlines())
+    lines = [line for line in text.splitlines() if machine.machine_words() not in line]
+    assert all(len(line) < 170 for line in lines)  # a machine's own words are as long as they are
 
 
 @pytest.mark.parametrize(
