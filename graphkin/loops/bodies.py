@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import reduce
 from itertools import combinations
 from typing import Any
 
@@ -218,16 +219,10 @@ def written_line(
     return -start, along
 
 
-def spans(scene: Scene, bodies: Mapping[str, Body], numbers: Numbers) -> Reals:
-    """Every distance between two points of one link and every radius (m), shape (N, lengths).
-
-    It is 1 if all are nought.
-    """
+def longest(scene: Scene, bodies: Mapping[str, Body], numbers: Numbers) -> Reals:
+    """The longest distance of two points of one link, or radius (m): (N,); 1 if all are zero."""
     links = (scene.frame, *scene.links.values())
-    found = [
-        numbers.reals(abs(p - q))
-        for body in bodies.values()
-        for p, q in combinations(body.values(), 2)
-    ] + [numbers.reals(radius(wheel, numbers)) for link in links for wheel in link.wheels]
-    lengths = np.stack(found, axis=-1) if found else np.zeros((numbers.count, 1))
-    return np.where(lengths.max(axis=1, keepdims=True) == 0, 1.0, lengths)
+    lengths = [abs(p - q) for body in bodies.values() for p, q in combinations(body.values(), 2)]
+    lengths += [radius(wheel, numbers) for link in links for wheel in link.wheels]
+    most = numbers.reals(reduce(np.maximum, lengths, 0.0))
+    return np.where(most == 0, 1.0, most)

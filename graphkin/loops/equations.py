@@ -24,7 +24,7 @@ from graphkin.loops.bodies import (
     Reals,
     bodies_of,
     guides_of,
-    spans,
+    longest,
 )
 from graphkin.loops.chains import Chains, Linear, packed
 from graphkin.loops.drives import Drives, drives_of
@@ -182,7 +182,6 @@ def equations(
     refuse_loose(links, tree)
     closing = tree.closures()
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
-    lengths = spans(scene, bodies, numbers)
     counted = counted_turnings(written, every, turned, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
@@ -201,7 +200,7 @@ def equations(
         slips=packed_slips(slips, counted, turned, guides, numbers),
         drives=drives_of(scene, bodies, guides, turned, numbers, whole=bool(every)),
         home=numbers.complexes(starts[FRAME]),
-        size=lengths.max(axis=1),
+        size=longest(scene, bodies, numbers),
     )
 
 

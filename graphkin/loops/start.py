@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
 from graphkin.loops.bodies import Complexes, Reals
-from graphkin.loops.equations import Equations
+from graphkin.loops.equations import Equations, stacked
 from graphkin.loops.groups import Mask
 from graphkin.loops.wholes import settled
 from graphkin.scene.model import FRAME
@@ -73,11 +72,15 @@ def turns_of_bars(
         turning, lean = loops.turned.of[link], loops.turned.lean[link]
         if turning in turn:
             continue
-        for p, q in combinations([name for name in body if name in known], 2):
-            bar = loops.numbers.complexes(body[q] - body[p])
-            length = float(np.nanmax(abs(bar)))
-            if length > best.get(turning, (0.0, bar))[0]:
-                best[turning] = length, (known[q] - known[p]) / (bar * lean)
+        names = [name for name in body if name in known]
+        places = stacked([loops.numbers.complexes(body[name]) for name in names], loops.numbers)
+        for n in range(len(names) - 1):
+            bars = places[:, n + 1 :] - places[:, n : n + 1]
+            lengths = np.fmax.reduce(abs(bars), axis=0)
+            far = int(np.argmax(np.where(np.isnan(lengths), 0.0, lengths)))
+            if lengths[far] > best.get(turning, (0.0, bars))[0]:
+                way = known[names[n + 1 + far]] - known[names[n]]
+                best[turning] = float(lengths[far]), way / (bars[:, far] * lean)
     return {turning: ratio for turning, (_, ratio) in best.items()}
 
 

@@ -28,20 +28,32 @@ class Joints:
         for contact in contacts(scene):
             refuse_loose(contact)
             self._put(contact)
+        self.beside = {name: self._beside(name) for name in self.order}
+        self.found: dict[tuple[str, frozenset[str]], tuple[Joint, ...]] = {}
 
     def _put(self, pair: Sliding | Contact) -> None:
         for link in pair.links:
             self.others[link].append(pair)
 
+    def _beside(self, link: str) -> frozenset[str]:
+        found = {o for point in self.scene.link(link).points for o in self.owners[point]}
+        return frozenset((found | {partner(pair, link) for pair in self.others[link]}) - {link})
+
     def between(self, link: str, others: Collection[str]) -> tuple[Joint, ...]:
         """The pairs that join a link to a set of others; a shared pin counts once."""
-        found: list[Joint] = []
-        for point in self.scene.link(link).points:
-            other = next((o for o in self.owners[point] if o != link and o in others), None)
+        near = self.beside[link].intersection(others)
+        if (link, near) not in self.found:
+            self.found[link, near] = tuple(self._joining(link, near))
+        return self.found[link, near]
+
+    def _joining(self, link: str, near: Collection[str]) -> Iterator[Joint]:
+        for point in self.scene.link(link).points if near else ():
+            other = next((o for o in self.owners[point] if o in near), None)
             if other is not None:
-                found.append(Pin(point, (link, other)))
-        found += [pair for pair in self.others[link] if partner(pair, link) in others]
-        return tuple(found)
+                yield Pin(point, (link, other))
+        for pair in self.others[link]:
+            if partner(pair, link) in near:
+                yield pair
 
     def inner(self, first: str, second: str, known: Collection[str]) -> tuple[Joint, ...]:
         """The pairs between two links, but for pins that stand already on known links."""
@@ -53,9 +65,7 @@ class Joints:
 
     def neighbours(self, link: str) -> list[str]:
         """The links joined to a link by any pair, as written."""
-        found = {o for point in self.scene.link(link).points for o in self.owners[point]}
-        found |= {partner(pair, link) for pair in self.others[link]}
-        return sorted(found - {link}, key=self.order.__getitem__)
+        return sorted(self.beside[link], key=self.order.__getitem__)
 
     def unknown(self, known: Collection[str]) -> Iterator[str]:
         """The links that are not known, as written."""
