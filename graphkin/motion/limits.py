@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -61,25 +61,64 @@ class Follower:
         return self.high.value - self.low.value
 
 
-Value = Callable[[Reals], Reals]
+@dataclass(frozen=True, slots=True)
+class Mover:
+    """A link or block whose way is asked: its line, and the targets of its place and its speed."""
+
+    name: str
+    line: tuple[str, str] | None
+    where: tuple[Target, ...]
+    speed: Target
+
+    def place(self, columns: Mapping[Target, Reals]) -> Reals:
+        """The angle of its line (degrees), or its coordinate (m), from the columns of ``where``."""
+        if self.line is None:
+            return columns[self.where[0]]
+        start, end = (columns[target] for target in self.where)
+        return np.asarray(np.degrees(np.unwrap(np.angle(end - start))))
 
 
 def followers(cycle: Cycle, number: int = 0) -> tuple[Follower, ...]:
     """Every link pinned to the frame, and every block, that no driver moves, in one range.
 
-    ``number`` counts the ranges from 0, the one of the scene.
+    ``number`` counts the ranges from 0, the one of the scene. All followers are run together, so
+    that the mechanism is constructed as often for many as for one.
     """
+    movers = tuple(movers_of(cycle))
+    if not movers:
+        return ()
+    pieces = cycle.path.ranges[number]
+    at = samples(pieces)
+    again = coming_back(cycle, movers, number)
+    past = at[-1] + APART * np.arange(2, 4) if any(again) else at[:0]
+    turns = turning_places(cycle, movers, np.append(at, past), at[-1], again, enough_of(pieces))
+    for n, closed in enumerate(again):
+        if closed:
+            over = turns[n] >= ends(pieces)[1] - ALIKE
+            begun = np.maximum(turns[n] - TURN, pieces[0].low.at)
+            turns[n] = np.sort(np.where(over, begun, turns[n]))
+    every = np.unique(np.concatenate([ends(pieces), at, *turns]))
+    columns = values(cycle, every, [target for mover in movers for target in mover.where])
     found = []
+    for mover, own, closed in zip(movers, turns, again, strict=True):
+        rows = np.searchsorted(every, np.unique(np.concatenate([ends(pieces), at, own])))
+        where = mover.place({target: columns[target][rows] for target in mover.where})
+        found.append(follower(cycle, number, mover, every[rows], where, own, closed))
+    return tuple(each for each in found if each is not None)
+
+
+def movers_of(cycle: Cycle) -> Iterator[Mover]:
+    """Every link pinned to the frame, and every block, that no driver moves."""
     driven = {driver.link for driver in cycle.scene.drivers}
     targets = cycle.path.ranges[0][0].course.program.targets
     for name, link in cycle.scene.links.items():
         if name in driven:
             continue
         if ("slide", name) in targets and ("slide speed", name) in targets:
-            found.append(sliding(cycle, name, number))
+            yield Mover(name, None, (("slide", name),), ("slide speed", name))
         elif (line := swinging_line(cycle.scene, link)) and ("omega", name) in targets:
-            found.append(swinging(cycle, name, line, number))
-    return tuple(each for each in found if each is not None)
+            start, end = line
+            yield Mover(name, line, (("position", start), ("position", end)), ("omega", name))
 
 
 def swinging_line(scene: Scene, link: Link) -> tuple[str, str] | None:
@@ -91,57 +130,27 @@ def swinging_line(scene: Scene, link: Link) -> tuple[str, str] | None:
     return None if other is None else (fixed, other)
 
 
-def sliding(cycle: Cycle, name: str, number: int) -> Follower | None:
-    """Stroke of a block."""
-
-    def place(at: Reals) -> Reals:
-        return values(cycle, at, [("slide", name)])[0]
-
-    def speed(at: Reals) -> Reals:
-        return values(cycle, at, [("slide speed", name)], moving=True)[0]
-
-    return follower(cycle, number, name, None, place, speed)
-
-
-def swinging(cycle: Cycle, name: str, line: tuple[str, str], number: int) -> Follower | None:
-    """Swing of a link about its fixed pivot."""
-
-    def angle(at: Reals) -> Reals:
-        start, end = values(cycle, at, [("position", point) for point in line])
-        return np.asarray(np.degrees(np.unwrap(np.angle(end - start))))
-
-    def speed(at: Reals) -> Reals:
-        return values(cycle, at, [("omega", name)], moving=True)[0]
-
-    return follower(cycle, number, name, line, angle, speed)
-
-
-def values(cycle: Cycle, at: Reals, targets: list[Target], *, moving: bool = False) -> list[Reals]:
+def values(
+    cycle: Cycle, at: Reals, targets: Sequence[Target], *, moving: bool = False
+) -> Mapping[Target, Reals]:
     """Targets at places of the path; rates by the driver's position, not beside dead points."""
-    found = columns_at(cycle.sweep, cycle.path, at, targets, geometric=moving, near=0.0)
-    return [found.columns[target] for target in targets]
+    return columns_at(cycle.sweep, cycle.path, at, targets, geometric=moving, near=0.0).columns
 
 
 def follower(
     cycle: Cycle,
     number: int,
-    name: str,
-    line: tuple[str, str] | None,
-    place: Value,
-    speed: Value,
+    mover: Mover,
+    every: Reals,
+    where: Reals,
+    turns: Reals,
+    again: bool,
 ) -> Follower | None:
-    """The limits of one follower in one range; None for one that stands still throughout."""
-    pieces = cycle.path.ranges[number]
-    at = samples(pieces)
-    again = whole(cycle, number) and comes_back(cycle, pieces, place, speed)
-    past = at[-1] + APART * np.arange(2, 4) if again else at[:0]
-    enough = ENOUGH if any(searched(piece) for piece in pieces) else 0.0
-    turns = refined(np.append(at, past), speed, enough)
-    if again:
-        over = turns >= ends(pieces)[1] - ALIKE
-        turns = np.sort(np.where(over, np.maximum(turns - TURN, pieces[0].low.at), turns))
-    every = np.unique(np.concatenate([ends(pieces), at, turns]))
-    where = place(every)
+    """How far one follower goes, by its places ``where`` at ``every`` u, the ``turns`` among them.
+
+    ``again`` tells that it comes back after a whole turn. None for one that stands still.
+    """
+    name, line = mover.name, mover.line
     known = np.isfinite(where)
     every, where = every[known], where[known]
     if not where.size or np.ptp(where) <= NOTHING * max(1.0, float(np.abs(where).max())):
@@ -161,7 +170,7 @@ def follower(
         low,
         high,
         full,
-        time_ratio(cycle, limits) if again and not full else None,
+        time_ratio(limits) if again and not full else None,
     )
 
 
@@ -182,12 +191,18 @@ def whole(cycle: Cycle, number: int) -> bool:
     return cycle.path.whole and number == 0
 
 
-def comes_back(cycle: Cycle, pieces: Range, place: Value, speed: Value) -> bool:
-    """Whether a follower stands and moves after a whole turn as before; wheels may not."""
-    if cycle.path.returns:
-        return True
-    both = [np.asarray(value(ends(pieces))) for value in (place, speed)]
-    return all(abs(b - a) <= BACK * max(1.0, abs(a), abs(b)) for a, b in both)
+def coming_back(cycle: Cycle, movers: Sequence[Mover], number: int) -> list[bool]:
+    """Which followers stand and move after a whole turn as before; wheels may not."""
+    if cycle.path.returns or not whole(cycle, number):
+        return [whole(cycle, number) for _ in movers]
+    bounds = ends(cycle.path.ranges[number])
+    columns = values(cycle, bounds, [target for mover in movers for target in mover.where])
+    speeds = values(cycle, bounds, [mover.speed for mover in movers], moving=True)
+    both = [(mover.place(columns), speeds[mover.speed]) for mover in movers]
+    return [
+        all(abs(b - a) <= BACK * max(1.0, abs(a), abs(b)) for a, b in (place, speed))
+        for place, speed in both
+    ]
 
 
 def samples(pieces: Range) -> Reals:
@@ -213,23 +228,56 @@ def ends(pieces: Range) -> Reals:
     return np.array([pieces[0].low.at, pieces[-1].high.at])
 
 
-def refined(at: Reals, speed: Value, enough: float) -> Reals:
-    """Where a speed changes its sense, to the last digits."""
-    rate = speed(at)
-    most = np.nanmax(np.abs(rate), initial=0.0)
-    moving = np.where(np.abs(rate) <= NOTHING * most, 0.0, rate)
+def enough_of(pieces: Range) -> float:
+    """To how much of u limits are found in a range: the last digit, unless places are searched."""
+    return ENOUGH if any(searched(piece) for piece in pieces) else 0.0
+
+
+def turning_places(
+    cycle: Cycle,
+    movers: Sequence[Mover],
+    at: Reals,
+    last: float,
+    again: Sequence[bool],
+    enough: float,
+) -> list[Reals]:
+    """Where the speed of each follower changes its sense; after ``last`` only of those ``again``.
+
+    The brackets of all followers are halved together.
+    """
+    targets = [mover.speed for mover in movers]
+    rates = values(cycle, at, targets, moving=True)
+    inside = at <= last
+    most, brackets = [], []
+    for target, closed in zip(targets, again, strict=True):
+        rows = np.flatnonzero(inside | closed)
+        most.append(float(np.nanmax(np.abs(rates[target][rows]), initial=0.0)))
+        brackets.append(changing(at[rows], rates[target][rows], most[-1]))
+    owner = np.repeat(np.arange(len(movers)), [len(low) for low, _ in brackets])
+
+    def speed(u: Reals) -> Reals:
+        every = values(cycle, u, targets, moving=True)
+        return np.array([every[targets[n]][k] for k, n in enumerate(owner)])
+
+    if not owner.size:
+        return [at[:0] for _ in movers]
+    low, high = (np.concatenate(side) for side in zip(*brackets, strict=True))
+    found = crossings_of_nought(speed, low, high, enough)
+    sure = np.abs(speed(found)) < np.array(most)[owner]
+    return [found[sure & (owner == n)] for n in range(len(movers))]
+
+
+def changing(at: Reals, rate: Reals, most: float) -> tuple[Reals, Reals]:
+    """The brackets (low, high) in which a speed of at ``most`` so much changes its sense."""
     if most <= NOTHING:
-        return np.array([])
+        return at[:0], at[:0]
+    moving = np.where(np.abs(rate) <= NOTHING * most, 0.0, rate)
     kept = np.flatnonzero(np.isfinite(moving) & (moving != 0))
     turned = np.flatnonzero(np.sign(moving[kept[1:]]) != np.sign(moving[kept[:-1]]))
-    low, high = at[kept[turned]], at[kept[turned + 1]]
-    if not low.size:
-        return np.array([])
-    found = crossings_of_nought(speed, low, high, enough)
-    return np.asarray(found[np.abs(speed(found)) < most])
+    return at[kept[turned]], at[kept[turned + 1]]
 
 
-def time_ratio(cycle: Cycle, limits: tuple[Limit, ...]) -> float | None:
+def time_ratio(limits: tuple[Limit, ...]) -> float | None:
     """Angle of the driver for the slower stroke over that for the faster one."""
     if len(limits) != 2:
         return None

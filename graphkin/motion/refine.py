@@ -41,11 +41,11 @@ def crossings_of_nought(
     at_low = value(low)
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        if ((middle == low) | (middle == high)).all() or (high - low).max() < enough:
+        wide = (middle != low) & (middle != high) & (high - low >= enough)
+        if not wide.any():
             break
-        here = value(middle)
-        same = np.sign(here) == np.sign(at_low)
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+        same = np.sign(value(middle)) == np.sign(at_low)
+        low, high = np.where(wide & same, middle, low), np.where(wide & ~same, middle, high)
     return (low + high) / 2
 
 
