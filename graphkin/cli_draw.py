@@ -184,7 +184,12 @@ def cycle(
 @click.command()
 @scene_argument
 @output_option
-@click.option("--quick", is_flag=True, help="A few positions, hardly timed: to see what comes.")
+@click.option(
+    "--quick",
+    is_flag=True,
+    help="A few positions, decimals and balls timed at one, the pencil at four on the way: "
+    "to see what comes.",
+)
 @click.option(
     "--format",
     "formats",

@@ -197,7 +197,12 @@ def radius(value: Any) -> float:
     if not value.is_finite():
         return float("inf")
     parts = (value,) if is_real_ball(value) else (value.real, value.imag)
-    return float(np.hypot.reduce([float(part.rad()) for part in parts]))
+    return in_doubles(np.hypot.reduce([float(part.rad()) for part in parts]))
+
+
+def in_doubles(value: float) -> float:
+    """A number that a double holds; inf beyond, where balls give the largest double instead."""
+    return float(value) if value < np.finfo(np.float64).max else float("inf")
 
 
 def is_real_ball(value: Any) -> bool:

@@ -8,6 +8,8 @@ from itertools import pairwise
 from math import cos, hypot, radians, sin
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from graphkin.curves.style import FAINT
 
 if TYPE_CHECKING:
@@ -62,15 +64,17 @@ def name_points(
         corners = [tuple(ax.transData.transform(corner)) for corner in line]
         full += [around(x, y, AIR * dot) for x, y in along(corners, AIR * dot)]
     room = ax.get_window_extent()
+    taken = np.array(full).reshape(-1, 4)
     written: list[Box] = []
     for name, spot in zip(names, spots, strict=True):
         width, height = size_of(figure, name)
         candidates = [
-            (overlap(box, [*full, *written]) + 3 * outside(box, room), order, shift, box)
+            (overlap(box, taken) + 3 * outside(box, room), order, shift, box)
             for order, (shift, box) in enumerate(places(spot, width, height, dot))
         ]
         _, _, shift, box = min(candidates, key=lambda each: each[:2])
         written.append(box)
+        taken = np.vstack([taken, box])
         put(ax, name, shift)
     return written
 
@@ -139,13 +143,13 @@ def around(x: float, y: float, half: float) -> Box:
     return x - half, y - half, x + half, y + half
 
 
-def overlap(box: Box, others: Sequence[Box]) -> float:
-    """The area that a box shares with others."""
-    return sum(
-        max(0.0, min(box[2], other[2]) - max(box[0], other[0]))
-        * max(0.0, min(box[3], other[3]) - max(box[1], other[1]))
-        for other in others
-    )
+def overlap(box: Box, others: Any) -> float:
+    """The area that a box shares with others (N, 4), summed one after the other."""
+    others = np.asarray(others, dtype=np.float64).reshape(-1, 4)
+    wide = np.minimum(box[2], others[:, 2]) - np.maximum(box[0], others[:, 0])
+    high = np.minimum(box[3], others[:, 3]) - np.maximum(box[1], others[:, 1])
+    both = (wide > 0) & (high > 0)
+    return float(sum((wide[both] * high[both]).tolist()))
 
 
 def outside(box: Box, room: Any) -> float:

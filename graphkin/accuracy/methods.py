@@ -25,8 +25,6 @@ DIGITS = (15, 30, 60, 120)
 BITS = (53, 106, 212, 400)
 FEW = 1_000
 """Variants of a batch with a group of higher class, each of which is a search."""
-TIMED = 8
-"""Positions of decimals and balls that are timed, 2 where each is a search."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,18 +58,21 @@ class Method:
 
 def own_methods(reference: Reference, effort: Effort) -> Iterator[Method]:
     """Every kind of number on the same program, one position after the other or in batches."""
-    yield one_by_one(reference, FLOAT, "float64", "float64, one by one", "one by one")
+    yield one_by_one(reference, effort, FLOAT, "float64", "float64, one by one", "one by one")
     yield from batches(reference, effort)
     for digits in DIGITS:
         name = f"mpmath, {digits} digits"
-        yield one_by_one(reference, decimal_kind(digits), "mpmath", name, f"{digits} digits")
+        yield one_by_one(
+            reference, effort, decimal_kind(digits), "mpmath", name, f"{digits} digits"
+        )
     for bits in BITS:
         kind, name = ball_kind(bits), f"Arb, {bits} bits"
-        yield one_by_one(reference, kind, "Arb", name, f"{bits} bits", certified=True)
+        yield one_by_one(reference, effort, kind, "Arb", name, f"{bits} bits", certified=True)
 
 
 def one_by_one(
     reference: Reference,
+    effort: Effort,
     kind: Kind,
     family: str,
     name: str,
@@ -82,7 +83,7 @@ def one_by_one(
     """A method that takes one position after the other."""
     found = found_singly(reference, kind)
     missed = radii_in(found, reference) if certified else reference.missed(found)
-    some = afforded(reference, kind)
+    some = afforded(reference, kind, effort)
 
     def work() -> None:
         for number in some:
@@ -92,13 +93,16 @@ def one_by_one(
     return Method(row, work, len(some))
 
 
-def afforded(reference: Reference, kind: Kind) -> Sequence[int]:
-    """The positions that are timed: all, or evenly spread ones where each takes long."""
+def afforded(reference: Reference, kind: Kind, effort: Effort) -> Sequence[int]:
+    """The positions that are timed: all, or evenly spread ones where each takes long.
+
+    Of decimals and balls as many as the effort says, a quarter of them where each is a search.
+    """
     count = len(reference.places.at)
     if any(isinstance(b, Closure) for b in reference.places.course.branches.values()):
-        count = count if kind is FLOAT else min(count, TIMED // 4)
+        count = count if kind is FLOAT else min(count, max(1, effort.timed // 4))
     elif kind is not FLOAT:
-        count = min(count, TIMED)
+        count = min(count, effort.timed)
     return [n * len(reference.places.at) // count for n in range(count)]
 
 

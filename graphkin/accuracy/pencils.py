@@ -21,8 +21,6 @@ PENCILS = (0.5, 0.25, 0.1)
 """Millimetres within which 95 of 100 marks lie."""
 FINE = 0.25
 """The pencil that is shown where a crossing grows flat."""
-DRAWN = 12
-"""Positions on the way to a dead point at which a drawing is foretold."""
 NEAREST = 1e-3
 """The distance of the last of them, in parts of that of the first."""
 
@@ -76,16 +74,16 @@ def worst_of(found: Forecast, answers: Answers) -> Reals:
 
 
 def pencilled(
-    ground: Ground, answers: Answers, scales: Scales, flattening: Flattening
+    ground: Ground, answers: Answers, scales: Scales, flattening: Flattening, drawn: int
 ) -> tuple[Reals, Reals]:
-    """Measures (G,) and errors (G, 3) of a fine pencil on the way to a dead point, as in flat.
+    """Measures (G,) and errors (G, 3) of a fine pencil at ``drawn`` places to a dead point.
 
     A measure is what the flattening is shown against, or the driver's position over a range.
 
     The plans are drawn as large as at the first position: as velocities grow so does kv. An error
     is inf from where more than one in twenty drawings do not close.
     """
-    way = approach(ground, DRAWN, 1, NEAREST)
+    way = approach(ground, drawn, 1, NEAREST)
     reference = reference_of(way.places, answers)
     units, course = units_of(reference.sizes), way.places.course
     first = reference.sizes[0, 1]

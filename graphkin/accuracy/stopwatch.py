@@ -18,6 +18,9 @@ FEWEST = 5
 class Effort:
     """How much is measured: positions compared, rounds of a time, variants of a batch.
 
+    ``timed`` are the positions at which decimals and balls are timed, ``drawn`` those on the way to
+    a dead point at which a drawing is foretold.
+
     ``least`` is the time in seconds that a round lasts at least, ``patience`` what all rounds of
     one method may take together; ``groups`` and ``each`` part the way to a dead point.
     """
@@ -29,6 +32,8 @@ class Effort:
     patience: float = 4.0
     groups: int = 24
     each: int = 8
+    timed: int = 8
+    drawn: int = 12
     compiled: bool = True
 
 
@@ -40,6 +45,8 @@ QUICK = Effort(
     patience=0.2,
     groups=14,
     each=4,
+    timed=1,
+    drawn=4,
     compiled=False,
 )
 """A few positions, hardly any timing: to try the command, and for its tests."""

@@ -81,7 +81,7 @@ def study(
     except GraphkinError:
         say("no way to a dead point")
     if flattening is not None and scales is not None:
-        pencil = pencilled(ground, answers, scales, flattening)
+        pencil = pencilled(ground, answers, scales, flattening, effort.drawn)
     say("cost by scope")
     costs = scopes(mechanism, reference, watch)
     return Study(

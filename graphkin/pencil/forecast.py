@@ -160,11 +160,14 @@ def expected(answer: Answer, found: Mapping[int, Any], owners: Any) -> Expected:
 
 
 def shares(owners: Any, variances: Any) -> Iterator[tuple[int, float]]:
-    """The share of each step in a variance."""
+    """The share of each step in a variance; the sources of a step stand side by side."""
+    import numpy as np
+
     whole = float(variances.sum())
     if isfinite(whole) and whole > 0:
-        for number in dict.fromkeys(owners.tolist()):
-            yield number, float(variances[owners == number].sum()) / whole
+        first = np.flatnonzero(np.diff(owners, prepend=-1))
+        parts = np.add.reduceat(variances, first) / whole
+        yield from zip(owners[first].tolist(), parts.tolist(), strict=True)
 
 
 def percentile(mean: Any, spread: Any) -> float:
