@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +25,8 @@ PROFILE = 5.0
 """How far a profile is drawn to each side of its contact, in such sizes."""
 WIDEST = np.pi / 3
 """The same as an angle about its centre, at most."""
+MOST_POINTS = 60
+"""Points of a mechanism beyond which a picture shows only the part that it is about."""
 FLAT = 1e-3
 """Height of a triangle, in its longest side, below which a plate is drawn as a bar."""
 
@@ -34,13 +36,14 @@ class Stand:
     """Where every point stands as the scene has it, in the unit of the picture, and at which row.
 
     ``factor`` turns metres into that unit; ``drawn`` tells whether the scene itself can be drawn:
-    else the first row of the cycle takes its place.
+    else the first row of the cycle takes its place. ``left_out`` says what is not drawn.
     """
 
     scene: Scene
     places: Mapping[str, complex]
     factor: float
     drawn: bool
+    left_out: str = ""
 
     def breadth(self) -> float:
         """The longer side of the box around the mechanism."""
@@ -60,6 +63,22 @@ def stand_of(cycle: Cycle, factor: float) -> Stand:
         every = cycle.solution.points.items()
         places = {n: complex(np.ravel(np.asarray(p.position))[0]) * factor for n, p in every}
     return Stand(cycle.scene, {n: z for n, z in places.items() if "@" not in n}, factor, drawn)
+
+
+def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Stand:
+    """Where the mechanism stands; of a very long one only the links that have one of the points."""
+    stand = stand_of(cycle, factor)
+    if len(stand.places) <= MOST_POINTS:
+        return stand
+    every = stand.scene.links
+    links = {name: link for name, link in every.items() if not set(points).isdisjoint(link.points)}
+    kept = {point for link in links.values() for point in link.points}
+    return replace(
+        stand,
+        scene=replace(stand.scene, links=links),
+        places={name: place for name, place in stand.places.items() if name in kept},
+        left_out=f"{len(links)} of {len(every)} links drawn",
+    )
 
 
 def draw(ax: Axes, stand: Stand, breadth: float) -> None:

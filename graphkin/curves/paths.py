@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.curves.mechanism import draw, stand_of
+from graphkin.curves.mechanism import Stand, draw, stand_about
 from graphkin.curves.sampled import Sampled, moving_points
 from graphkin.curves.style import COLOURS, FAINT, INK, colour, new_figure, some_of, titled
 from graphkin.motion.centrodes import Centrodes, centrodes, links_with_centrodes
@@ -52,8 +52,8 @@ def path_points(found: Sampled) -> list[str]:
 
 def paths(found: Sampled) -> Figure:
     """The path of every point of interest, the mechanism where the scene stands."""
-    stand = stand_of(found.cycle, found.per_length)
     names, more = some_of(path_points(found), MOST_PATHS, "points")
+    stand = stand_about(found.cycle, found.per_length, names)
     curves = {
         name: np.asarray(found.solution.points[name].position) * found.per_length for name in names
     }
@@ -66,7 +66,8 @@ def paths(found: Sampled) -> Figure:
         dots = dotted(found, curve)
         ax.plot(dots.real, dots.imag, "o", ms=2.6, color=colour(i), zorder=5.5)
     note = ", a dot every 30° of the driver" if found.cycle.sweep.what == "turn" else ""
-    below(ax, f"mechanism as the scene has it{note}" if stand.drawn else note.lstrip(", "))
+    note = f"mechanism as the scene has it{note}" if stand.drawn else note.lstrip(", ")
+    below(ax, note, stand)
     return figure
 
 
@@ -95,7 +96,7 @@ def centrode_links(found: Sampled) -> list[str]:
 
 def rolling(found: Sampled, link: str) -> Figure:
     """The fixed centrode of a link, and the moving one where the scene stands, touching it."""
-    stand = stand_of(found.cycle, found.per_length)
+    stand = stand_about(found.cycle, found.per_length, found.scene.links[link].points)
     both = centrodes(found.cycle, link)
     assert both is not None
     here = at_scene(found, link)
@@ -116,7 +117,8 @@ def rolling(found: Sampled, link: str) -> Figure:
         name = f"$I_{{{link}}}$" if link.isalnum() else "I"
         ax.plot([touch.real], [touch.imag], "o", ms=5, color=INK, zorder=9)
         ax.annotate(name, (touch.real, touch.imag), xytext=(7, 6), textcoords="offset points")
-    below(ax, "the moving centrode rolls on the fixed one; they touch in the instantaneous centre")
+    note = "the moving centrode rolls on the fixed one; they touch in the instantaneous centre"
+    below(ax, note, stand)
     return figure
 
 
@@ -162,8 +164,9 @@ def plane(found: Sampled, title: str, box: Box) -> tuple[Figure, Axes]:
     return figure, ax
 
 
-def below(ax: Axes, note: str) -> None:
-    """The legend above the picture, and a note below it."""
+def below(ax: Axes, note: str, stand: Stand) -> None:
+    """The legend above the picture, and below it a note and what of the mechanism is left out."""
+    note = "; ".join(filter(None, (note, stand.left_out)))
     handles, labels = ax.get_legend_handles_labels()
     figure = ax.get_figure(root=True)
     assert figure is not None

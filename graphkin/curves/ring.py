@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.curves.mechanism import Stand, circle, draw, stand_of
+from graphkin.curves.mechanism import Stand, circle, draw, stand_about
 from graphkin.curves.paths import Box, below, box_of, breadth_of, plane
 from graphkin.curves.sampled import Sampled
 from graphkin.curves.style import COLOURS, FAINT, WARNING
@@ -24,7 +24,7 @@ AREA = "#e3efe6"
 
 def reach(found: Sampled, loop: Loop) -> Figure:
     """The path of the driven pin against the ring or band that the rest of the loop can reach."""
-    stand = stand_of(found.cycle, found.per_length)
+    stand = stand_about(found.cycle, found.per_length, loop.pins)
     factor = found.per_length
     if isinstance(loop.reach, Ring):
         rim = loop.reach.centre + loop.reach.outer * np.array([1, 1j, -1, -1j])
@@ -40,7 +40,7 @@ def reach(found: Sampled, loop: Loop) -> Figure:
     draw(ax, stand, breadth_of(box))
     pin_path(ax, loop, stand, factor)
     dead_marks(ax, found, loop)
-    below(ax, reach_note(loop))
+    below(ax, reach_note(loop), stand)
     return figure
 
 
