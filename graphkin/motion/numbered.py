@@ -156,7 +156,8 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
     course = group.course
     whole = course.sweep.usual
     count = max(int(np.ceil(abs(stop - start) / whole * PLACES)), 2)
-    refuse_more(course, count)
+    if count > MOST:
+        raise too_many(course)
     grid = np.linspace(start, stop, count + 1)
     some = CHUNK if course.counting else len(grid)
     followed = following(course, start)
@@ -191,19 +192,15 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[Node], Stop]
             between = np.linspace(found[-1].at, target, PARTS + 1)[1:-1].tolist()
             known |= closures_at(group, between)
             ahead += between[::-1]
-    refuse_more(course, MOST + 1)
-    raise AssertionError
+    raise too_many(course)
 
 
-def refuse_more(course: Course, count: int) -> None:
-    """A motion is followed through so many places and no more; raises ClosureError."""
-    if count > MOST:
-        sweep = course.sweep
-        found = (
-            f"from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit} it has to be tried at more"
-        )
-        most = f"at most {MOST} positions of the driver"
-        raise ClosureError(Problem("the cycle", found, most, "show less with --from and --to"))
+def too_many(course: Course) -> ClosureError:
+    """What to raise where a motion would have to be followed through more places than allowed."""
+    sweep = course.sweep
+    found = f"from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit} it has to be tried at more"
+    most = f"at most {MOST} positions of the driver"
+    return ClosureError(Problem("the cycle", found, most, "show less with --from and --to"))
 
 
 def closures_at(group: Numbered, at: Sequence[float]) -> dict[float, Reals]:

@@ -25,40 +25,32 @@ def window(
     low: float | None,
     high: float | None,
 ) -> tuple[float, float, bool]:
-    """The window of the sweep, and whether it is one turn that closes on itself."""
+    """The window of the sweep, and whether it is one turn that closes on itself.
+
+    What is not bounded is filled in: a turn, the way of a slide, a time. Raises SceneError.
+    """
     for option, bound in (("--from", low), ("--to", high)):
         if bound is not None and not isfinite(bound):
             raise SceneError(Problem(option, f"{bound:g}", "a finite number"))
-    first, last, whole = unbounded(scene, what, number, start, low, high)
+    if what == "turn" and low is None and high is None:
+        return start, start + TURN, True
+    if what == "turn":
+        first = low if low is not None else (high or 0.0) - TURN
+        last = high if high is not None else first + TURN
+    elif what == "time":
+        first = 0.0 if low is None else low
+        last = high if high is not None else first + whole_turn(scene)
+    else:
+        back = ahead = reach_of(scene) * FREE
+        if what == "roll" and number is not None:
+            way = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or ahead
+            start, back, ahead = start - way / 2, 0.0, way
+        first = start - back if low is None else low
+        last = start + ahead if high is None else high
     if not first < last:
         found = f"{first:.10g} to {last:.10g} {UNITS[what]}"
         raise SceneError(Problem("--from, --to", found, "a window that grows"))
-    return first, last, whole
-
-
-def unbounded(
-    scene: Scene,
-    what: What,
-    number: int | None,
-    start: float,
-    low: float | None,
-    high: float | None,
-) -> tuple[float, float, bool]:
-    """The window with what is not bounded filled in: a turn, the way of a slide, a time."""
-    if what == "turn":
-        if low is None and high is None:
-            return start, start + TURN, True
-        first = low if low is not None else (high or 0.0) - TURN
-        return first, high if high is not None else first + TURN, False
-    if what == "time":
-        first = 0.0 if low is None else low
-        return first, high if high is not None else first + whole_turn(scene), False
-    room = reach_of(scene) * FREE
-    if what == "roll" and number is not None:
-        room = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or room
-        start -= room / 2
-        return start if low is None else low, start + room if high is None else high, False
-    return start - room if low is None else low, start + room if high is None else high, False
+    return first, last, False
 
 
 def usual(scene: Scene, what: What, number: int | None, low: float, high: float) -> float:
@@ -67,7 +59,7 @@ def usual(scene: Scene, what: What, number: int | None, low: float, high: float)
     A window on the time, where nothing says how long a scene is shown, is its own.
     """
     try:
-        first, last, _ = unbounded(scene, what, number, 0.0, None, None)
+        first, last, _ = window(scene, what, number, 0.0, None, None)
     except SceneError:
         return max(high, 0.0) - min(low, 0.0)
     return last - first
