@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from graphkin.curves.files import picture_files
+from graphkin.curves.mechanism import stand_about
 from graphkin.curves.over import pictures
 from graphkin.curves.sampled import sampled
 from graphkin.curves.style import look
@@ -222,3 +223,15 @@ def test_a_picture_of_many_links_shows_some_and_says_of_how_many():
                 figure.get_suptitle()
             )
             assert min(ax.get_position().height for ax in figure.axes) > 0.08
+
+
+def test_of_a_very_long_mechanism_a_picture_shows_the_links_that_it_is_about(tmp_path):
+    path = tmp_path / "chain.toml"
+    path.write_text(chain(40), encoding="utf-8")
+    found = cycle(load(str(path)), steps=8)
+    stand = stand_about(found, 1.0, ["B0"])
+    assert set(stand.scene.links) == {"crank", "rod1"}
+    assert set(stand.places) == {"O0", "B0", "B1"}
+    assert stand.left_out == "2 of 81 links drawn"
+    short = cycle(load("pump"), steps=8)
+    assert stand_about(short, 1.0, ["B"]).left_out == ""

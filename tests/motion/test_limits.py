@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from graphkin.mechanism import load
-from graphkin.motion import cycle
-from graphkin.motion.limits import followers
+from graphkin.motion import cycle, limits
+from graphkin.motion.limits import followers, movers_of
 from graphkin.motion.loop import class_of, loop_of
+from graphkin.motion.refine import crossings_of_nought
+from tests.bench.chain import scene as chain
 from tests.motion.linkages import four_bar, slider_crank
 
 EXACT = 1e-9
@@ -124,3 +126,28 @@ def test_the_band_of_a_slider_crank_and_its_range_agree(r, c, d):
     assert loop is not None
     assert loop.lengths == pytest.approx({"crank": r, "rod": c, "offset": abs(d)})
     assert loop.turns == found.path.whole == (r + abs(d) <= c)
+
+
+def test_followers_found_together_are_those_found_alone(tmp_path, monkeypatch):
+    path = tmp_path / "chain.toml"
+    path.write_text(chain(4), encoding="utf-8")
+    found = cycle(load(str(path)))
+    together = followers(found)
+    assert len(together) == 4
+    every = list(movers_of(found))
+    for mover, of in zip(every, together, strict=True):
+        monkeypatch.setattr(limits, "movers_of", lambda _, mover=mover: [mover])
+        assert followers(found) == (of,)
+
+
+@pytest.mark.parametrize("enough", [0.0, 1e-6])
+def test_a_crossing_does_not_depend_on_the_brackets_beside_it(enough):
+    def value(u):
+        return np.cos(u)
+
+    lows, highs = np.array([1.0, 4.0, -100.0]), np.array([2.0, 5.0, -98.0])
+    together = crossings_of_nought(value, lows, highs, enough)
+    alone = [
+        crossings_of_nought(value, lows[k : k + 1], highs[k : k + 1], enough)[0] for k in range(3)
+    ]
+    assert together.tolist() == alone
