@@ -118,7 +118,7 @@ class Reference:
 
     def relative(self, missed: Reals) -> tuple[float, float, float]:
         """The largest error of each quantity over all positions and its scale; inf for failures."""
-        worst = np.nan_to_num((missed / self.scales).max(axis=0), nan=np.inf)
+        worst = np.nan_to_num((missed / self.scales).max(axis=0), nan=np.inf, posinf=np.inf)
         return float(worst[0]), float(worst[1]), float(worst[2])
 
 
@@ -197,12 +197,7 @@ def radius(value: Any) -> float:
     if not value.is_finite():
         return float("inf")
     parts = (value,) if is_real_ball(value) else (value.real, value.imag)
-    return in_doubles(np.hypot.reduce([float(part.rad()) for part in parts]))
-
-
-def in_doubles(value: float) -> float:
-    """A number that a double holds; inf beyond, where balls give the largest double instead."""
-    return float(value) if value < np.finfo(np.float64).max else float("inf")
+    return float(np.hypot.reduce([float(part.rad()) for part in parts]))
 
 
 def is_real_ball(value: Any) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import log10
+from math import isfinite, log10
 from typing import TYPE_CHECKING, Any
 
 from graphkin.accuracy.answers import QUANTITIES
@@ -23,8 +23,6 @@ A4 = (11.2, 7.4)
 HOUR = 3600.0
 BY_HAND = (HOUR / 3, 3 * HOUR)
 """The time in which a person draws one position: an estimate, not measured."""
-MOST = 1e6
-"""An error, in parts of the largest value, from which on a method is in the table alone."""
 LEAST = 1e-21
 """The smallest error of the enlarged part."""
 FAMILIES = {
@@ -92,9 +90,9 @@ def shown_quantity(rows: Sequence[Row]) -> int:
 
 
 def spot_of(row: Row, which: int) -> Spot | None:
-    """Where a method stands; None where it gives no error, one that leaves nothing, or no time."""
+    """Where a method stands; None where it gives no error, none that is finite, or no time."""
     error = row.errors[which]
-    if error is None or not 0 < error < MOST:
+    if error is None or not isfinite(error) or error <= 0:
         return None
     if row.family == "pencil":
         return Spot(row, HOUR, *BY_HAND, error)

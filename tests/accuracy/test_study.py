@@ -316,3 +316,10 @@ def test_the_machine_is_named_even_where_the_system_tells_little(tmp_path):
     assert machine.processor(listing) == "Some CPU @ 3 GHz"
     assert machine.processor(tmp_path / "none")
     assert machine.version_of("no-such-library") == ""
+
+
+def test_an_error_without_bound_fails_and_is_no_number():
+    """Balls that grow without bound are no error of 1.8e308."""
+    reference = found("pump").reference
+    missed = np.array([[np.inf, np.nan, 0.0]] * len(reference.places.at))
+    assert reference.relative(missed) == (np.inf, np.inf, 0.0)
