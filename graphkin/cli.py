@@ -173,15 +173,15 @@ def solve(
       graphkin solve mine.toml --json > mine.json
     """
     from graphkin.report.record import record
-    from graphkin.report.sure import sure_of
     from graphkin.steps.gather import gathered
+    from graphkin.witness import sure_of
 
     mechanism = mechanism_of(name, settings)
     targets = mechanism.asked() if asked else None
     trace, drawable = traced(mechanism, targets, digits)
     solution = gathered(trace)
     verdict = verdict_on(mechanism, solution)
-    solution = sure_of(solution, verdict)
+    solution = sure_of(solution, dict.fromkeys(verdict.unsure, True)) if verdict else solution
     drawn = drawable and not (asked and pencil is None and not as_json)
     drawn_at = scales_of(mechanism) if drawn else None
     found = record(mechanism.scene, solution, verdict, drawn_at, asked=asked)

@@ -90,15 +90,18 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
     if not verdict.agrees:
         raise WitnessError(disagreements(mechanism.scene, verdict))
     if verdict.unsure:
-        raise WitnessError(
-            Problem(
-                verdict.unsure[0],
-                "no digit of it is sure: flat crossings enlarge the rounding of doubles beyond it",
-                "crossings that are less flat, one after the other",
-                "move the driver; no sheet is handed out",
-            )
-        )
+        raise WitnessError(lost(verdict))
     return verdict
+
+
+def lost(verdict: Verdict) -> Problem:
+    """The problem of quantities of which no digit is sure, told of the first."""
+    return Problem(
+        verdict.unsure[0],
+        "no digit of it is sure: flat crossings enlarge the rounding of doubles beyond it",
+        "crossings that are less flat, one after the other",
+        "move the driver; no sheet is handed out",
+    )
 
 
 def disagreements(scene: Scene, verdict: Verdict) -> Iterator[Problem]:

@@ -183,8 +183,8 @@ def stacked(
         bounds = span_of(found.at, [values for _, values, _, _ in curves])
         if bounds is not None:
             ax.set_ylim(*bounds)
-        flat = max(np.ptp(values[np.isfinite(values)]) for _, values, _, _ in curves)
-        if flat < 1e-9 * max(np.nanmax(np.abs(values)) for _, values, _, _ in curves):
+        known = [sure for _, values, _, _ in curves if (sure := values[np.isfinite(values)]).size]
+        if known and max(map(np.ptp, known)) < 1e-9 * max(abs(sure).max() for sure in known):
             ax.margins(y=0.5)
         ax.axhline(0, color=FAINT, linewidth=0.6, zorder=1)
         ax.set_ylabel(unit)

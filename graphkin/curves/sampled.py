@@ -37,8 +37,8 @@ class Sampled:
 
     @property
     def solution(self) -> Solution:
-        """The motion in every row."""
-        return self.cycle.solution
+        """The motion in every row, as far as digits are sure."""
+        return self.cycle.sure
 
     @property
     def scene(self) -> Scene:

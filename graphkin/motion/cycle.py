@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,7 @@ from graphkin.motion.pieces import Path, Piece, followed
 from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.plane import Ratio
 from graphkin.scene.model import Branch, Scene
-from graphkin.steps.gather import gathered
+from graphkin.steps.gather import gathered, row_of, rows_of
 from graphkin.steps.program import Target
 from graphkin.steps.run import Trace
 from graphkin.steps.solution import Solution
@@ -39,12 +39,14 @@ FULL = 10_000_000
 class Witnessed:
     """What the independent route says of every row: its difference (N,), and whether it agrees.
 
-    ``refused`` says why it could not judge.
+    ``refused`` says why it could not judge; ``unsure`` are the quantities of which no digit is
+    sure in some rows, and those rows (N,).
     """
 
     difference: Reals
     agrees: Flags
     refused: str = ""
+    unsure: Mapping[str, Flags] = field(default_factory=dict)
 
     @property
     def largest(self) -> float:
@@ -98,6 +100,13 @@ class Cycle:
     def witnessed(self) -> Witnessed:
         """Every row held against the vector loops."""
         return witnessed(self)
+
+    @cached_property
+    def sure(self) -> Solution:
+        """The motion of every row, with NaN for each quantity of which no digit is sure there."""
+        from graphkin.witness import sure_of
+
+        return sure_of(self.solution, self.witnessed.unsure)
 
     def along(self, at: Sequence[float] | Reals, *, geometric: bool = False) -> Cycle:
         """The same cycle at other places u, those that have no motion left out.
@@ -216,7 +225,7 @@ def filled(
     for value in found.columns.values():
         moves &= np.ones(len(at), bool) if isinstance(value, Ratio) else np.isfinite(value)
     program = path.ranges[0][0].course.program
-    values = {program.targets[t]: kept(v, moves) for t, v in found.columns.items()}
+    values = {program.targets[t]: row_of(v, moves) for t, v in found.columns.items()}
     motion = gathered(Trace(program, values, {}), mechanism.scene.links)
     margins = {name: row[moves] for name, row in found.margins.items()}
     smallest = np.min([np.ones(moves.sum()), *margins.values()], axis=0)
@@ -303,44 +312,25 @@ def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
     return whole
 
 
-def kept(value: Any, rows: Flags) -> Any:
-    """Some rows of an array, or of each part of a ratio."""
-    return Ratio(*(part[rows] for part in value)) if isinstance(value, Ratio) else value[rows]
-
-
 def witnessed(found: Cycle) -> Witnessed:
     """Each piece held against the vector loops with its own closures."""
-    from graphkin.witness import compare_batch
+    from graphkin.witness import examine
 
     count = len(found.at)
     difference, agrees = np.full(count, np.nan), np.zeros(count, dtype=bool)
+    unsure: dict[str, Flags] = {}
     for number, piece in enumerate(found.pieces, 1):
         rows = found.piece == number
         if not rows.any():
             continue
         course = piece.course
         try:
-            worst, fine = compare_batch(
+            examined = examine(
                 course.scene, rows_of(found.solution, rows), course.values(found.at[rows])
             )
         except GraphkinError as error:
             return Witnessed(difference, agrees, str(error))
-        difference[rows], agrees[rows] = worst, fine
-    return Witnessed(difference, agrees)
-
-
-def rows_of(solution: Solution, rows: Flags) -> Solution:
-    """Some rows of a solution of arrays."""
-    from dataclasses import fields, replace
-
-    def cut(record: Any) -> Any:
-        found = {f.name: getattr(record, f.name) for f in fields(record)}
-        some = {name: kept(v, rows) for name, v in found.items() if v is not None}
-        return replace(record, **some)
-
-    return Solution(
-        {name: cut(point) for name, point in solution.points.items()},
-        {name: cut(link) for name, link in solution.links.items()},
-        {name: cut(slide) for name, slide in solution.slides.items()},
-        np.asarray(solution.margin)[rows],
-    )
+        difference[rows], agrees[rows] = examined.worst, examined.agrees
+        for name, lost in examined.unsure.items():
+            unsure.setdefault(name, np.zeros(count, dtype=bool))[rows] = lost
+    return Witnessed(difference, agrees, unsure=unsure)

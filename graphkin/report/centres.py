@@ -10,10 +10,9 @@ from typing import Any
 
 from graphkin.arithmetic import at
 from graphkin.plane import Ratio
-from graphkin.report.sure import UNKNOWN
 from graphkin.report.table import NOISE, Cell, number, table
 from graphkin.scene.model import FRAME, Scene
-from graphkin.steps.solution import LinkMotion, PointMotion, Solution
+from graphkin.steps.solution import UNKNOWN, LinkMotion, PointMotion, Solution
 from graphkin.structure.graph import guides_under
 
 FAR = 1e9

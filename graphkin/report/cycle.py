@@ -54,6 +54,7 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
     yield from labelled("witness", [witness_words(cycle)])
+    yield from labelled("digits", list(digits_words(cycle)))
 
 
 def of_kind(cycle: Cycle, kind: str) -> Iterable[Singular]:
@@ -264,6 +265,17 @@ def witness_words(cycle: Cycle) -> str:
         others = len(cycle.at) - count
         return f"agrees, but for {others} rows beside singular places: {largest}"
     return f"DOES NOT AGREE in {len(cycle.at) - count} rows: {largest}"
+
+
+def digits_words(cycle: Cycle) -> Iterator[str]:
+    """Of which quantities no digit is sure, and in how many rows."""
+    import numpy as np
+
+    unsure = cycle.witnessed.unsure
+    if unsure:
+        rows = int(np.logical_or.reduce([*unsure.values()]).sum())
+        where = f"in {rows} row{'s' * (rows > 1)}, whose cells are empty"
+        yield f"none is sure of {listed(unsure, SHOWN)} {where}"
 
 
 def agrees(cycle: Cycle) -> bool:

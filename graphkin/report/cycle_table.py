@@ -20,7 +20,8 @@ SLIDE = (("position", "s", "m"), ("speed", "v", "m/s"), ("acceleration", "a", "m
 def cycle_table(cycle: Cycle) -> str:
     """The whole table as CSV: heads with their units, '.' decimals, full precision.
 
-    A cell is empty where there is no value: an instantaneous centre at infinity.
+    A cell is empty where there is no value, an instantaneous centre at infinity, and where no digit
+    of the value is sure.
     """
     columns = list(columns_of(cycle))
     out = io.StringIO()
@@ -60,7 +61,7 @@ def columns_of(cycle: Cycle) -> Iterator[Column]:
 
 def of_points(cycle: Cycle) -> Iterator[Column]:
     """Position, velocity and acceleration of every moving point, by components."""
-    for name, motion in cycle.solution.points.items():
+    for name, motion in cycle.sure.points.items():
         if name in cycle.scene.frame.points:
             continue
         for quantity, letter, unit in POINT:
@@ -72,7 +73,7 @@ def of_points(cycle: Cycle) -> Iterator[Column]:
 
 def of_links(cycle: Cycle) -> Iterator[Column]:
     """Angular velocity and acceleration and the instantaneous centre of every link."""
-    for name, motion in cycle.solution.links.items():
+    for name, motion in cycle.sure.links.items():
         if motion.omega is not None:
             yield f"omega_{name} [rad/s]", motion.omega
         if motion.epsilon is not None:
@@ -89,7 +90,7 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
 
 def of_slides(cycle: Cycle) -> Iterator[Column]:
     """Coordinate, speed and acceleration of every block along its guide, and Coriolis vector."""
-    for name, motion in cycle.solution.slides.items():
+    for name, motion in cycle.sure.slides.items():
         for quantity, letter, unit in SLIDE:
             value = getattr(motion, quantity)
             if value is not None:

@@ -2,39 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from math import isnan, nan
-from typing import Any
+from math import isnan
 
-from graphkin.plane import Ratio
 from graphkin.report.table import listed
-from graphkin.steps.solution import LinkMotion, Solution, Verdict
+from graphkin.steps.solution import LinkMotion, Verdict
 
-UNKNOWN = complex(nan, nan)
 KINDS = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
-
-
-def sure_of(solution: Solution, verdict: Verdict | None) -> Solution:
-    """The solution with NaN for every quantity of which no digit is sure."""
-    parts: dict[str, dict[str, Any]] = {}
-    for path in verdict.unsure if verdict is not None else ():
-        part, name, *key = path.split(".")
-        motions = parts.setdefault(part, dict(getattr(solution, part)))
-        found = getattr(motions[name], key[0]) if key else motions[name]
-        motions[name] = replace(motions[name], **{key[0]: lost(found)}) if key else lost(found)
-    return replace(solution, **parts)
 
 
 def is_unsure(link: LinkMotion) -> bool:
     """Whether no digit is sure of how a link turns."""
     return any(value is not None and isnan(value) for value in (link.omega, link.epsilon))
-
-
-def lost(value: Any) -> Any:
-    """What stands for a value of which no digit is sure."""
-    if isinstance(value, Ratio):
-        return Ratio(UNKNOWN, UNKNOWN, UNKNOWN)
-    return UNKNOWN if isinstance(value, complex) else nan
 
 
 def digits_words(verdict: Verdict) -> str:

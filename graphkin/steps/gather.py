@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 from graphkin.arithmetic import Real, least
@@ -17,6 +17,8 @@ TOUCHING = 8
 POINT = ("position", "velocity", "acceleration")
 LINK = ("omega", "epsilon", "centre", "pole", "inflection")
 SLIDE = ("slide", "slide speed", "slide acceleration", "coriolis")
+ALL = -1
+"""Where a merged trace has the product of its sines, beside the smallest of them."""
 
 
 def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
@@ -52,10 +54,12 @@ def of_kind(trace: Trace, quantities: tuple[str, ...]) -> Iterable[tuple[str, li
 
 
 def merged(trace: Trace) -> Trace:
-    """The same trace with the smallest of its margins alone, under one of their steps."""
-    steps = trace.program.steps
-    counted = [n for n in trace.margins if not steps[n].hand and steps[n].part is not Part.SHAPE]
-    return replace(trace, margins={counted[0]: smallest_margin(trace)} if counted else {})
+    """The same trace with the smallest of its margins alone, and with the product of its sines."""
+    crossings = counted(trace)
+    if not crossings:
+        return replace(trace, margins={})
+    margins = {next(iter(crossings)): smallest_margin(trace), ALL: product_of_sines(trace)}
+    return replace(trace, margins=margins)
 
 
 def decided(trace: Trace) -> Trace:
@@ -92,8 +96,46 @@ def smallest_margin(trace: Trace) -> Real:
     The flat triangles of plates do not count: their points follow by similarity.
     """
     smallest: Real = 1.0
-    for number, margin in trace.margins.items():
-        step = trace.program.steps[number]
-        if not step.hand and step.part is not Part.SHAPE:
-            smallest = least(smallest, margin)
+    for margin in counted(trace).values():
+        smallest = least(smallest, margin)
     return smallest
+
+
+def product_of_sines(trace: Trace) -> Real:
+    """The product of the sines at all crossings of the mechanism, each of which multiplies errors;
+    NaN where one of a batch cannot be drawn."""
+    product: Real = trace.margins.get(ALL, 1.0)
+    for number, margin in counted(trace).items():
+        if ALL not in trace.margins and trace.program.steps[number].part is Part.POSITION:
+            product = product * margin
+    return product
+
+
+def counted(trace: Trace) -> dict[int, Real]:
+    """The margins of crossings that place or move something, by their steps."""
+    steps = trace.program.steps
+    return {
+        number: margin
+        for number, margin in trace.margins.items()
+        if number != ALL and not steps[number].hand and steps[number].part is not Part.SHAPE
+    }
+
+
+def rows_of(solution: Solution, rows: Any) -> Solution:
+    """Some rows of a solution of arrays; what all variants share stays."""
+
+    def cut(record: Any) -> Any:
+        found = {f.name: getattr(record, f.name) for f in fields(record)}
+        return replace(record, **{name: row_of(v, rows) for name, v in found.items()})
+
+    parts = ("points", "links", "slides")
+    motions = {p: {n: cut(each) for n, each in getattr(solution, p).items()} for p in parts}
+    centres = {name: row_of(ratio, rows) for name, ratio in solution.centres.items()}
+    return Solution(**motions, margin=row_of(solution.margin, rows), centres=centres)
+
+
+def row_of(value: Any, rows: Any) -> Any:
+    """Some rows of an array, or of each part of a ratio; what is no array stays."""
+    if isinstance(value, Ratio):
+        return Ratio(*(row_of(part, rows) for part in value))
+    return value[rows] if hasattr(value, "shape") and value.shape else value

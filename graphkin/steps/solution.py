@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import inf
+from math import inf, nan
 
 from graphkin.arithmetic import Point, Real
 from graphkin.plane import Ratio
 
 FAIR = 1e-4
 """Sine of the flattest crossing at which an answer is still fair and a sheet handed out."""
+UNKNOWN = complex(nan, nan)
+"""What stands for a vector of which no digit is sure; NaN for a number."""
 
 
 @dataclass(frozen=True, slots=True)

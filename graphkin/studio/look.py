@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from graphkin.errors import GraphkinError, Problem, SceneError
-from graphkin.handout import drawings_of, language_of
+from graphkin.handout import drawings_of, language_of, lost
 from graphkin.mechanism import Mechanism
 from graphkin.scaling import shown
 from graphkin.scene.model import Scene
@@ -18,6 +18,7 @@ from graphkin.studio.places import Mark, marked
 from graphkin.studio.sliders import sliders
 from graphkin.studio.tables import margins, results, verdict_words
 from graphkin.text import Words, words
+from graphkin.witness import sure_of
 
 SETTING = "setting "
 """What begins the place of a problem of a parameter that is set from outside."""
@@ -101,7 +102,7 @@ def drawn(
         "kinds": [drawing.kind for drawing in drawings],
         "panels": [{"name": p.name, "caption": p.caption, "svg": p.svg} for p in pictures],
         "style": style(pictures),
-        "results": results(drawings, solution),
+        "results": results(drawings, sure_of(solution, dict.fromkeys(verdict.unsure, True))),
         "margins": margins(drawings),
         "verdict": {
             "agrees": verdict.agrees,
@@ -112,11 +113,12 @@ def drawn(
 
 def doubts(margin: float, verdict: Verdict) -> list[Problem]:
     """Why no sheet would be handed out of a drawing that can be shown all the same."""
+    found = [lost(verdict)] if verdict.unsure else []
     if margin >= FAIR:
-        return []
-    found = f"the flattest crossing has a sine of {margin:.1e}"
+        return found
+    flattest = f"the flattest crossing has a sine of {margin:.1e}"
     hint = "the position is nearly singular: choose another driver angle"
-    return [Problem("position", found, f"at least {FAIR:g}", hint)]
+    return [Problem("position", flattest, f"at least {FAIR:g}", hint), *found]
 
 
 def told(mark: Mark) -> dict[str, Any]:

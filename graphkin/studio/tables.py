@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from cmath import isnan
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from html import escape
 from itertools import chain
 from math import degrees
+from typing import Any
 
 from graphkin.paper.columns import Row
 from graphkin.paper.drawing import METRES, Drawing
@@ -39,23 +42,58 @@ WHERE = {
 
 def results(drawings: Sequence[Drawing], solution: Solution) -> str:
     """What is read off the plans, the angular values, what slides, centres and poles."""
-    parts = [part for drawing in drawings for part in read_off(drawing)]
+    parts = [part for drawing in drawings for part in read_off(drawing, solution)]
     return "".join([*parts, *places(drawings[0].scene, solution, drawings[0].words)])
 
 
-def read_off(drawing: Drawing) -> Iterator[str]:
-    """The tables of one sheet."""
+def read_off(drawing: Drawing, solution: Solution) -> Iterator[str]:
+    """The tables of one sheet; a value of which no digit is sure is left out."""
     words = drawing.words
+    lost = losses(drawing, solution)
     unit = words(f"table.{drawing.kind}")
     spin = words(f"table.{'omega' if drawing.kind == 'velocity' else 'epsilon'}")
     first, sense = words("table.symbol"), words("table.sense")
     caption = words(f"sheet.{drawing.kind}")
     vectors = (first, words("table.segment"), words("table.millimetres"), unit)
-    yield table(caption, vectors, vector_rows(drawing, empty=False))
+    yield table(caption, vectors, told(vector_rows(drawing, empty=False), lost, 2))
     turning = words("studio.turning_of", plan=caption)
-    yield table(turning, (first, spin, sense), turning_rows(drawing, empty=False))
+    yield table(turning, (first, spin, sense), told(turning_rows(drawing, empty=False), lost, 1))
     sliding = words("studio.sliding_of", plan=caption)
-    yield table(sliding, (first, unit, sense), slide_rows(drawing, empty=False))
+    yield table(sliding, (first, unit, sense), told(slide_rows(drawing, empty=False), lost, 1))
+
+
+def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
+    """Of which rows of a sheet's tables no digit is sure: NaN in the solution.
+
+    Vectors that the solution does not hold, such as those of one point relative to another, are as
+    sure as all that it holds.
+    """
+    velocity = drawing.kind == "velocity"
+    letter, angular = ("v", "ω") if velocity else ("a", "ε")
+    known: dict[str, Any] = {
+        f"{letter}_{name}": point.velocity if velocity else point.acceleration
+        for name, point in solution.points.items()
+    }
+    known |= {
+        f"{angular}{name}": link.omega if velocity else link.epsilon
+        for name, link in solution.links.items()
+    }
+    known |= {
+        f"slide {name}": slide.speed if velocity else slide.acceleration
+        for name, slide in solution.slides.items()
+    }
+    sure = {name: not isnan(value) for name, value in known.items() if value is not None}
+    return lambda name: not sure.get(name, all(sure.values()))
+
+
+def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[Row]:
+    """Rows with a dash for each value that is lost, after so many cells that name it."""
+    return [
+        replace(row, cells=(*row.cells[:heads], *["–"] * (len(row.cells) - heads)))
+        if lost(row.name)
+        else row
+        for row in rows
+    ]
 
 
 def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
@@ -69,7 +107,9 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
     for name, ratio in asked:
         at = place_of(ratio, breadth)
         cells = (words("calculation.at_infinity"), "")
-        if at is not None:
+        if at is not None and isnan(at):
+            cells = ("–", "–")
+        elif at is not None:
             metre = METRES[unit]
             cells = (words.significant(at.real / metre, 5), words.significant(at.imag / metre, 5))
         elif ratio is None or ratio.shift == 0:

@@ -7,6 +7,7 @@ of a quantity that is nought everywhere is not taken for a difference.
 """
 
 from graphkin.witness.alone import by_loops
-from graphkin.witness.examine import compare, compare_batch, examine
+from graphkin.witness.examine import compare, examine
+from graphkin.witness.sure import sure_of
 
-__all__ = ["by_loops", "compare", "compare_batch", "examine"]
+__all__ = ["by_loops", "compare", "examine", "sure_of"]

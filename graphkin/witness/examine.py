@@ -48,20 +48,8 @@ def compare(scene: Scene, solution: Solution, values: Mapping[str, Any] | None =
         branches=broken,
         guessed=examined.guessed,
         digits=digits_of(examined.differences),
-        unsure=tuple(n for n, each in examined.differences.items() if not each.judged[0]),
+        unsure=tuple(examined.unsure),
     )
-
-
-def compare_batch(
-    scene: Scene, solution: Solution, values: Mapping[str, Any]
-) -> tuple[Reals, Flags]:
-    """Largest difference of each of N settings, and whether it and the branches agree: (N,), (N,).
-
-    A setting that either route could not solve has NaN and does not agree. A quantity of which no
-    digit is sure is not judged.
-    """
-    examined = examine(scene, solution, values)
-    return examined.worst, examined.agrees
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,8 +62,14 @@ class Examined:
     guessed: tuple[str, ...] = ()
 
     @property
+    def unsure(self) -> dict[str, Flags]:
+        """The quantities of which no digit is sure in some setting, and in which: (N,) each."""
+        lost = {name: ~each.judged for name, each in self.differences.items()}
+        return {name: rows for name, rows in lost.items() if rows.any()}
+
+    @property
     def worst(self) -> Reals:
-        """The largest difference of each setting; NaN where any is unknown."""
+        """The largest difference of each setting in what is sure; NaN where any is unknown."""
         worst = np.where(self.solved.report.good, 0.0, np.nan)
         for each in self.differences.values():
             worst = np.maximum(worst, np.where(each.judged, each.found, 0.0))

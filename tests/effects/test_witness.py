@@ -12,7 +12,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
 from graphkin.steps.gather import gathered
 from graphkin.steps.solution import PointMotion, Solution
-from graphkin.witness import compare_batch, examine
+from graphkin.witness import examine
 from tests.effects.scope import FILES, asking, shipped, velocities
 
 EVERY = pytest.mark.parametrize("name", FILES)
@@ -89,6 +89,7 @@ def test_a_part_is_judged_in_a_batch_too():
     alone = asking("pump", Ask(omega=("3",)))
     n = np.linspace(1, 30, 5)
     solution = alone.batch(asked=True, n=n)
-    worst, agrees = compare_batch(alone.scene, solution, {"n": n})
+    found = examine(alone.scene, solution, {"n": n})
+    worst, agrees = found.worst, found.agrees
     assert agrees.all()
     assert (worst < 1e-9).all()

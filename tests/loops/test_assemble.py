@@ -14,7 +14,7 @@ from graphkin.freedom import true_mobility
 from graphkin.loops.assemble import assemble
 from graphkin.scene.model import Closure
 from graphkin.steps.solution import PointMotion, Solution
-from graphkin.witness import by_loops, compare, compare_batch
+from graphkin.witness import by_loops, compare, examine
 
 FOUR_BAR = """
 [frame]
@@ -76,7 +76,8 @@ def test_a_batch_is_assembled_setting_by_setting(sheet):
     for i, each in enumerate(n):
         one = by_loops(sheet("pump", n=each))
         assert batch.points["D"].velocity[i] == pytest.approx(one.points["D"].velocity)
-    differences, agrees = compare_batch(scene, batch, {"n": n})
+    found = examine(scene, batch, {"n": n})
+    differences, agrees = found.worst, found.agrees
     assert agrees.all()
     assert differences.max() < 1e-12
 
@@ -287,7 +288,7 @@ def test_a_batch_without_positions_is_assembled_too(read):
     q = {"q": np.array([10.0, 75.0, 200.0])}
     whole = by_loops(scene, q)
     bare = Solution({}, {name: whole.links[name] for name in "23"})
-    assert compare_batch(scene, bare, q)[1].all()
+    assert examine(scene, bare, q).agrees.all()
 
 
 RAPID_RETURN = """
@@ -322,9 +323,9 @@ def test_the_number_of_a_closure_is_held_in_a_batch(read):
     scene = read(RAPID_RETURN)
     q = {"q": np.linspace(30, 40, 5)}
     solution = by_loops(scene, q)
-    assert compare_batch(scene, solution, q)[1].all()
+    assert examine(scene, solution, q).agrees.all()
     other = replace(scene, branches={"2": Closure(2)})
-    assert not compare_batch(other, solution, q)[1].any()
+    assert not examine(other, solution, q).agrees.any()
     angles = [
         np.angle(
             by_loops(replace(scene, branches={"2": Closure(n)})).points["Q"].position

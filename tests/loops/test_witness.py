@@ -10,7 +10,7 @@ import pytest
 from graphkin.errors import StructureError, WitnessError
 from graphkin.plane import Ratio
 from graphkin.steps.solution import PointMotion, Solution
-from graphkin.witness import by_loops, compare, compare_batch
+from graphkin.witness import by_loops, compare, examine
 
 
 @pytest.fixture
@@ -190,14 +190,16 @@ def test_batch(sheet, solved, written, pump_start):
     scene = sheet("pump")
     n = np.linspace(1, 30, 59)
     solution = written(solved(scene, {"n": n}, **pump_start))
-    differences, agrees = compare_batch(scene, solution, {"n": n})
+    found = examine(scene, solution, {"n": n})
+    differences, agrees = found.worst, found.agrees
     assert differences.shape == agrees.shape == (59,)
     assert agrees.all()
     assert differences.max() < 1e-13
     velocity = solution.points["D"].velocity.copy()
     velocity[3] *= 1 + 1e-6
     velocity[5] = np.nan
-    differences, agrees = compare_batch(scene, moved(solution, "D", velocity=velocity), {"n": n})
+    found = examine(scene, moved(solution, "D", velocity=velocity), {"n": n})
+    differences, agrees = found.worst, found.agrees
     assert np.flatnonzero(~agrees).tolist() == [3, 5]
     assert np.isnan(differences).nonzero()[0].tolist() == [5]
 
