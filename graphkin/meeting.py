@@ -15,8 +15,11 @@ from math import isqrt
 from typing import Any
 
 from graphkin.exact import RATIONAL, Exact, IrrationalError
+from graphkin.kinds import ball_kind
 from graphkin.plane import Circle, Line
+from graphkin.scene.model import Scene
 from graphkin.steps.program import Program
+from graphkin.steps.run import StepFailed, evaluate
 from graphkin.steps.trial import needed_of
 from graphkin.steps.trying import Closer
 
@@ -26,6 +29,8 @@ Loci = tuple[Locus, Locus]
 EPS = 2.0**-52
 ROUNDING = 16 * EPS
 """Share of their size within which two loci found in floats may cross or not."""
+BITS = (128, 512, 2048)
+"""Bits of the balls that decide one after the other whether loci meet."""
 
 
 # --- the decision --------------------------------------------------------------------------------
@@ -87,18 +92,21 @@ def length(square: Fraction) -> Fraction:
 class Meeting:
     """By how much two loci miss each other (m), negative where they cross.
 
-    ``exactly`` tells that it is so for the numbers that the scene states; else it is so for the
-    loci found in floats, whose largest length is ``size``.
+    ``exactly`` tells that it is so for the rational numbers that the scene states, ``proved`` that
+    it is so for what follows from them, by balls; else it is so for the loci found in floats, by
+    which it is ``rounded`` and whose largest length is ``size``.
     """
 
     missed: float
     size: float
     exactly: bool
+    proved: bool
+    rounded: float
 
     @property
     def slack(self) -> float:
         """How far rounding may have moved the loci (m)."""
-        return 0.0 if self.exactly else ROUNDING * self.size
+        return 0.0 if self.proved else ROUNDING * self.size
 
     @property
     def apart(self) -> bool:
@@ -106,16 +114,26 @@ class Meeting:
         return self.missed > self.slack
 
     @property
+    def lost(self) -> bool:
+        """They cross, and farther than their own rounding explains floats miss each other."""
+        return self.proved and self.missed < 0 and self.rounded > ROUNDING * self.size
+
+    @property
     def barely(self) -> bool:
         """They cross, if at all, by less than rounding, as the scene states it."""
         return self.exactly and self.missed > -EPS * self.size
 
 
-def meeting(program: Program, number: int, values: Mapping[str, Any], loci: Loci) -> Meeting:
-    """Whether the loci of a step meet, by the scene's own numbers where these are rational."""
-    stated = stated_loci(program, number, values)
-    found = stated or (rounded(loci[0]), rounded(loci[1]))
-    return Meeting(clearance(*found), size_of(loci), stated is not None)
+def meeting(scene: Scene, program: Program, number: int, loci: Loci) -> Meeting:
+    """Whether the loci of a step meet, by the scene's own numbers: as fractions where these are
+    rational, else in balls of more and more bits."""
+    stated = stated_loci(program, number, scene.values)
+    found = clearance(rounded(loci[0]), rounded(loci[1]))
+    if stated is not None:
+        return Meeting(clearance(*stated), size_of(loci), True, True, found)
+    proved = proved_clearance(scene, program, number)
+    missed = found if proved is None else proved
+    return Meeting(missed, size_of(loci), False, proved is not None, found)
 
 
 def loci_of(args: Sequence[Any]) -> Loci | None:
@@ -152,6 +170,43 @@ def stated_loci(program: Program, number: int, values: Mapping[str, Any]) -> Loc
     except (IrrationalError, ZeroDivisionError, OverflowError):
         return None
     return loci_of([found[arg] for arg in step.args])
+
+
+def proved_clearance(scene: Scene, program: Program, number: int) -> float | None:
+    """By how much the loci of a step miss each other (m), of a sign that balls prove; None where
+    they do not, as at a touch, and behind a group of higher class."""
+    step = program.steps[number]
+    needed = needed_of(program, step.args)
+    if any(isinstance(getattr(program.steps[n].action, "value", None), Closer) for n in needed):
+        return None
+    for bits in BITS:
+        kind = ball_kind(bits)
+        with kind.working():
+            values, found = scene.values_in(kind), dict[int, Any]()
+            try:
+                for earlier in needed:
+                    args = program.steps[earlier], earlier, found, values, kind
+                    found[earlier] = evaluate(*args, {})
+            except StepFailed:
+                continue
+            loci = loci_of([found[arg] for arg in step.args])
+            assert loci is not None
+            gap = gap_of(*loci)
+            if gap > 0 or gap < 0:
+                return float(gap)
+    return None
+
+
+def gap_of(first: Locus, second: Locus) -> Any:
+    """By how much two loci of balls miss each other, negative where they cross."""
+    if isinstance(first, Circle) and isinstance(second, Circle):
+        apart = abs(second.centre - first.centre)
+        within = abs(first.radius - second.radius) - apart
+        return (apart - first.radius - second.radius).max(within)
+    line, circle = (first, second) if isinstance(first, Line) else (second, first)
+    assert isinstance(line, Line) and isinstance(circle, Circle)
+    area = (line.along.conjugate() * (circle.centre - line.point)).imag
+    return abs(area) / abs(line.along) - circle.radius
 
 
 def exact_value(

@@ -53,7 +53,7 @@ def does_not_close(
             if found.apart:
                 return ClosureError(missed(scene, program, number, found))
     if early and loci is not None:
-        found = meeting(program, failed.number, scene.values, loci)
+        found = meeting(scene, program, failed.number, loci)
         return ClosureError(missed(scene, program, failed.number, found))
     reason = why(scene, program, failed)
     hint = where_it_closes(scene) if early else DEAD
@@ -62,12 +62,28 @@ def does_not_close(
 
 def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
     """The problem of two loci that miss each other, or touch and do not cross."""
+    if found.lost:
+        return lost(scene, program, number, found)
     hint = DEAD
     if found.apart:
         known = closings(scene)
         alone = found.missed < TOUCH * found.size and not any(each.ranges for each in known)
         hint = ALONE if alone else closes_where(scene, known)
     return not_found(program, number, why_not(scene, program, number, found), hint)
+
+
+def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
+    """The problem of two loci that cross, but not where rounding has moved them to."""
+    step = program.steps[number]
+    loci = "the arcs" if "q" in step.says else "the arc and the guide"
+    depth, moved = -found.missed, found.rounded - found.missed
+    return Problem(
+        f"position of {step.name}",
+        f"{step.name} cannot be found in doubles: {loci} cross, by {measured(scene, depth)}, "
+        f"but the crossings before enlarge rounding to {measured(scene, moved)}",
+        "crossings that are less flat, one after the other",
+        "solve --digits finds it",
+    )
 
 
 def not_found(program: Program, number: int, reason: str, hint: str) -> Problem:
@@ -208,7 +224,7 @@ def doubtful(
         if step.action.margin is None or (loci := loci_of([values[a] for a in step.args])) is None:
             continue
         if step.action.margin(*loci, 1) < FLAT:
-            yield number, meeting(program, number, scene.values, loci)
+            yield number, meeting(scene, program, number, loci)
 
 
 def refuse_touching(scene: Scene, trace: Trace) -> None:
@@ -222,7 +238,7 @@ def refuse_touching(scene: Scene, trace: Trace) -> None:
     if moving:
         refuse_blind(scene, trace)
     for number, found in doubtful(scene, program, trace.values):
-        if found.exactly and (found.apart or (moving and found.barely)):
+        if (found.proved and found.apart) or (moving and found.barely):
             raise ClosureError(missed(scene, program, number, found))
 
 

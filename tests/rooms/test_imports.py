@@ -43,7 +43,7 @@ TABLE: dict[str, set[str]] = {
     "ranges": {"scene", "motion"},
     "exact": set(),
     "formal": {"exact"},
-    "meeting": {"steps", "exact"},
+    "meeting": {"scene", "steps", "exact"},
     "alignment": {"scene", "steps", "ranges"},
     "reach": {"scene", "steps", "ranges", "meeting", "alignment"},
     "mechanism": {"scene", "structure", "steps", "plans", "witness", "reach", "labs", "notebook"},
