@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -71,7 +72,15 @@ SHOWN = 10
     "released",
     metavar="ID",
     multiple=True,
-    help="A student whose mark is given although the lab holds it (hold = true); repeatable.",
+    help="A student whose mark is given although the lab holds it (hold = true), now and whenever"
+    " this report is marked again; repeatable.",
+)
+@click.option(
+    "--hold",
+    "held",
+    metavar="ID",
+    multiple=True,
+    help="A student who was released, and is held again; repeatable.",
 )
 @click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
 @click.pass_context
@@ -86,6 +95,7 @@ def grade(
     column: str | None,
     jobs: int | None,
     released: tuple[str, ...],
+    held: tuple[str, ...],
     force: bool,
 ) -> None:
     """Mark the answers of a class.
@@ -106,7 +116,8 @@ def grade(
     student, a report on the class, and fills in gradebooks.
 
     Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
-    another's get no mark until you decide: mark again with --force and --release ID.
+    another's get no mark until you decide: mark again with --force and --release ID. The report
+    keeps whom you released, for every later marking, until --hold ID.
 
     \b
     Examples:
@@ -114,6 +125,7 @@ def grade(
       graphkin grade class answers.xlsx -o report --gradebook moodle.csv --column "Lab 3"
       graphkin grade class answers.csv -o report --force
       graphkin grade class answers.csv -o report --force --release 0042 --release 0057
+      graphkin grade class answers.csv -o report --force --hold 0057
 
     \b
     Exit status: 0; 1 when some cells cannot be read; 2 when nothing was marked.
@@ -121,6 +133,7 @@ def grade(
     from graphkin.grading.answers import read_answers
     from graphkin.grading.book import graded_class
     from graphkin.grading.folder import open_class
+    from graphkin.grading.releases import releases
     from graphkin.grading.report import result_lines
     from graphkin.paper.files import write_all
     from graphkin.text import words as words_in
@@ -130,21 +143,25 @@ def grade(
         raise click.UsageError("--gradebook: two files of the same name", context)
     opened = open_class(folder)
     ids = {taker.student.id: taker.code for taker in opened.takers}
-    unknown = [who for who in released if who not in ids]
-    if unknown:
-        names = ", ".join(unknown)
-        raise click.UsageError(f"--release: {names} is no student of this class", context)
+    refuse_strangers(context, "--release", released, ids)
+    refuse_strangers(context, "--hold", held, ids)
+    if both := ", ".join(who for who in released if who in held):
+        raise click.UsageError(f"--release, --hold: {both} cannot be both", context)
+    out = report or folder / "report"
+    free = releases(out, tuple(ids), released, held)
     codes = {code: who for who, code in ids.items()}
     given = read_answers(answers, opened.book.form, ids, codes)
     words = words_of(opened, lang)
     processes = jobs or usual_jobs(opened)
-    found = graded_class(opened.book, opened.takers, given.of, processes, released)
-    files = all_files(opened, found, given, words, kinds, report or folder / "report")
+    found = graded_class(opened.book, opened.takers, given.of, processes, free.ids)
+    files = all_files(opened, found, given, words, kinds, out) | free.files()
     spoken = words_in(TERMINAL)
     books = filled_books(gradebooks, column, found, spoken)
-    written = write_all(report or folder / "report", {**files, **books}, force)
+    written = write_all(out, {**files, **books}, force)
     for line in result_lines(found.result, spoken):
         say(line)
+    if free.ids and opened.book.lab.rubric.hold:
+        say(spoken("class.released", who=", ".join(free.ids)))
     changes(files, spoken)
     notes(opened, given, spoken)
     say("")
@@ -152,6 +169,14 @@ def grade(
         say(path)
     if given.unread:
         context.exit(FAILED)
+
+
+def refuse_strangers(
+    context: click.Context, option: str, named: tuple[str, ...], ids: Collection[str]
+) -> None:
+    """Raise UsageError for ids that are no student's."""
+    if unknown := ", ".join(who for who in named if who not in ids):
+        raise click.UsageError(f"{option}: {unknown} is no student of this class", context)
 
 
 def usual_jobs(opened: ClassFolder) -> int:

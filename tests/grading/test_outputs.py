@@ -389,7 +389,32 @@ def test_a_held_mark_goes_into_no_gradebook_until_it_is_released(folder):
     assert run(folder, "--release", "0003").exit_code == 2
     given_back = run(folder, *book, "--force", "--release", "0001")
     assert given_back.exit_code == 0, given_back.output
-    assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") != CANVAS
+    filled = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
+    assert filled != CANVAS
+    # the decision stands when the class is marked again, and is said; until it is taken back
+    for _ in range(2):
+        again = run(folder, *book, "--force")
+        assert again.exit_code == 0, again.output
+        assert "every later marking of this report: 0001" in again.output
+        assert "the mark of 0001 is held" not in again.output
+        assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == filled
+    for _ in range(2):
+        taken = run(folder, *book, "--force", "--hold", "0001")
+        assert "the mark of 0001 is held" in taken.output
+        assert "every later marking" not in taken.output
+        assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == CANVAS
+    assert "the mark of 0001 is held" in run(folder, *book, "--force").output
+
+
+def test_whom_to_release_is_said_clearly(folder):
+    assert run(folder).exit_code == 0
+    assert not (folder / "out" / "released.json").exists()
+    assert run(folder, "--force", "--hold", "0003").exit_code == 2
+    assert run(folder, "--force", "--hold", "0001", "--release", "0001").exit_code == 2
+    for text in ("{", '{"0001": 1}', "[1]", "[" * 100_000):
+        (folder / "out" / "released.json").write_text(text, encoding="utf-8")
+        refused = run(folder, "--force")
+        assert refused.exit_code == 2 or "is no list of ids" in str(refused.exception)
 
 
 def test_two_gradebooks_of_one_name_are_refused(folder):
