@@ -18,7 +18,7 @@ from graphkin.loops.bodies import Reals
 from graphkin.loops.equations import Equations
 from graphkin.loops.groups import Mask
 from graphkin.loops.motion import Motion
-from graphkin.loops.rounding import Rounding, rounding
+from graphkin.loops.rounding import Rounding, rounding, straight, whole_turns
 from graphkin.loops.start import start_values
 
 ITERATIONS = 60
@@ -33,6 +33,8 @@ LONGEST = 0.5
 """Longest step taken at once, in radians or the sizes of slides."""
 CLOSED = 1e-9
 """Closure error, in the sizes of the equations, at which a mechanism counts as closed."""
+ROUNDED = 4
+"""Roundings of an equation's terms by which it may be open."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -111,7 +113,8 @@ def closed_from(
     refuse_undriven(loops)
     with np.errstate(all="ignore"):
         found, iterations = newton(loops, start)
-        closed = largest(scaled(loops, found)[0]) < CLOSED
+        opened = np.abs(scaled(loops, found)[0])
+        closed = np.asarray((opened < open_at_most(loops, found)).all(axis=1))
         ratios = ratios_at(loops, found, accelerations=accelerations)
         rates = ratios.rates(loops.drives.speed)
         seconds = ratios.accelerations(loops.drives.speed, loops.drives.acceleration)
@@ -192,6 +195,18 @@ def linear_solve(matrix: Reals, right: Reals) -> Reals:
 def finite_rows(stack: Reals) -> Flags:
     """Where every number of a matrix of a stack is finite."""
     return np.asarray(np.isfinite(stack).all(axis=(1, 2)))
+
+
+def open_at_most(loops: Equations, unknowns: Reals) -> Reals:
+    """How far each equation of a closed mechanism may be open, in its own size: (N, e).
+
+    Angles of many turns, and ways of many lengths, leave those of wheels and drivers open by their
+    own rounding.
+    """
+    linear = ROUNDED * (straight(loops, unknowns) + whole_turns(loops))
+    shape = (len(unknowns), 2 * len(loops.closing))
+    opened = np.concatenate([np.zeros(shape), linear], axis=1) / loops.rows
+    return np.maximum(CLOSED, opened)
 
 
 def gap(loops: Equations, unknowns: Reals) -> Reals:
