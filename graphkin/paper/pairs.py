@@ -216,16 +216,15 @@ def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
 def closures(drawing: Drawing) -> Iterator[str]:
     """Which of the ways in which a group of higher class closes is meant."""
     scene, steps = drawing.scene, drawing.trace.program.steps
-    groups = [step.says["list"] for step in steps if step.action and step.action.key == "close"]
+    groups = [step.says for step in steps if step.action and step.action.key == "close"]
     for name, branch in scene.branches.items():
         if isinstance(branch, Closure):
-            links = next(links for links in groups if name in links.split(", "))
-            first = next(link for link in scene.links.values() if link.name in links.split(", "))
+            says = next(says for says in groups if name in says["list"].split(", "))
             yield drawing.words(
                 "page.closure",
-                list=escape(links),
+                list=escape(says["list"]),
                 number=str(branch.number),
-                axis=axis_of(drawing, first),
+                axis=axis_of(drawing, scene.link(says["a"])),
             )
 
 

@@ -49,12 +49,28 @@ def position(pen: Pen, shapes: Shapes, group: Higher, each: Each) -> None:
     number = closure_of(pen.scene, group)
     says: Says = {"k": group.trial.link, "n": str(number), "list": ", ".join(group.links)}
     says |= cut_at(group.last) | {"l": " ".join(traced_points(pen, group.last))}
+    says["a"] = counted_by(pen, group)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         closing = pen.draw(trying.action(number), *inputs, **says)
         tried = pen.draw(part, closing, extra=(0,), **says)
         for k, dyad in enumerate(choosing_dyads(group), 1):
             pen.chosen[dyad.links] = pen.draw(part, closing, extra=(k,))
     build(pen, shapes, group, each, tried)
+
+
+def counted_by(pen: Pen, group: Higher) -> str:
+    """The first written link whose angle differs between closures: known links do not hold it.
+
+    Slides hold the angle of one link to another, and so do drivers that turn them.
+    """
+    scene = pen.scene
+    joined = [{k.name, slide.on} for k in scene.links.values() for slide in k.slides]
+    joined += [{driver.link, driver.against} for driver in scene.drivers if driver.kind == "turn"]
+    held = {FRAME, *pen.bases} - set(group.links)
+    while more := {link for pair in joined if pair & held for link in pair} - held:
+        held |= more
+    written = [name for name in scene.links if name in group.links]
+    return next((name for name in written if name not in held), written[0])
 
 
 def cut_at(last: Tie | Driver) -> Says:

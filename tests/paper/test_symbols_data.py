@@ -5,12 +5,14 @@ from __future__ import annotations
 import pytest
 
 from graphkin.handout import drawings_of, language_of, proved
+from graphkin.mechanism import Mechanism
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.richtext import plain
 from graphkin.scaling import shown
+from graphkin.scene.read import read_text
 from graphkin.text import LANGUAGES, words
-from tests.paper.made_up import made_up
+from tests.paper.made_up import HEAD, made_up
 from tests.paper.sheet_tools import drawings, mechanism_named
 
 SCENES = {
@@ -161,6 +163,32 @@ def test_a_guide_at_a_distance_says_parallel_to_what():
 def test_a_closure_is_told_by_the_angle_that_it_is_counted_by():
     closes = "of the ways in which links 2, 3, 4, 5 close take number 2"
     assert f"{closes}, counted by the angle of PQ from 0° to 360°" in told("rapid-return")
+
+
+def test_a_closure_is_counted_by_a_link_that_no_driver_holds():
+    """The driven coupler is written first, yet its angle is the same in both closures."""
+    text = """
+[frame]
+A = [0, 0]
+D = [60, 5]
+[links.handle]
+B-C = 28
+[links.arm]
+A-B = 40
+[links.link]
+D-C = 35
+[[drivers]]
+turn = "handle"
+angle = 35
+speed = 2
+[branches]
+arm = "closure 1"
+"""
+    clamp = Mechanism(read_text(HEAD + text, "clamp", None, {}))
+    (drawing, *_) = drawings_of(clamp, proved(clamp, clamp.solve()), words("en"))
+    closes = "of the ways in which links arm, handle, link close take number 1"
+    found = [plain(piece) for piece in given(drawing)]
+    assert f"{closes}, counted by the angle of AB from 0° to 360°" in found
 
 
 def test_every_driver_has_its_position_speed_and_acceleration_with_units():
