@@ -90,13 +90,9 @@ def closes_where(scene: Scene, known: Sequence[Closing]) -> str:
 
 
 def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
-    """The ranges of one driver, counted from 1, in the scene's units; empty where there are none.
-
-    Ranges of angles are told in order of their first angle from -180 to 180 degrees.
-    """
+    """The ranges of one driver, counted from 1, in the scene's units; empty without any."""
     if scene.drivers[number - 1].kind == "turn":
-        turned = sorted((r[0] - 360, r[1] - 360) if r[1] > 360 else r for r in found)
-        words = [f"{low:.2f}° to {high:.2f}°" for low, high in turned]
+        words = [f"{low:.2f}° to {high:.2f}°" for low, high in found]
     else:
         words = [slid_words(scene, each, number) for each in found]
     more = f" and {len(words) - LISTED} more ranges" if len(words) > LISTED else ""
@@ -125,9 +121,12 @@ def closing(scene: Scene, number: int = 1) -> Closing:
     from graphkin.errors import GraphkinError
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
+    from graphkin.motion.pieces import wheels
 
     course = Course(swept(scene, number), scene.branches)
     try:
+        if course.sweep.whole and wheels(course) and not course.trials:
+            return Closing(ranges_followed(course))
         count = min(GRID, max(FEWEST, WORK // max(course.trials, 1)))
         found = ranges_of(course, count)
     except GraphkinError:
@@ -166,7 +165,20 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     at = refined(course, np.concatenate([grid[starts], grid[ends]]), steps)
     lows, highs = at[: len(starts)].tolist(), at[len(starts) :].tolist()
     pairs = zip(lows, highs, strict=True)
-    return sorted((low - (TURN if high < low else 0), high) for low, high in pairs)
+    begun = [(low - (TURN if high < low else 0), high) for low, high in pairs]
+    over = TURN if sweep.whole else float("inf")
+    return sorted((low - TURN, high - TURN) if high > over else (low, high) for low, high in begun)
+
+
+def ranges_followed(course: Course) -> list[Range]:
+    """The same of a driver after whose turn wheels stand otherwise: as far as the motion leads."""
+    from graphkin.motion.driving import TURN
+    from graphkin.motion.pieces import followed
+
+    path = followed(course.sweep)
+    if path.whole:
+        return [(0.0, TURN)]
+    return sorted((pieces[0].low.at, pieces[-1].high.at) for pieces in path.ranges)
 
 
 def swept(scene: Scene, number: int) -> Sweep:

@@ -191,7 +191,9 @@ def places(sweep: Sweep, path: Path, steps: int) -> Reals:
             return path.ranges[0][0].low.at + np.append(even, TURN)
         if path.whole:
             return even
-        every = np.concatenate([even - TURN, even, even + TURN])
+        ends = np.floor(np.array(spans(path)) / TURN)
+        turns = np.arange(ends.min(), ends.max() + 1) * TURN
+        every = np.concatenate([even + turn for turn in turns])
         parts = [every[(low <= every) & (every <= high)] for low, high in spans(path)]
         missing = even[~closing(even, np.concatenate(parts))]
         return np.concatenate([*parts, missing])

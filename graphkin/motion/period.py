@@ -2,18 +2,8 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from math import lcm, pi
-
-import numpy as np
-
-from graphkin.arithmetic import phase
-from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import BACK, Path, marched, misses
-
-MOST = 24
-"""Turns of the driver that are followed."""
+from graphkin.motion.pieces import BACK, Path, marched, misses, turns_back
 
 
 def strangers(path: Path) -> tuple[str, ...]:
@@ -33,27 +23,11 @@ def turns_to_return(path: Path) -> int | None:
         return 1
     pieces = path.ranges[0]
     first, start = pieces[0].course, pieces[0].low.at
-    count = lcm(*(gone(first, pieces[-1].course, link, start) for link in wheels(first)))
-    if not 1 < count <= MOST:
+    count = turns_back(pieces, start)
+    if count is None or count == 1:
         return None
     way = marched(first, start, start + count * TURN)
     if way[-1].high.kind != "window":
         return None
     missed = misses(way, start, start + count * TURN)
     return count if max(missed.values()) <= BACK else None
-
-
-def wheels(course: Course) -> list[str]:
-    """The links whose whole turns count."""
-    return [of for what, of in course.program.targets if what == "turned"]
-
-
-def gone(first: Course, last: Course, link: str, start: float) -> int:
-    """The least number of turns of the driver after which a link would stand as before."""
-    axes = [
-        course.columns(np.array([at]), [("axis", link)])["axis", link][0]
-        for course, at in ((first, start), (last, start + TURN))
-    ]
-    share = phase(complex(axes[1] / axes[0])) / (2 * pi)
-    near = Fraction(share).limit_denominator(MOST)
-    return near.denominator if abs(float(near) - share) < BACK else MOST + 1

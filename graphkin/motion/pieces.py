@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import floor, sqrt
+from fractions import Fraction
+from math import floor, lcm, pi, sqrt
 
 import numpy as np
 
+from graphkin.arithmetic import phase
 from graphkin.errors import ClosureError, Problem, SceneError
 from graphkin.motion.change import beyond
 from graphkin.motion.counted import led
@@ -35,6 +37,8 @@ BACK = 1e-6
 """Miss after a whole turn, in parts of the mechanism's size, with which it has come back."""
 MOST_PIECES = 400
 """Pieces into which change points may part a range."""
+MOST_TURNS = 24
+"""Turns of the driver, forth and back, through which a motion that wheels carry on is followed."""
 MOST_WAYS = 200
 """How many turns, or ways of a slide, a motion is followed from where the scene stands."""
 
@@ -218,22 +222,25 @@ def from_start(course: Course, start: float) -> tuple[Range, bool, bool]:
     """The range through one position: its pieces, whether it goes round, and then returns.
 
     Round about is told from 0 to 360 degrees, or from the last whole turn before a position that
-    does not come back.
+    does not come back. Where wheels stand otherwise after a turn, a dead point may lie turns away.
     """
     sweep = course.sweep
     if not sweep.whole:
         return both_ways(course, start, max(sweep.high, start), min(sweep.low, start)), False, False
+    far = MOST_TURNS * TURN if wheels(course) else TURN
     ahead = marched(course, start, start + TURN)
     if ahead[-1].high.kind == "window":
         if dict(ahead[-1].branches) != dict(course.branches):
             return ahead, True, False
         if repeats(ahead, start):
             return counted_from_nought(ahead, start), True, True
+        far = TURN * (turns_back(ahead, start) or MOST_TURNS)
+    if ahead[-1].high.kind == marched(course, start, start + far)[-1].high.kind == "window":
         last = TURN * floor(start / TURN)
         found = both_ways(course, start, last + TURN, last)
         goes_round = found[0].low.kind == found[-1].high.kind == "window"
         return (found if goes_round else ahead), True, False
-    found = both_ways(course, start, start + TURN, start - TURN)
+    found = both_ways(course, start, start + far, start - far)
     if found[0].low.at > TURN / 2 and not sweep.scene.near:  # easier to read as one about nought
         return from_start(course, start - TURN)
     return found, False, False
@@ -255,6 +262,32 @@ def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
 def repeats(pieces: Range, start: float) -> bool:
     """Whether every link stands after a whole turn as before it; wheels need not."""
     return max(misses(pieces, start, start + TURN).values()) <= BACK
+
+
+def wheels(course: Course) -> list[str]:
+    """The links whose whole turns count."""
+    return [of for what, of in course.program.targets if what == "turned"]
+
+
+def turns_back(pieces: Range, start: float) -> int | None:
+    """After how many turns of the driver wheels would stand as before, by their angles after one.
+
+    None for more than are followed.
+    """
+    first, last = pieces[0].course, pieces[-1].course
+    count = lcm(*(gone(first, last, link, start) for link in wheels(first)))
+    return count if count <= MOST_TURNS else None
+
+
+def gone(first: Course, last: Course, link: str, start: float) -> int:
+    """The least number of turns of the driver after which a link would stand as before."""
+    axes = [
+        course.columns(np.array([at]), [("axis", link)])["axis", link][0]
+        for course, at in ((first, start), (last, start + TURN))
+    ]
+    share = phase(complex(axes[1] / axes[0])) / (2 * pi)
+    near = Fraction(share).limit_denominator(MOST_TURNS)
+    return near.denominator if abs(float(near) - share) < BACK else MOST_TURNS + 1
 
 
 def misses(pieces: Range, start: float, stop: float) -> dict[Target, float]:

@@ -103,7 +103,8 @@ def range_words(cycle: Cycle) -> list[str]:
 
 def return_words(path: Path) -> Iterator[str]:
     """How the mechanism stands after a turn of the driver, unless it stands as before."""
-    from graphkin.motion.period import MOST, strangers, turns_to_return
+    from graphkin.motion.period import strangers, turns_to_return
+    from graphkin.motion.pieces import MOST_TURNS
 
     if path.returns:
         return
@@ -117,7 +118,7 @@ def return_words(path: Path) -> Iterator[str]:
     yield (
         f"after {turns} turns all stands as before"
         if turns
-        else f"nor does all stand as before within {MOST} turns"
+        else f"nor does all stand as before within {MOST_TURNS} turns"
     )
 
 

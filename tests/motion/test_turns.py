@@ -214,3 +214,51 @@ def test_turns_that_cannot_be_meant_are_refused_at_their_place(turns):
     with pytest.raises(GraphkinError, match=r"links\.4\.rolls\.turns") as caught:
         Mechanism(read_text(text, Path("planet.toml"))).solve()
     assert WRONG[turns] in str(caught.value)
+
+
+GEARED = """graphkin = 1
+title = "Geared five-bar"
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+module = 4
+[frame]
+O = [0, 0]
+Q = [120, 0]
+[links.1]
+O-A = 45
+wheel = {{ centre = "O", teeth = 20 }}
+[links.2]
+A-B = 110
+[links.3]
+C-B = 100
+[links.4]
+Q-C = 50
+wheel = {{ centre = "Q", teeth = 40 }}
+rolls = {{ on = 1, start = {{ 4 = {start} }} }}
+[[drivers]]
+turn = 1
+angle = 80
+speed = 12
+[branches]
+B = "left of A-C"
+"""
+
+
+@pytest.mark.parametrize("start", [60, 240])
+def test_a_geared_five_bar_moves_until_its_bars_are_in_line_though_that_be_turns_away(start):
+    """Its second crank turns half as fast, so that all stands as before after two turns."""
+    mechanism = Mechanism(read_text(GEARED.format(start=start), Path("geared.toml")))
+    found = cycle(mechanism, steps=360)
+
+    def apart(angle):
+        ends = 0.045 * np.exp(1j * np.radians(angle))
+        return abs(0.120 + 0.050 * np.exp(1j * np.radians(start - angle / 2)) - ends)
+
+    ((low, high),) = found.ranges
+    assert 360 < high - low < 720
+    assert np.allclose(apart(np.array([low, high])), 0.210, atol=1e-9)
+    assert (apart(np.linspace(low, high, 10001)[1:-1]) < 0.210).all()
+    assert not found.path.whole
+    assert np.allclose(closing(mechanism.scene).ranges, [(low, high)], atol=1e-5)
+    degrees = np.arange(np.ceil(low), high)
+    assert np.isin(degrees, np.round(found.at, 9)).all()
+    assert found.witnessed.agrees.all()
