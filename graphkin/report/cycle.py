@@ -12,6 +12,7 @@ from graphkin.report.table import labelled, listed
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
+    from graphkin.motion.ends import Event
     from graphkin.motion.events import Singular
     from graphkin.motion.limits import Follower, Limit
     from graphkin.motion.loop import Loop
@@ -92,13 +93,27 @@ def range_words(cycle: Cycle) -> list[str]:
     for pieces in cycle.path.ranges:
         low, high = pieces[0].low, pieces[-1].high
         ends = [at_words(sweep, end.at, name=False) for end in (low, high)]
-        free = [w for end, w in ((low, "below"), (high, "above")) if end.kind == "window"]
         line = f"{LETTER[sweep.what]} from {ends[0]} to {ends[1]}"
         line += f" ({short(high.at - low.at)}° in all)" if sweep.what == "turn" else ""
-        if sweep.what in ("slide", "roll") and free:
-            line += f"; nothing stops it {' and '.join(free)}"
+        if sweep.what in ("slide", "roll"):
+            line += beyond_words(sweep, low, high)
         lines.append(line)
     return lines
+
+
+def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
+    """What comes beyond the ends of a slide's or wheel's range that are no dead points.
+
+    Nothing stops it that has not stopped it where all lengths together no longer reach.
+    """
+    from graphkin.motion.driving import reach_of
+
+    open_ends = [(end, w) for end, w in ((low, "below"), (high, "above")) if end.kind == "window"]
+    enough = 2 * reach_of(sweep.original)
+    free = [w for end, w in open_ends if abs(end.at - sweep.start) >= enough]
+    more = [w for _, w in open_ends if w not in free]
+    words = f"; nothing stops it {' and '.join(free)}" if free else ""
+    return words + (f"; it goes on {' and '.join(more)}" if more else "")
 
 
 def return_words(path: Path) -> Iterator[str]:

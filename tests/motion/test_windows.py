@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from graphkin.errors import ClosureError, SceneError
-from graphkin.mechanism import load
+from graphkin.mechanism import Mechanism, load
 from graphkin.motion import cycle
 from graphkin.motion.course import Course
 from graphkin.motion.driving import GRID
 from graphkin.report.cycle import cycle_lines
 from graphkin.report.cycle_table import cycle_table
+from graphkin.scene.read import read_text
 from tests.motion.linkages import four_bar, slider_crank
 
 
@@ -106,3 +107,36 @@ def test_steps_that_all_miss_the_ranges_are_told():
     mechanism, dead = rocker()
     with pytest.raises(ClosureError, match=r"--steps: it closes .* where none of 1 steps falls"):
         cycle(mechanism, low=dead + 1, high=360 + dead + 1, steps=1)
+
+
+RANGES = {
+    "a slide in a window": ("slide = 1", {"low": 0.02, "high": 0.1}, "it goes on below and above"),
+    "a slide that a rod stops": ("slide = 1", {}, ""),
+    "a slide that nothing stops": ("free", {}, "nothing stops it below and above"),
+    "a wheel that a rod stops a turn away": ("roll = 1", {}, "it goes on below and above"),
+}
+
+
+@pytest.mark.parametrize("case", RANGES)
+def test_nothing_stops_only_what_no_length_can_stop(case):
+    """The rod of 150 mm on a bar of 150 mm stops a slide 300 mm from the pivot, a wheel also."""
+    kind, window, expected = RANGES[case]
+    moved = 'slides = { on = 0, through = "O", angle = 0 }'
+    if kind == "roll = 1":
+        moved = 'wheel = { centre = "A", radius = 5 }'
+        moved += "\nrolls = { on = 0, through = [0, -5], angle = 0 }"
+    text = f"[frame]\nO = [0, 0]\n[links.1]\nA = [0, 0]\n{moved}\n"
+    branches = ""
+    if kind != "free":
+        text += "[links.2]\nA-C = 150\n[links.3]\nO-C = 150\n"
+        branches = '[branches]\nC = "left of O-A"\n'
+    driver = "slide = 1" if kind == "free" else kind
+    text += f"[[drivers]]\n{driver}\nposition = 110\nspeed = 30\n{branches}"
+    units = 'units = { length = "mm", angle = "deg", speed = "rad/s" }'
+    scene = read_text(f'graphkin = 1\ntitle = "Range"\n{units}\n{text}', "range", None, {})
+    (line,) = [
+        line
+        for line in cycle_lines(cycle(Mechanism(scene), steps=60, **window))
+        if line.startswith("range")
+    ]
+    assert line.partition("; ")[2] == expected
