@@ -129,7 +129,7 @@ def places(
 ) -> Places:
     """Where the marks go. Raises GradebookError where that cannot be told."""
     where = id_column(book, {*marks, *ids})
-    target = mark_column(book, [each.text for each in book.rows[0]], column)
+    target = mark_column(book, [each.text for each in book.rows[0]], column, where)
     refuse_names(book, target, where)
     lines: dict[int, str] = {}
     met: set[str] = set()
@@ -154,7 +154,7 @@ def places(
 def refuse_names(book: Table, column: int, ids: int) -> None:
     """Raise GradebookError for a column that says who somebody is: no mark goes there."""
     head = book.rows[0][column].text
-    texts = [text_at(row, column) for row in book.rows[1:] if not is_possible(row)]
+    texts = [text_at(row, column) for row in of_students(book, ids)]
     filled_in = [text for text in texts if text not in EMPTY]
     words = [text for text in filled_in if not NUMERIC.match(text)]
     if column == ids or folded(head) in PERSONS or 2 * len(words) > max(len(filled_in), 1):
@@ -206,14 +206,14 @@ def id_column(book: Table, marks: Collection[str]) -> int:
     return best
 
 
-def mark_column(book: Table, head: Sequence[str], column: str | None) -> int:
+def mark_column(book: Table, head: Sequence[str], column: str | None, ids: int) -> int:
     """The column for the marks: the one that is named, else the only empty one but feedback."""
     if column is not None:
         found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
         found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
         found = [i for i in found if not is_comment(head[i])] or found
     else:
-        full = marked_columns(book)
+        full = marked_columns(book, ids)
         found = [
             i for i, name in enumerate(head) if name and i not in full and not is_comment(name)
         ]
@@ -231,10 +231,16 @@ def mark_column(book: Table, head: Sequence[str], column: str | None) -> int:
     return found[0]
 
 
-def marked_columns(book: Table) -> set[int]:
+def of_students(book: Table, ids: int) -> list[Sequence[Cell]]:
+    """The rows of students, who have something in the column of ids; not those of averages."""
+    return [row for row in book.rows[1:] if text_at(row, ids) and not is_possible(row)]
+
+
+def marked_columns(book: Table, ids: int) -> set[int]:
     """The columns in which some student has something."""
-    rows = (row for row in book.rows[1:] if not is_possible(row))
-    return {i for row in rows for i, each in enumerate(row) if each.text not in EMPTY}
+    return {
+        i for row in of_students(book, ids) for i, each in enumerate(row) if each.text not in EMPTY
+    }
 
 
 def is_comment(head: str) -> bool:

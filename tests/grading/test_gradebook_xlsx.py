@@ -241,6 +241,18 @@ def test_ids_that_a_format_shows_with_zeros_are_found(tmp_path):
     assert filled_gradebook(path, MARKS).count == 2
 
 
+@pytest.mark.parametrize("column", ["Lab 3", None])
+def test_an_average_below_the_students_is_no_mark_of_anybody(tmp_path, column):
+    rows = [
+        ("Nume", "Matricol", "Lab 3"),
+        ("Ana", "0001", None),
+        ("Ștefan", "0002", None),
+        ("Media", None, "=AVERAGE(C2:C3)"),
+    ]
+    found = cells(filled_gradebook(saved(tmp_path, rows), MARKS, column).data)
+    assert [found[place] for place in ("C2", "C3", "C4")] == [8.5, 12, "=AVERAGE(C2:C3)"]
+
+
 def test_a_class_of_whom_nobody_has_marks_yet_is_found_by_its_ids(tmp_path):
     path = saved(tmp_path, MOODLE)
     found = filled_gradebook(path, {}, None, ["0001", "0002"])
