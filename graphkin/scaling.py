@@ -12,12 +12,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice, takewhile
 
+from graphkin.construction.component import as_drawn, may_give_way
 from graphkin.errors import PageError, Problem, SceneError
 from graphkin.loci import curves_of
 from graphkin.mechanism import Mechanism
 from graphkin.paper.areas import HEIGHT, WIDTH
 from graphkin.paper.coarse import refuse_dots
-from graphkin.paper.coriolis import without_triangles
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.scale import (
     FINE,
@@ -100,21 +100,21 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
 def fitting(mechanism: Mechanism, curves: tuple[Curve, ...]) -> Scales:
     """Scale factors at which all fits, as the scene states them or as large as may be.
 
-    Where the triangles of Coriolis components leave no room for a larger mechanism, they give way.
+    Where triangles that may give way leave no room for a larger mechanism, they do.
     """
     ka = stated(mechanism, mechanism.scene.sheet.ka)
     if ka:
         chosen = scales_with(mechanism, curves, triangles=False)
         return with_ka(mechanism, curves, chosen, 1000 * ka)
     drawn = scales_with(mechanism, curves, triangles=True)
-    if "coriolis" not in {step.action.key for step in mechanism.program.steps if step.action}:
+    if not may_give_way(mechanism.program):
         return drawn
     computed = scales_with(mechanism, curves, triangles=False)
     return computed if computed.kL < drawn.kL else drawn
 
 
 def scales_with(mechanism: Mechanism, curves: tuple[Curve, ...], *, triangles: bool) -> Scales:
-    """The scale factors with Coriolis components drawn, or computed."""
+    """The scale factors with all triangles drawn, or without those that may give way."""
     wanted = stated(mechanism, mechanism.scene.sheet.scale)
     times = stated(mechanism, mechanism.scene.sheet.enlarge)
     crank, own = the_crank(mechanism), None
@@ -287,8 +287,6 @@ def drawing(
     curves: tuple[Curve, ...] = (),
 ) -> Drawing:
     """The material of one sheet: everything a hand draws for it."""
-    trace = mechanism.trace(targets, by_hand=True, seconds=scales.pace(kind))
-    trace = trace if scales.triangles else without_triangles(trace)
-    trace = without_triangles(trace, "normal") if scales.apart else trace
+    trace = as_drawn(mechanism.trace(targets, by_hand=True, seconds=scales.pace(kind)), scales)
     on_this = curves if kind == "velocity" else ()
     return Drawing(kind, mechanism.scene, trace, scales, verdict, spoken, curves=on_this)

@@ -1,6 +1,6 @@
 """Slips of the whole construction: it is run again with one step wrong, all else rightly drawn.
 
-So a Coriolis component that is turned round shows in every field that hangs on it, and only there.
+So a component that is turned round shows in every field that hangs on it, and only there.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from math import degrees
 from typing import Any
 
 from graphkin.arithmetic import turn_by
+from graphkin.construction.component import component_of
+from graphkin.construction.registry import COMPONENTS
 from graphkin.grading.slips import Slip, differs, unit_ratios
 from graphkin.grading.standard import Standard
 from graphkin.pencil.marks import Paper
@@ -114,15 +116,9 @@ def replaced(program: Program, steps: tuple[Any, ...]) -> Program:
 
 
 def of_components(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
-    """Coriolis or normal components left out, or laid off the wrong way round."""
-    values = standard.exact.trace.values
-    steps = standard.mechanism.program.steps
-    for kind in ("coriolis", "normal"):
-        found = [
-            n
-            for n in standard.needed
-            if steps[n].action is not None and getattr(steps[n].action, "key", "") == kind
-        ]
-        if found:
-            yield f"{kind}_missing", standard.told(dict.fromkeys(found, 0j))
-            yield f"{kind}_reversed", standard.told({n: -values[n] for n in found})
+    """Components left out, or laid off the wrong way round."""
+    values, program = standard.exact.trace.values, standard.mechanism.program
+    for kind in reversed(COMPONENTS):
+        found = [n for n in standard.needed if isinstance(component_of(program, n), kind)]
+        for name, times in kind.slips.items() if found else ():
+            yield name, standard.told({n: times * values[n] for n in found})

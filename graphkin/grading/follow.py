@@ -13,6 +13,7 @@ from itertools import chain
 from math import isnan
 from typing import Any
 
+from graphkin.construction.component import component_of
 from graphkin.grading.model import BLANK, Answer
 from graphkin.grading.numbers import rounding
 from graphkin.grading.probes import RATES
@@ -154,26 +155,20 @@ def by_drawing(
 
 
 def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping[int, Any]]:
-    """The construction run again from own lengths; and with the Coriolis components that are
-    computed from its velocities as they are measured, though these no longer lie along the guide.
+    """The construction run again from own lengths; and with the components that are computed from
+    its velocities as they are measured, though these no longer lie as they should.
     """
-    steps, values = standard.mechanism.program.steps, standard.exact.trace.values
+    values = standard.exact.trace.values
     found = standard.rerun(overrides)
     if not found:
         return
     yield found
     measured: dict[int, Any] = {}
     for number in standard.needed:
-        action = steps[number].action
-        if action is None or action.key != "coriolis" or number in overrides or not values[number]:
-            continue
-        rate, tail, tip = steps[number].args
-        times = (
-            found[rate]
-            / values[rate]
-            * abs((found[tip] - found[tail]) / (values[tip] - values[tail]))
-        )
-        measured[number] = times * values[number]
+        component = component_of(standard.mechanism.program, number)
+        if component is not None and number not in overrides:
+            vector = component.as_measured(found, values)
+            measured |= {} if vector is None else {number: vector}
     if any(abs(value - found[n]) > ALIKE * abs(value) for n, value in measured.items()):
         again = standard.rerun({**overrides, **measured})
         if again:
@@ -225,19 +220,17 @@ def put_in_place(standard: Standard, field: str, value: float) -> dict[int, Any]
 
 
 def components_with(standard: Standard, number: int, ratio: float) -> dict[int, Any]:
-    """The components that are computed with a rate or a speed so many times the right one: normal
-    ones as ω²·l, Coriolis components as 2·ω·v. Those that use its step follow by themselves.
+    """The components that are computed with a rate or a speed so many times the right one.
+
+    Those that use its step follow by themselves.
     """
-    steps, values = standard.mechanism.program.steps, standard.exact.trace.values
-    args = steps[number].args
+    program, values = standard.mechanism.program, standard.exact.trace.values
     found: dict[int, Any] = {}
     for other in standard.needed:
-        action = steps[other].action
-        key = action.key if action is not None else ""
-        if key == "normal" and steps[other].args == args:
-            found[other] = ratio * ratio * values[other]
-        elif key == "coriolis" and steps[other].args[1:] == args[1:]:
-            found[other] = ratio * values[other]
+        component = component_of(program, other)
+        power = component.power_of(program.steps[number].args) if component else 0
+        if power:
+            found[other] = ratio**power * values[other]
     return found
 
 

@@ -1,7 +1,7 @@
 """The relations of a form: what a student computes from own values, without the drawing.
 
-A value is the own segment times the scale, a rate the own relative vector over the bar, a normal
-component v²/l or ω²·l, the Coriolis component 2·ω·v; a block slides as fast as its relative vector
+A value is the own segment times the scale, a rate the own relative vector over the bar; components
+of accelerations follow as their constructions say; a block slides as fast as its relative vector
 says. What is computed is laid off as long as it came out.
 """
 
@@ -9,20 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from itertools import product
 from math import hypot, inf
 from typing import NamedTuple
 
+from graphkin.construction.component import Component, component_of
 from graphkin.grading.probes import Probe
 from graphkin.grading.standard import Standard
-from graphkin.steps.program import Plane, Step
+from graphkin.steps.program import Plane
 
 ROUNDED = 0.005
 """Share by which a value that is only computed may be rounded."""
 COARSE = 0.05
 """Numbers as they are written are rounded by no more than this share: two digits."""
-COMPONENTS = ("normal", "coriolis")
-"""Vectors that are computed before they are laid off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,11 +88,12 @@ def relations(standard: Standard, own: Values, probe: Probe) -> Iterator[Relatio
     """Each relation in which a field is what comes out."""
     step = standard.mechanism.program.steps[probe.step]
     if probe.vector:
-        component = component_of(standard, probe)
+        component = computed_first(standard, probe)
         if probe.item.what == "value":
             yield from (Relation((v,), v.size) for v in vectors(standard, own, *probe.steps))
         if component is not None:
-            yield from components(standard, own, component)
+            sizes = component.sizes(OwnLengths(standard, own))
+            yield from (Relation(*size) for size in sizes)
     elif len(step.args) == 4:
         yield from rates(standard, own, probe)
     elif probe.item.quantity == "slide speed":
@@ -128,34 +127,48 @@ def length(standard: Standard, p: int, q: int) -> float:
     return float(abs(values[q] - values[p]))
 
 
-def component_of(standard: Standard, probe: Probe) -> Step | None:
-    """The step that computes the vector of a field, which is then laid off; None for others."""
-    steps = standard.mechanism.program.steps
+def computed_first(standard: Standard, probe: Probe) -> Component | None:
+    """The component that is computed before the vector of a field is laid off; None for others."""
+    program = standard.mechanism.program
     for end in probe.steps:
-        start, *rest = steps[end].args or (end,)
+        start, *rest = program.steps[end].args or (end,)
         for arg in rest if start in probe.steps else ():
-            action = steps[arg].action
-            if action is not None and action.key in COMPONENTS:
-                return steps[arg]
+            component = component_of(program, arg)
+            if component is not None:
+                return component
     return None
 
 
-def components(standard: Standard, own: Values, step: Step) -> Iterator[Relation]:
-    """A normal component as v²/l or ω²·l, a Coriolis component as 2·ω·v."""
-    if len(step.args) == 4:
-        p, q, tail, tip = step.args
-        bar = length(standard, p, q)
-        for v in vectors(standard, own, tail, tip):
-            yield Relation((v, v), v.size**2 / bar, bar)
-        for field, omega in own.items():
-            probe = standard.by_field[field]
-            steps = standard.mechanism.program.steps
-            if probe.item.quantity == "omega" and steps[probe.step].args == step.args:
-                yield Relation((omega, omega), omega.size**2 * bar, bar)
-        return
-    rate, tail, tip = step.args
-    for omega, v in product(turnings(standard, own, rate), slidings(standard, own, tail, tip)):
-        yield Relation((omega, v), 2 * omega.size * v.size)
+@dataclass(frozen=True)
+class OwnLengths:
+    """What components are computed from: own sizes, or the key's where no field states them."""
+
+    standard: Standard
+    own: Values
+
+    def length(self, p: int, q: int) -> float:
+        """The length of a bar."""
+        return length(self.standard, p, q)
+
+    def vectors(self, tail: int, tip: int) -> Iterator[Own]:
+        """Own sizes of the vector between two images."""
+        return vectors(self.standard, self.own, tail, tip)
+
+    def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Own]:
+        """Own angular velocities that are read off the same places and images."""
+        steps = self.standard.mechanism.program.steps
+        for field, omega in self.own.items():
+            probe = self.standard.by_field[field]
+            if probe.item.quantity == "omega" and steps[probe.step].args == ends:
+                yield omega
+
+    def turnings(self, rate: int) -> Iterator[Own]:
+        """Own angular velocities by the step that finds them; then the key's."""
+        return turnings(self.standard, self.own, rate)
+
+    def slidings(self, tail: int, tip: int) -> Iterator[Own]:
+        """Own velocities along a guide; then the key's."""
+        return slidings(self.standard, self.own, tail, tip)
 
 
 def turnings(standard: Standard, own: Values, rate: int) -> Iterator[Own]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from graphkin.construction.component import component_of
+from graphkin.construction.normal_component import NormalComponent
 from graphkin.lab.extents import Sketch
 from graphkin.lab.items import ARROW, SLIDES, VECTORS, arrow_steps
 from graphkin.lab.model import Item
@@ -79,11 +81,12 @@ def triangle_ratios(sheet: Sketch) -> Iterator[tuple[str, Array]]:
     """v/l of each right triangle that is drawn for a normal component, at the sheet's scale."""
     program, values = sheet.trace.program, sheet.trace.values
     for number in values:
-        step = program.steps[number]
-        key = step.action.key if step.action else ""
-        if key == "normal" and not step.hand and step.by_hand in values:
-            p, q, tail, tip = (values[arg] for arg in step.args)
-            yield "v_" + step.says["v"], abs(tip - tail) * sheet.seconds / abs(q - p)
+        kind = component_of(program, number)
+        if not isinstance(kind, NormalComponent) or program.steps[number].hand:
+            continue
+        if kind.read in values:
+            p, q, tail, tip = (values[end] for end in kind.ends)
+            yield kind.speed, abs(tip - tail) * sheet.seconds / abs(q - p)
 
 
 def ray_angles(sheet: Sketch, form: Sequence[Item]) -> Iterator[tuple[str, Array]]:

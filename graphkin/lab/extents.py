@@ -11,8 +11,8 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.arithmetic import batch_kind
+from graphkin.construction.component import Drawn, as_drawn
 from graphkin.mechanism import Mechanism
-from graphkin.paper.coriolis import without_triangles
 from graphkin.plane import Circle, Line, Ratio, Vector
 from graphkin.scaling import targets_of
 from graphkin.steps.batch import run_batch
@@ -156,15 +156,14 @@ def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
 def drawn_steps(
     mechanism: Mechanism, targets: Sequence[Target], *, triangles: bool, apart: bool
 ) -> tuple[int, ...]:
-    """The steps of a sheet, with or without the triangles of Coriolis components.
+    """The steps of a sheet, with or without the triangles that may give way.
 
     ``apart``: ka is stated by itself, and no right triangle holds either.
     """
     program = mechanism.program
     needed = program.needed(targets, by_hand=True)
     trace = Trace(program, dict.fromkeys(needed), {})
-    trace = trace if triangles else without_triangles(trace)
-    return tuple((without_triangles(trace, "normal") if apart else trace).values)
+    return tuple(as_drawn(trace, Drawn(triangles, float(apart))).values)
 
 
 def sketches(

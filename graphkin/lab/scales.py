@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from graphkin.arithmetic import batch_kind
+from graphkin.construction.component import may_give_way
 from graphkin.errors import GraphkinError
 from graphkin.lab.extents import PLANES, Sketch, sketches
 from graphkin.loci import is_closer
@@ -27,9 +28,12 @@ Loader = Callable[[int], Mechanism]
 
 @dataclass
 class Scaling:
-    """kL and kL/kv of each variant, and whether Coriolis components are drawn; NaN where nothing
-    fits. ``apart`` is the root of kL/ka where a scene states ka, else 0; ``rates`` is what the hand
-    tries in trial plans, by the step. As paper.scale.Scales, an array for each."""
+    """kL and kL/kv of each variant, and whether triangles that may give way are drawn.
+
+    NaN where nothing fits. ``apart`` is the root of kL/ka where a scene states ka, else 0;
+    ``rates`` is what the hand tries in trial plans, by the step. As paper.scale.Scales, an array
+    for each.
+    """
 
     kL: Array  # noqa: N815
     seconds: Array
@@ -103,7 +107,7 @@ def by_arrays(mechanism: Mechanism) -> bool:
 def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
     """Scale what the crank scales; the result says of which variants.
 
-    Where the triangles of Coriolis components leave no room for a larger mechanism, they give way.
+    Where triangles that may give way leave no room for a larger mechanism, they do.
     """
     import numpy as np
 
@@ -114,7 +118,7 @@ def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
     part = taken(values, turning)
     kL, seconds, sure = crank_scales(mechanism, part, speed[turning], triangles=True)
     drawn = np.ones(len(turning), dtype=bool)
-    if "coriolis" in {step.action.key for step in mechanism.program.steps if step.action}:
+    if may_give_way(mechanism.program):
         less, less_seconds, less_sure = crank_scales(
             mechanism, part, speed[turning], triangles=False
         )

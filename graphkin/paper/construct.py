@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from graphkin.construction.kind import construction
+from graphkin.paper.canvas import draw_part
 from graphkin.paper.centre import (
     put_centre,
     put_circle_point,
@@ -12,26 +14,11 @@ from graphkin.paper.centre import (
     put_named_centre,
     put_ray,
 )
-from graphkin.paper.coriolis import (
-    put_base,
-    put_component,
-    put_lean,
-    put_lever_velocity,
-    put_square,
-)
 from graphkin.paper.desk import Desk
 from graphkin.paper.images import put_similar
-from graphkin.paper.letters import is_coriolis
 from graphkin.paper.plan import put_arc, put_arrow, put_driver_ray, put_line, put_point, put_pole
 from graphkin.paper.trial_gaps import put_gaps
 from graphkin.paper.trial_marks import put_divided, put_trial, put_trial_line, raise_trials
-from graphkin.paper.triangle import (
-    put_bar_line,
-    put_crossing,
-    put_triangle_edge,
-    put_triangle_velocity,
-    put_turned,
-)
 from graphkin.steps.program import Part, Plane, Step
 
 Put = Callable[[Desk, int, Step, Any], None]
@@ -54,36 +41,24 @@ def draw_plan_steps(desk: Desk) -> None:
 
 def put_step(desk: Desk, number: int, step: Step, value: Any) -> None:
     """Put down one step in the look of its action, if it has one."""
+    kind = construction(step)
+    if kind is not None and step.plane is Plane.MECHANISM:
+        draw_part(desk, number, step, kind)
+        return
     key = step.action.key if step.action else "given"
     plane = Plane.MECHANISM if step.plane is Plane.MECHANISM else Plane.NUMBERS
     put = PUTS.get((plane, key))
     if number in desk.drawing.tags and put is not put_similar:
         put = put_trial
-    elif plane is Plane.MECHANISM and step.part is Part.NORMAL and is_coriolis(step):
-        put = CORIOLIS.get(key)
     if put:
         put(desk, number, step, value)
 
 
-CORIOLIS: dict[str, Put] = {
-    "set-velocity": put_lever_velocity,
-    "coriolis-base": put_base,
-    "square-at": put_square,
-    "coriolis-ray": put_lean,
-    "meet": put_component,
-}
-"""The look of each action in the similar triangles of a Coriolis component."""
-
 PUTS: dict[
     tuple[Plane, str], Put
 ] = {  # the look of each action on the mechanism, and on a plan (NUMBERS)
-    (Plane.MECHANISM, "meet"): put_crossing,
     (Plane.MECHANISM, "compass"): put_arc,
     (Plane.MECHANISM, "ray"): put_driver_ray,
-    (Plane.MECHANISM, "set-velocity"): put_triangle_velocity,
-    (Plane.MECHANISM, "square-at"): put_triangle_edge,
-    (Plane.MECHANISM, "bar-line"): put_bar_line,
-    (Plane.MECHANISM, "turn-over"): put_turned,
     (Plane.MECHANISM, "set-on"): put_arrow,
     (Plane.MECHANISM, "set-on-twice"): put_arrow,
     (Plane.MECHANISM, "velocity-normal"): put_ray,

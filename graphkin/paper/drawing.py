@@ -28,11 +28,6 @@ NOISE = 1e-9
 """A quantity this small beside the largest of its kind is rounding and shown as nought."""
 
 
-def triangle_of(step: Step) -> tuple[str | None, ...]:
-    """The pin, the pivot and the link of the right triangle that a step is of."""
-    return tuple(map(step.says.get, "pqi"))
-
-
 @dataclass(frozen=True)
 class Drawing:
     """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
@@ -74,14 +69,6 @@ class Drawing:
         """The steps of the triangles on the mechanism that were run."""
         on_it = self.steps(Plane.MECHANISM)
         return tuple((number, step) for number, step, _ in on_it if step.part is Part.NORMAL)
-
-    @cached_property
-    def triangles(self) -> Mapping[tuple[str | None, ...], list[tuple[int, Step]]]:
-        """The same, by the pin, the pivot and the link of their triangle."""
-        found: dict[tuple[str | None, ...], list[tuple[int, Step]]] = {}
-        for number, step in self.normals:
-            found.setdefault(triangle_of(step), []).append((number, step))
-        return found
 
     def mechanism_steps(self) -> Iterator[tuple[int, Step, Any]]:
         """The steps that this sheet draws on the mechanism."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from graphkin.construction.component import laid_off as component_laid_off
 from graphkin.paper.drawing import TAGS, Drawing
 from graphkin.paper.gaps import fields_of
 from graphkin.paper.naming import arrow_of, index_of, is_driven, rate_symbol, vector_of, way_of
@@ -160,10 +161,11 @@ def along_way(drawing: Drawing, sought: str, step: Step) -> Relation:
         "whole": symbol(f"{letter}_{point}"),
         "start": symbol(f"{letter}_{beneath}"),
         "relative": symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r")),
-        "coriolis": symbol(f"a_{point}{beneath}^c"),
     }
-    turns = not velocity and drawing.trace.program.steps[step.args[0]].name == ""
-    key = "coriolis" if turns else "sliding"
+    laid, key = component_laid_off(drawing.trace.program, step.args[0]), "sliding"
+    if laid is not None:
+        fields["component"] = symbol(f"a_{point}{beneath}^{laid.component.sign}")
+        key = "with_component"
     return Relation(drawing.words(f"calculation.{key}", guide=guide, **fields))
 
 

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from itertools import product
 from math import degrees
 
+from graphkin.construction.component import Component, is_hidden
+from graphkin.construction.kind import construction
 from graphkin.paper.areas import BELOW, TABLES
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.letters import is_undrawn, letter_on
 from graphkin.paper.marks import Mark, Text
 from graphkin.paper.richtext import extent
 from graphkin.paper.symbolic import symbol
@@ -61,7 +62,7 @@ def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
         for crossing in crossings(drawing.trace)
         if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
         if crossing.number not in drawing.tags or not fallen_on(drawing, crossing.number)
-        if not is_undrawn(drawing, crossing.number)
+        if not is_hidden(drawing, crossing.number)
     )
 
 
@@ -86,4 +87,7 @@ def letter_of_crossing(drawing: Drawing, crossing: Crossing) -> str:
     locus, step = locus_of(drawing, crossing), drawing.trace.program.steps[crossing.number]
     if locus:
         return locus[1]
-    return letter_on(drawing, step, 1000 / drawing.scales.kL) if step.name else crossing.name
+    kind = construction(step)
+    if isinstance(kind, Component):
+        return kind.letter(drawing, step.role)
+    return step.name or crossing.name

@@ -6,6 +6,7 @@ from cmath import phase
 from collections.abc import Mapping
 from math import degrees
 
+from graphkin.construction.component import index_before
 from graphkin.paper.amounts import in_degrees, in_mm
 from graphkin.paper.closing import found_place
 from graphkin.paper.data import angle_symbol, driver_index
@@ -149,8 +150,6 @@ def on_plan(
                 rates = drawing.trace.program.steps[step.args[1]].args[2:]
                 found["drawn"] = in_mm(drawing.words, drawn)
                 found["omega"] = rolling_rate(drawing, *rates)
-        case "lay-off-coriolis" | "lay-back-coriolis":
-            found["vector"] = symbol(f"a_{says['i']}^c")
         case "along-bar":
             found["bar"] = bar(says["p"], says["q"])
         case "similar-point":
@@ -231,8 +230,8 @@ def sliding_vector(drawing: Drawing, step: Step, number: int) -> str:
     """The vector along a guide: from its line's or its own beginning to the point found."""
     tips = [number, *drawing.children.get(number, ())]
     found = (vector_of(drawing, step.args[0], tip) for tip in tips)
-    before = drawing.trace.program.steps[step.args[0]].says
-    default = symbol(f"a_{before['i']}^r") if "i" in before else ""
+    index = index_before(drawing.trace.program, step.args[0])
+    default = symbol(f"a_{index}^r") if index else ""
     return next((name for name in found if name), default)
 
 

@@ -23,7 +23,7 @@ SLACK = 1e-6  # mm, rounding forgiven at the page's edge
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A straight line between two points."""
+    """A straight line between two points; ``part`` tells the lines of one step apart."""
 
     x1: float
     y1: float
@@ -32,6 +32,7 @@ class Line:
     cls: str
     name: str = ""
     step: int | None = None
+    part: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from graphkin.construction.component import component_of, index_before, laid_off
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.naming import scale_of, way_of
 from graphkin.paper.symbolic import bar, symbol
@@ -54,11 +55,12 @@ def miss(drawing: Drawing, number: int, share: Step) -> Miss:
         _, start, image = (steps[arg] for arg in steps[step.args[0]].args)
         along = symbol(start.name) + symbol(image.name)
         if not start.name:
-            along = symbol(f"a_{start.says['i']}^r")
+            before = steps[step.args[0]].args[1]
+            along = symbol(f"a_{index_before(drawing.trace.program, before)}^r")
         return Miss(size, along, found=found)
     if "g" in share.says:
-        start, image = (steps[arg] for arg in step.args[1:])
-        return Miss(size, symbol(image.name), *along_guide(drawing, start, share))
+        begun, ended = step.args[1:]
+        return Miss(size, symbol(steps[ended].name), *along_guide(drawing, begun, share))
     return Miss(size, symbol(steps[step.args[3]].name), *across_bar(drawing, step))
 
 
@@ -81,13 +83,14 @@ def on_paper(drawing: Drawing) -> float:
     return 1000 / scale_of(drawing, drawing.plane)
 
 
-def along_guide(drawing: Drawing, start: Step, share: Step) -> tuple[str, dict[str, str]]:
+def along_guide(drawing: Drawing, start: int, share: Step) -> tuple[str, dict[str, str]]:
     """The line on which the point of a block should lie: parallel to its guide."""
     fields = {"guide": way_of(drawing, share.says["g"])}
-    if start.name:
-        return "parallel", {**fields, "s": symbol(start.name)}
-    component = symbol(f"a_{start.says['i']}^c")
-    return "parallel-end", {**fields, "a": component, "s": symbol(start.says["s"])}
+    steps, laid = drawing.trace.program.steps, laid_off(drawing.trace.program, start)
+    if laid is None:
+        return "parallel", {**fields, "s": symbol(steps[start].name)}
+    fields |= {"a": laid.component.symbol, "s": symbol(steps[laid.start].name)}
+    return "parallel-end", fields
 
 
 def across_bar(drawing: Drawing, step: Step) -> tuple[str, dict[str, str]]:
@@ -95,10 +98,10 @@ def across_bar(drawing: Drawing, step: Step) -> tuple[str, dict[str, str]]:
     steps = drawing.trace.program.steps
     p, q = (steps[arg].name for arg in step.args[:2])
     fields = {"bar": bar(p, q), "s": symbol(steps[step.args[2]].name), "p": symbol(p)}
-    index = steps[step.args[4]].says.get("i")
-    if index is None:
+    component = component_of(drawing.trace.program, step.args[4])
+    if component is None:
         return "square", fields
-    return "square-end", {**fields, "a": symbol(f"a_{index}^ν")}
+    return "square-end", {**fields, "a": component.symbol}
 
 
 def ratio(drawing: Drawing, number: int, first: float, second: float) -> dict[str, str]:

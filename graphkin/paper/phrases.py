@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from graphkin.construction.component import laid_off
 from graphkin.paper.centre_words import (
     CENTRES,
     OWN_WORDS,
@@ -13,11 +14,10 @@ from graphkin.paper.centre_words import (
     oddity,
     same_centre,
 )
-from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.falling import falls_key
 from graphkin.paper.gaps import LAID_OFF, fields_of
-from graphkin.paper.naming import beyond, drawn_between, is_driven
+from graphkin.paper.naming import beyond, is_driven
 from graphkin.paper.pairs import SWINGS
 from graphkin.paper.rolled import is_first_roll, is_halfway, is_moving_track, untold_track
 from graphkin.paper.symbolic import symbol
@@ -36,8 +36,6 @@ LINES = (
     "radius-along",
     "velocity-normal",
     "centripetal",
-    "lay-off-coriolis",
-    "lay-back-coriolis",
     "line-through",
     "kennedy-line",
     "inflection-square",
@@ -48,11 +46,8 @@ FOLLOWING = (
     "parallel-to",
     "shifted",
     "radius-along",
-    "lay-off-coriolis",
 )
 """Those of them that begin where another one ended."""
-COMPONENTS = ("lay-off", "lay-off-coriolis", "lay-back-coriolis")
-"""Those that lay off a component of an acceleration."""
 WHOLE = (
     "acceleration-pole",
     "beside",
@@ -83,10 +78,13 @@ def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
 
 def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
     """The clause of a line or an arc of a drawing, after that of the vector laid off before it."""
-    step = drawing.trace.program.steps[number]
-    if step.action is None or step.action.key not in LINES or step.name:
+    step, laid = drawing.trace.program.steps[number], laid_off(drawing.trace.program, number)
+    if laid is not None:
+        if not laid.is_short(drawing) and step.plane is plane:
+            yield from clauses(drawing, laid.start, plane) if laid.component.follows else ()
+            yield laid.clause(drawing)
         return
-    if is_left_out(drawing, number):
+    if step.action is None or step.action.key not in LINES or step.name:
         return
     if step.plane is not plane or is_lever(drawing, number):
         return
@@ -98,12 +96,8 @@ def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
 
 def is_left_out(drawing: Drawing, number: int) -> bool:
     """True for a component laid off from a named point that is too short to be drawn, or none."""
-    step = drawing.trace.program.steps[number]
-    if step.action is None or step.action.key not in COMPONENTS:
-        return False
-    if not drawing.trace.program.steps[step.args[0]].name:
-        return False
-    return drawn_between(drawing, step.args[0], number, step.plane) < TINY
+    laid = laid_off(drawing.trace.program, number)
+    return laid is not None and laid.is_short(drawing)
 
 
 def is_lever(drawing: Drawing, number: int) -> bool:
@@ -209,9 +203,8 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
     if key == "along-bar":
         return "common-normal"
     if key == "parallel-to" and not step.says["s"]:
-        before = drawing.trace.program.steps[step.args[0]].action
-        back = before is not None and before.key == "lay-back-coriolis"
-        return "parallel-to-tail" if back else "parallel-to-end"
+        before = laid_off(drawing.trace.program, step.args[0])
+        return "parallel-to-tail" if before is not None and before.back else "parallel-to-end"
     if key == "similar-point" and "c" in step.says and in_line(drawing, step):
         return "similar-touch"
     if key == "similar-point" and in_line(drawing, step):

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from graphkin.construction.component import Component, components_on
+from graphkin.construction.registry import COMPONENTS
 from graphkin.paper.amounts import OnPaper
 from graphkin.paper.data import given
 from graphkin.paper.drawing import Drawing
@@ -18,8 +20,7 @@ from graphkin.paper.outset import of_driver, of_scales
 from graphkin.paper.rates import FINE, of_sum, of_turning, within
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.scale import digits
-from graphkin.paper.short import laid_off
-from graphkin.paper.sliding import of_coriolis, of_rolling, of_slides
+from graphkin.paper.sliding import of_rolling, of_slides
 from graphkin.paper.symbolic import TAGS, bar, symbol
 from graphkin.paper.trial_lengths import of_trial_lengths
 from graphkin.plane import Ratio, Vector
@@ -79,10 +80,13 @@ def sections_of(drawing: Drawing) -> list[Section]:
             ("slides", list(of_slides(drawing))),
             ("centres", list(of_centres(drawing))),
         ]
+    normal, *others = (
+        (kind.section(drawing.scales), list(of_components(drawing, kind))) for kind in COMPONENTS
+    )
     return [
-        ("normals_apart" if drawing.scales.apart else "normals", list(of_normals(drawing))),
+        normal,
         ("normals_turning", list(of_rollings(drawing))),
-        ("coriolis_components", list(of_coriolis(drawing))),
+        *others,
         ("accelerations", plan),
         ("spinning", turning),
         ("slides", list(of_slides(drawing))),
@@ -207,23 +211,10 @@ def drawn(drawing: Drawing, millimetres: OnPaper) -> str:
     return figure(drawing, millimetres if millimetres < 10 else round(millimetres, 3))
 
 
-def of_normals(drawing: Drawing) -> Iterator[Relation]:
-    """Each normal component: square of the relative velocity over the bar, and its drawn length."""
-    for _, step, value in drawing.steps(Plane.NUMBERS):
-        if step.action is None or step.action.key != "normal":
-            continue
-        p, q, i, v = (step.says[key] for key in "pqiv")
-        length, size = length_of(drawing, p, q), drawing.settled(abs(value))
-        speed = (size * length) ** 0.5
-        yield Relation(
-            symbol(f"a_{i}^ν"),
-            f"{symbol('v_' + v)}^2/{bar(p, q)}",
-            f"{figure(drawing, speed)}^2/{figure(drawing, length)}",
-            answer(drawing, size),
-            "m/s^2",
-            laid_off(drawing, "laid_off", size, p=symbol(p), q=symbol(q)),
-            over=(p, q),
-        )
+def of_components(drawing: Drawing, kind: type[Component]) -> Iterator[Relation]:
+    """Each component of a kind, in the order of the work."""
+    found = (each for each in components_on(drawing) if isinstance(each, kind))
+    yield from (component.relation(drawing) for component in found)
 
 
 def of_rollings(drawing: Drawing) -> Iterator[Relation]:

@@ -25,9 +25,9 @@ class Scales:
     """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper).
 
     ``seconds`` is kL/kv. ``from_driver``: kv follows from the one crank that drives, so that a
-    student can find it; ``times`` so much larger than the crank says. ``triangles``: Coriolis
-    components are drawn by similar triangles, else computed. ``apart``: a scene states ka by
-    itself, this is the root of kL/ka, and no triangle holds; 0 where ka = kv²/kL.
+    student can find it; ``times`` so much larger than the crank says. ``triangles``: those that may
+    give way to a larger mechanism are drawn, else computed. ``apart``: a scene states ka by itself,
+    this is the root of kL/ka, and no triangle holds; 0 where ka = kv²/kL.
     """
 
     kL: float  # noqa: N815

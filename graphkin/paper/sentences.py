@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from graphkin.construction.component import Component, component_of, laid_off
 from graphkin.paper.centre_words import with_centres_together
 from graphkin.paper.closing import closing_sentence, idle_sentences
-from graphkin.paper.component_words import (
-    component_sentence,
-    is_drawn,
-    with_normals_together,
-)
+from graphkin.paper.component_words import with_normals_together
 from graphkin.paper.desk import TINY
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.indices import with_indices
 from graphkin.paper.naming import (
     drawn_amount,
     height_above,
-    way_of,
 )
 from graphkin.paper.pairs import SWINGS
 from graphkin.paper.phrases import point_sentence
@@ -32,8 +28,6 @@ from graphkin.steps.program import Part, Plane, Step
 
 TURNING = "turning"
 """The name of the last sentence where it says how the turning of links is read off."""
-COMPONENTS = ("normal", "coriolis")
-"""Components that a triangle on the mechanism gives: in full the first time."""
 
 
 def sentences(drawing: Drawing) -> list[Sentence]:
@@ -90,15 +84,19 @@ def set_on_mechanism(drawing: Drawing, turning: str) -> str:
 
 def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
     """The sentences of the steps of a sheet, in their order."""
-    shown: set[str] = set()
-    for number, step, value in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
+    program, shown = drawing.trace.program, set[type[Component]]()
+    for number, step, _ in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
         key = step.action.key if step.action else ""
-        if key in COMPONENTS:
-            first = key not in shown and is_drawn(drawing, step, value)
-            shown |= {key} if first else set()
-            yield component_sentence(drawing, number, step, first=first)
+        component, laid = component_of(program, number), laid_off(program, number)
+        if component is not None:
+            first = type(component) not in shown and component.is_drawn(drawing)
+            shown |= {type(component)} if first else set()
+            yield Sentence(number, *component.sentence(drawing, first=first))
         elif number in drawing.tags:
             yield from trial_sentence(drawing, number)
+        elif laid is not None:
+            if is_own(drawing, step) and (markup := laid.sentence(drawing)):
+                yield Sentence(number, key, markup)
         elif key in OWN and is_own(drawing, step):
             if markup := OWN[key](drawing, number, step):
                 yield Sentence(number, key, markup)
@@ -146,30 +144,9 @@ def swing_sentence(drawing: Drawing, number: int, step: Step) -> str:
     )
 
 
-def laid_off_sentence(drawing: Drawing, number: int, step: Step) -> str:
-    """A Coriolis component laid off between points that are known: what is left is the guide's.
-
-    Nothing where a line is drawn from its end: the point on that line tells of it.
-    """
-    steps = drawing.trace.program.steps
-    users = [steps[user] for user in drawing.children.get(number, ())]
-    left = [user for user in users if user.arrow and user.says.get("kind") == "r"]
-    if not left or not all(user.arrow or user.part is Part.RESULT for user in users):
-        return ""
-    return drawing.words(
-        "step.coriolis-laid",
-        s=symbol(step.says["s"]),
-        c=symbol(f"a_{step.says['i']}^c"),
-        r=symbol(left[0].says["symbol"]),
-        q=symbol(steps[left[0].args[1]].name),
-        guide=way_of(drawing, steps[step.args[1]].says["g"]),
-    )
-
-
 OWN: dict[str, Callable[[Drawing, int, Step], str]] = {
     **dict.fromkeys(SWINGS, swing_sentence),
     "close": closing_sentence,
-    "lay-off-coriolis": laid_off_sentence,
     "share": share_sentence,
 }
 """Steps that find no point by themselves and have a sentence all the same."""

@@ -1,38 +1,18 @@
-"""The relations of sliding: Coriolis components, and what is asked of blocks on their guides."""
+"""The relations of rolling contacts, and of what is asked of blocks on their guides."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from graphkin.construction.component import laid_off as component_laid_off
 from graphkin.paper.drawing import Drawing
-from graphkin.paper.naming import rate_symbol, vector_of
+from graphkin.paper.naming import vector_of
 from graphkin.paper.relation import Relation, answer, figure, length_of
 from graphkin.paper.rolled import rolling_rate
 from graphkin.paper.short import laid_off
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.tables import slid, slide_sense
-from graphkin.steps.program import Plane, Step
-
-
-def of_coriolis(drawing: Drawing) -> Iterator[Relation]:
-    """Each Coriolis component: twice the turning of the guide times the relative velocity."""
-    values = drawing.trace.values
-    for _, step, _ in drawing.steps(Plane.NUMBERS):
-        if step.action is None or step.action.key != "coriolis" or not step.name:
-            continue
-        omega = abs(float(values[step.args[0]]))
-        speed = abs(values[step.args[2]] - values[step.args[1]])
-        rate = rate_symbol(drawing, step.args[0])
-        v = symbol("v_" + step.says["i"])
-        size = drawing.settled(2 * omega * speed)
-        yield Relation(
-            symbol(step.name),
-            f"2·{rate}·{v}",
-            f"2·{figure(drawing, omega)}·{figure(drawing, speed)}",
-            answer(drawing, size),
-            "m/s^2",
-            laid_off(drawing, "quarter", size, v=v, omega=rate),
-        )
+from graphkin.steps.program import Step
 
 
 def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
@@ -65,9 +45,9 @@ def of_slides(drawing: Drawing) -> Iterator[Relation]:
 
 def along_guide(drawing: Drawing, number: int) -> str:
     """Markup of the vector of the plan that is the motion of a block along its guide."""
-    steps = drawing.trace.program.steps
-    _, tail, tip = steps[number].args
-    start = steps[tail]
-    if start.action is not None and start.action.key == "lay-off-coriolis":
-        return symbol(f"a_{start.says['i']}^r")  # it may be drawn from the other end
+    program = drawing.trace.program
+    _, tail, tip = program.steps[number].args
+    laid = component_laid_off(program, tail)
+    if laid is not None and laid.component.follows:
+        return symbol(f"a_{laid.component.index}^r")  # it may be drawn from the other end
     return vector_of(drawing, tail, tip)

@@ -7,6 +7,7 @@ from enum import Enum
 from typing import Any
 
 from graphkin.arithmetic import Point, Real, turn_by
+from graphkin.construction.kind import construction
 from graphkin.pencil.pencil import Pencil
 from graphkin.plane import Circle, Line, Ratio, Vector
 from graphkin.steps.program import Plane, Step
@@ -35,14 +36,10 @@ LAID = {
     "arm",
     "beside",
     "centripetal",
-    "coriolis-base",
     "driven-slide",
     "driven-tangential",
-    "lay-back-coriolis",
     "lay-off",
-    "lay-off-coriolis",
     "rack-at",
-    "set-velocity",
     "similar-point",
     "turned-velocity",
 }
@@ -70,7 +67,9 @@ def mark_of(step: Step, value: Any) -> Mark | None:
         return Mark.POINT
     if key in WAYS:
         return Mark.WAY
-    return (Mark.ARROW if key in LAID else Mark.POINT) if isinstance(value, complex) else None
+    kind = construction(step)
+    is_laid = key in LAID or (kind is not None and step.role in kind.laid_off)
+    return (Mark.ARROW if is_laid else Mark.POINT) if isinstance(value, complex) else None
 
 
 @dataclass(frozen=True, slots=True)

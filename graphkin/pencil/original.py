@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
 
+from graphkin.construction.component import Drawn, component_of
 from graphkin.mechanism import Mechanism
 from graphkin.pencil.marks import Mark, Paper, mark_of
 from graphkin.plane import cross
@@ -86,16 +87,10 @@ class Original:
 
     def by_hand(self, number: int) -> int | None:
         """The step that gives a composite one by hand, where the drawing has it."""
-        step = self.program.steps[number]
-        computed = step.action is not None and step.action.key in self.computed
-        hand = step.by_hand
-        return hand if hand is not None and hand in self.trace.values and not computed else None
-
-    @cached_property
-    def computed(self) -> frozenset[str]:
-        """The components that the sheets give by number: their triangles are not drawn."""
-        given = {"coriolis": not self.triangles, "normal": self.apart}
-        return frozenset(key for key, is_given in given.items() if is_given)
+        component, hand = component_of(self.program, number), self.program.steps[number].by_hand
+        if component is not None and component.is_computed(Drawn(self.triangles, self.apart)):
+            return None
+        return hand if hand is not None and hand in self.trace.values else None
 
     @cached_property
     def tails(self) -> Mapping[int, int]:

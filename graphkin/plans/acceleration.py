@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from graphkin.construction import coriolis
+from graphkin.construction.normal_component import lay_off_normal, normal_component, square
 from graphkin.plans import wheels
-from graphkin.plans.arrows import acceleration_arrow
+from graphkin.plans.arrows import acceleration_arrow, component_arrow, slide_arrow
 from graphkin.plans.carried import (
     accelerated,
     image_under,
@@ -11,15 +13,8 @@ from graphkin.plans.carried import (
     second_image_under,
     tangential_effect,
 )
-from graphkin.plans.coriolis import (
-    coriolis_of,
-    lay_off_coriolis,
-    slide_arrow,
-    slide_coriolis,
-)
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import Base, crank_tip, sides_of
-from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
 from graphkin.plans.pen import Pen, Says, about, letter, named, second_image
 from graphkin.plans.plates import crosses_well
 from graphkin.plans.shape import Shapes
@@ -93,9 +88,9 @@ def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, rate:
     point, known = pen.bases[link].start, partner(pair, link)
     way = 1 if pair.links[0] == link else -1
     line = line_of(pen, shapes, pair, link, point)
-    vector = slide_coriolis(pen, pair, link, point, point)
+    vector = coriolis.of_slide(pen, pair, link, point, point)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = lay_off_coriolis(pen, pair, link, point, point, vector)
+        corner = coriolis.lay_off(pen, pair, link, point, point, vector)
         says: Says = {"q": point, "g": pair.links[0], "s": named(pen, corner)}
         name = second_image(point)
         with pen.calls_for(sliding_effect(pen, rate)):
@@ -124,8 +119,8 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
         for pair, _ in sides
         if isinstance(pair, Pin)
     }
-    coriolis = {
-        pair.links: slide_coriolis(pen, pair, link, name, point)
+    slides = {
+        pair.links: coriolis.of_slide(pen, pair, link, name, point)
         for pair, link in sides
         if not isinstance(pair, Pin)
     }
@@ -137,7 +132,7 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
                 corner = lay_off_normal(pen, pair.point, name, normals[pair.point])
                 lines.append(square(pen, pair.point, name, corner))
             else:
-                corner = lay_off_coriolis(pen, pair, link, name, point, coriolis[pair.links])
+                corner = coriolis.lay_off(pen, pair, link, name, point, slides[pair.links])
                 lines.append(along(pen, shapes, pair, link, point, corner))
             corners.append(corner)
         found = pen.draw(meet, *lines, name=second_image(name), q=name)
@@ -244,10 +239,11 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
     guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
     if pen.turns(pair.links[1]):
         tail = image_under(pen, pair.links[1], first)
-        vector = coriolis_of(pen, pair.links[1], tail, pen.the("velocity", first), first, block)
+        tip = pen.the("velocity", first)
+        vector = coriolis.coriolis_of(pen, pair.links[1], tail, tip, first, block)
         pen.want("coriolis", block, vector)
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            start = lay_off_coriolis(pen, pair, block, first, first, vector)
+            start = coriolis.lay_off(pen, pair, block, first, first, vector)
             slide_arrow(pen, start, end, pair.links[1], first)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from graphkin.plans.pen import PRIME, Pen, letter, named, owned, second_image
+from graphkin.plans.links import under
+from graphkin.plans.pen import PRIME, Pen, about, letter, named, owned, second_image
+from graphkin.scene.model import FRAME
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import join
 
@@ -42,3 +44,18 @@ def acceleration_arrow(pen: Pen, pin: str) -> None:
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             symbol = f"a_{owned(pin)}"
             pen.arrow(join, o, tip, name=name, symbol=symbol, q=owned(pin), p="")
+
+
+def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
+    """The arrow of a normal (ν) or tangential (τ) component."""
+    symbol = f"a_{about(pen, pin, pivot)}^{kind}"
+    pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind=kind, q=owned(pin), p=owned(pivot))
+
+
+def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:
+    """The arrow of a relative acceleration along a guide that moves."""
+    if link == FRAME:
+        return
+    symbol = f"a_{letter(point)}{letter(under(point, link))}^r"
+    if symbol not in pen.arrows:
+        pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind="r", q=point, p="")

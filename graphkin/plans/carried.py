@@ -1,10 +1,9 @@
-"""The point of a link under another link's point: its images in both plans, and Coriolis."""
+"""The point of a link under another link's point: its images in both plans."""
 
 from __future__ import annotations
 
-from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
+from graphkin.plans.arrows import acceleration_arrow, component_arrow, velocity_arrows
 from graphkin.plans.links import under
-from graphkin.plans.normals import component_arrow
 from graphkin.plans.pen import Pen, Says, about, against, image, letter, owned, second_image
 from graphkin.scene.model import FRAME
 from graphkin.steps.effect import Effect

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
+from graphkin.construction.coriolis import coriolis_of, end_of, lay_off_turned
 from graphkin.plans import acceleration, position, velocity
-from graphkin.plans.arrows import velocity_arrows
-from graphkin.plans.coriolis import coriolis_arrow, coriolis_of, slide_arrow
+from graphkin.plans.arrows import slide_arrow, velocity_arrows
 from graphkin.plans.guides import local_line
 from graphkin.plans.links import under
 from graphkin.plans.pen import Pen, Says, image, letter, named, second_image
 from graphkin.plans.shape import Shapes
-from graphkin.steps.effect import Effect
 from graphkin.steps.guides import (
     axis_by_guide,
     axis_stretched,
     driven_slide,
-    lay_off_turned,
     length_of,
     stretch,
 )
@@ -85,11 +83,8 @@ def accelerate(pen: Pen, shapes: Shapes, group: Stretched) -> None:
     images = pen.the("velocity", point), pen.the("velocity", foot)
     vector = coriolis_of(pen, far, *images, point, group.slide.block)
     says: Says = {"q": letter(foot), "g": group.slide.block, "s": named(pen, start)}
-    index: Says = {"i": letter(point) + letter(foot), "k": far, "q": point, "s": named(pen, start)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        with pen.calls_for(Effect.CORIOLIS):
-            corner = pen.draw(lay_off_turned, start, vector, **index)
-        coriolis_arrow(pen, start, corner, index)
+        corner = end_of(pen, lay_off_turned, start, vector)
         name = second_image(foot)
         with pen.calls_for(acceleration.sliding_effect(pen, rate)):
             found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)

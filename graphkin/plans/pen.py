@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from dataclasses import replace
+from typing import Any, TypeVar
 
 from graphkin.arithmetic import FLOAT
 from graphkin.errors import ClosureError
@@ -13,7 +14,17 @@ from graphkin.plans.links import Base
 from graphkin.scene.cycles import turned
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.steps.effect import Effect
-from graphkin.steps.program import CONTACT, Drive, Given, Part, Plane, Program, Step, Target
+from graphkin.steps.program import (
+    CONTACT,
+    Drive,
+    Given,
+    Part,
+    Plane,
+    Program,
+    Roles,
+    Step,
+    Target,
+)
 from graphkin.steps.run import StepFailed, evaluate
 from graphkin.steps.vocabulary import Action, pole
 from graphkin.structure.counting import counted_near
@@ -22,6 +33,8 @@ from graphkin.structure.groups import Dyad
 
 Says = dict[str, Any]
 """The names that a sentence needs."""
+
+R = TypeVar("R", bound=Roles)
 
 PRIME = "\N{PRIME}"
 
@@ -104,6 +117,12 @@ class Pen:
                 effect=self.effect,
             )
         )
+
+    def make(self, construction: R) -> R:
+        """Say of steps that are written what construction they are, each in its role."""
+        for role, number in construction.given():
+            self.steps[number] = replace(self.steps[number], of=construction, role=role)
+        return construction
 
     def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **says: Any) -> int:
         """Add a step that others will ask for again under a key."""

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from graphkin.construction.component import LaidOff
+from graphkin.construction.coriolis import CoriolisComponent
 from graphkin.plans.arrows import arrow_between, relative_arrow
+from graphkin.plans.links import under
 from graphkin.plans.pen import Pen, Says, about, letter
 from graphkin.steps.closing import (
     after_component,
@@ -15,7 +18,6 @@ from graphkin.steps.closing import (
     before_component,
     last_component,
 )
-from graphkin.steps.guides import lay_back, lay_off_turned
 from graphkin.steps.program import Part, Plane, Target
 from graphkin.steps.vocabulary import Action, driven_tangential
 from graphkin.structure.groups import Higher
@@ -72,16 +74,17 @@ def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
 
     Where the point of the guide under it is sought, the way is gone backwards from the sliding one.
     """
-    step = pen.steps[number]
-    if step.action not in (lay_off_turned, lay_back):
+    laid = pen.steps[number].of
+    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
         return
-    start, vector = (right.get(arg, arg) for arg in step.args)
-    says: Says = {**step.says, "p": ""}
-    if step.action is lay_off_turned:
-        ends = start, pen.the("acceleration", step.says["q"])
+    component = laid.component
+    start, vector = (right.get(arg, arg) for arg in pen.steps[number].args)
+    says: Says = {"i": component.index, "q": component.point, "p": ""}
+    if not laid.back:
+        ends = start, pen.the("acceleration", component.point)
         legs(pen, "cr", along_component, after_component, (*ends, vector), says)
     else:
-        ends = pen.the("acceleration", f"{step.says['q']}@{step.says['k']}"), start
+        ends = pen.the("acceleration", under(component.point, component.guide)), start
         legs(pen, "rc", before_component, last_component, (*ends, vector), says)
 
 

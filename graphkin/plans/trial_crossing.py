@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from graphkin.construction.coriolis import known_end
+from graphkin.construction.normal_component import lay_off_normal, normal_component, square
 from graphkin.plans import velocity as velocities
 from graphkin.plans.carried import image_under
-from graphkin.plans.coriolis import guide_corner
 from graphkin.plans.guides import known_guide
-from graphkin.plans.normals import lay_off_normal, normal_component, square
 from graphkin.plans.pen import Pen, named
 from graphkin.plans.shape import Shapes
 from graphkin.steps.closing import line_through
@@ -69,7 +69,7 @@ def along_guide(pen: Pen, shapes: Shapes, link: str, pair: Sliding, quantity: st
         start = image_under(pen, partner(pair, link), of)
     else:
         with pen.on(*IN_PLAN[quantity]):
-            start = guide_corner(pen, pair, link, of)
+            start = known_end(pen, pair, link, of)
     guide = known_guide(pen, shapes, pair)
     with pen.on(*IN_PLAN[quantity]), pen.hands_way():
         return pen.draw(parallel_to, start, guide, s=named(pen, start), g=pair.links[0])

@@ -8,15 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from graphkin.construction.coriolis import known_end
+from graphkin.construction.normal_component import normal_component
 from graphkin.plans import acceleration as accelerations
 from graphkin.plans import velocity as velocities
 from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
 from graphkin.plans.carried import image_under, omega_of
-from graphkin.plans.coriolis import guide_corner
 from graphkin.plans.guides import known_guide
 from graphkin.plans.higher import Each, cut_at, slide_of
 from graphkin.plans.links import bases, ending
-from graphkin.plans.normals import normal_component
 from graphkin.plans.pen import Pen, Says, image, named, second_image
 from graphkin.plans.shape import Shapes
 from graphkin.plans.trial_arrows import components, relative_arrows
@@ -173,7 +173,7 @@ def missed(pen: Pen, shapes: Shapes, group: Higher, kind: Kind) -> int:
             if kind is VELOCITY:
                 start = image_under(pen, known, p)
             else:
-                start = guide_corner(pen, pair, link, p)
+                start = known_end(pen, pair, link, p)
             with pen.on(kind.part, Plane.NUMBERS):
                 return pen.draw(lacks_across, line, start, pen.the(kind.quantity, p))
         case Driver(kind="turn") as driver:
@@ -198,7 +198,7 @@ def missed_slide(pen: Pen, shapes: Shapes, driver: Driver, kind: Kind) -> int:
     if kind is VELOCITY:
         start = image_under(pen, driver.against, first)
     else:
-        start = guide_corner(pen, pair, driver.link, first)
+        start = known_end(pen, pair, driver.link, first)
     with pen.on(kind.part, Plane.NUMBERS):
         found = pen.draw(part_along, line, start, pen.the(kind.quantity, first))
         return pen.draw(less, found, given)

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from graphkin.plans.arrows import acceleration_arrow, relative_arrow, velocity_arrows
+from graphkin.construction.normal_component import lay_off_normal, normal_component, square
+from graphkin.plans.arrows import (
+    acceleration_arrow,
+    component_arrow,
+    relative_arrow,
+    velocity_arrows,
+)
 from graphkin.plans.carried import carried, omega_of, second_image_under
 from graphkin.plans.guides import known_guide
 from graphkin.plans.links import contact_name, under
-from graphkin.plans.normals import component_arrow, lay_off_normal, normal_component, square
 from graphkin.plans.pen import Pen, Says, about, against, image, letter, named, owned, second_image
 from graphkin.plans.rolling import radius_of
 from graphkin.plans.shape import Shapes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graphkin.alignment import closed_by
+from graphkin.construction.kind import construction
 from graphkin.plans.pen import image, letter, second_image
 from graphkin.report.table import listed
 from graphkin.scene.model import FRAME
@@ -32,9 +33,9 @@ def place_words(program: Program, number: int) -> str:
     says, key = step.says, step.action.key if step.action else ""
     if key == "swing-through":
         return f"the line {says['p']}-{says['q']}"
-    if step.part is Part.NORMAL and says.keys() >= {"p", "q"}:
-        kind = "the Coriolis triangles" if "k" in says else "the right triangle"
-        return f"{kind} of {says['q']} about {says['p']}"
+    kind = construction(step)
+    if kind is not None and kind.title:
+        return kind.title
     if not step.name and key.startswith(("close", "part", "share")):
         return f"links {listed(closed_by(program, number))} together"
     name = drawn_name(program, number)

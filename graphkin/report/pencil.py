@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import degrees, isfinite
 from typing import Any
 
+from graphkin.construction.kind import construction
 from graphkin.pencil import Forecast
 from graphkin.pencil.forecast import Expected
 from graphkin.report.record import real
@@ -30,16 +31,13 @@ DRAWN_IN = {
 """Where a crossing is drawn."""
 LINES = {
     "along-bar": "∥ {p}{q}",
-    "bar-line": "{p}{q}",
     "compass": "the arc {p}{q} about {p}",
-    "coriolis-ray": "the leaning line",
     "kennedy-line": "the line of centres",
     "line-through": "the line of the trials",
     "parallel-to": "∥ guide {g}",
     "pole-ray": "the ray at {p}",
     "radius-along": "the path of the centre of {k}",
     "ray": "the line through {p}",
-    "square-at": "⊥ at {tip}",
     "square-to": "⊥ {p}{q}",
     "velocity-normal": "⊥ velocity of {p}",
 }
@@ -212,7 +210,8 @@ def mostly(found: Forecast, each: Expected) -> str:
 def step_words(program: Program, number: int) -> str:
     """A step as the drawing calls it."""
     step = program.steps[number]
-    return step.name or line_words(step) or arrow_end(program, number) or letter_of(program, number)
+    own = step.name or line_words(program, step) or arrow_end(program, number)
+    return own or letter_of(program, number)
 
 
 def arrow_end(program: Program, number: int) -> str:
@@ -222,8 +221,11 @@ def arrow_end(program: Program, number: int) -> str:
     return "" if arrow is None else f"the end of {arrow.says['symbol']}"
 
 
-def line_words(step: Step) -> str:
+def line_words(program: Program, step: Step) -> str:
     """A line or an arc by what it is square or parallel to; nothing for other steps."""
+    kind = construction(step)
+    if kind is not None:
+        return kind.line_name(program.steps, step.role)
     words = LINES.get(step.action.key if step.action is not None else "")
     if "p" in step.says and not step.says["p"]:
         words = UNNAMED.get(step.action.key if step.action is not None else "")
@@ -238,5 +240,5 @@ def lines_words(program: Program, number: int) -> str:
     action = program.steps[number].action
     if action is not None and action.key == CLOSED:
         return "the locus and what was cut"
-    both = [line_words(program.steps[arg]) for arg in program.steps[number].args[:2]]
+    both = [line_words(program, program.steps[arg]) for arg in program.steps[number].args[:2]]
     return " and ".join(both) if len(both) == 2 and all(both) else ""

@@ -14,7 +14,6 @@ from graphkin.paper.closing import ends_of_bar
 from graphkin.paper.desk import TINY, above_foot
 from graphkin.paper.images import undrawn_sides
 from graphkin.paper.layout import BEYOND, SWEEP
-from graphkin.paper.letters import is_coriolis
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline
 from graphkin.paper.symbols import SHORT, VECTORS
 from graphkin.paper.tips import BEYOND as BEYOND_TIPS
@@ -29,7 +28,7 @@ from graphkin.screen.binding import Binding, only_at_start
 from graphkin.screen.places import place_of
 from graphkin.screen.poses import unit
 from graphkin.screen.visible import ALIKE, Seen
-from graphkin.steps.program import Part, Plane, Step
+from graphkin.steps.program import Plane
 
 FULL, NEAR, FAR, LAST = 0, 1, 2, 3
 """The parts of a construction line: all of it, before its first point, after its last, its end."""
@@ -70,21 +69,10 @@ class Steps(Seen):
     def ends(self) -> dict[int, tuple[Any, Any]]:
         """The tails and tips of vectors that are set on the mechanism by steps that are points."""
         found = {}
-        for number, step, value in self.bench.places.drawing.steps(Plane.MECHANISM):
-            if isinstance(value, complex) and (ends := self.set_on(number, step)) is not None:
+        for number, _, value in self.bench.places.drawing.steps(Plane.MECHANISM):
+            if isinstance(value, complex) and (ends := self.part_of(number).ends) is not None:
                 found[number] = ends
         return found
-
-    def set_on(self, number: int, step: Step) -> tuple[Any, Any] | None:
-        """Tail and tip of such a vector."""
-        key, tip, spots = self.key(number), self.value(number), self.bench.places.spots
-        if key in ("set-velocity", "turn-over") and step.says.get("q") in spots:
-            return spots[step.says["q"]], tip
-        if key == "coriolis-base":
-            return self.value(step.args[0]), tip
-        if key == "meet" and step.part is Part.NORMAL and is_coriolis(step):
-            return self.value(self.step(step.args[0]).args[0]), tip
-        return None
 
     def vector(self, number: int) -> tuple[Any, Any] | None:
         """Tail and tip of the vector of a step, if it has one."""
@@ -95,8 +83,8 @@ class Steps(Seen):
 
     def arc(self, number: int) -> Binding | None:
         """A compass arc about the points on it, or the one that turns a length over."""
-        if self.key(number) == "turn-over":
-            return self.arc_about(*self.ends[number], SWEEP / 2)
+        if (swung := self.part_of(number).swung) is not None:
+            return self.arc_about(*swung, SWEEP / 2)
         if self.key(number) == "close":
             drawing, spots = self.bench.places.drawing, self.bench.places.spots
             centre, pin = ends_of_bar(drawing, number, self.step(number))
@@ -142,8 +130,7 @@ class Steps(Seen):
 
     def square(self, number: int) -> Binding | None:
         """The mark of a right angle at the corner of a triangle on the mechanism."""
-        value, step = self.value(number), self.step(number)
-        other = self.value(step.args[1]) if self.belongs_to_coriolis(number) else self.pivot(number)
+        value, other = self.value(number), self.part_of(number).faces
         if other is None:
             return None
         bench = self.bench
@@ -155,15 +142,6 @@ class Steps(Seen):
         places = [corner + SQUARE * way for way in (first, first + second, second)]
         large, seen = abs(pivot - corner) - ROOMY, self.seen(number)
         return bench.corners(places, large if seen is None else smaller(large, seen))
-
-    def belongs_to_coriolis(self, number: int) -> bool:
-        """Whether a step belongs to the similar triangles of a Coriolis component."""
-        step = self.step(number)
-        return step.part is Part.NORMAL and is_coriolis(step)
-
-    def pivot(self, number: int) -> Any:
-        """The pivot of the bar on which a right triangle stands."""
-        return self.bench.places.spots.get(self.step(number).says.get("p", ""))
 
     # --- lines ---------------------------------------------------------------------------------
 
@@ -217,13 +195,9 @@ class Steps(Seen):
     def legs(self, number: int) -> Iterator[tuple[Any, Any]]:
         """The lines between two points that a step may be drawn with."""
         value, step, shelf = self.value(number), self.step(number), self.bench.shelf
+        for start, end in self.part_of(number).legs:
+            yield shelf.lifted(start), shelf.lifted(end)
         if isinstance(value, Carrier):
-            pivot = self.pivot(number)
-            if pivot is not None:
-                yield shelf.lifted(pivot), shelf.lifted(value.point)
-            if self.key(number) == "coriolis-ray":
-                start, end = (shelf.lifted(self.value(step.args[i])) for i in (1, 3))
-                yield start, end
             return
         drawing = self.bench.places.drawing
         if number in drawing.tags and leg_start(self.desk, step) is not None:
@@ -270,7 +244,7 @@ class Steps(Seen):
         way = bench.places.way(number).conjugate()
         low, high = bench.places.span(number, bench.field.mm)
         shown = self.seen(number)
-        if self.key(number) == "bar-line":
+        if self.part_of(number).is_beyond:
             span = high - low - (2 * BEYOND + TINY)
             shown = span if shown is None else smaller(span, shown)
         shelf, rect = bench.shelf, bench.rect(above_foot(bench.room))

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from string import Formatter
 
+from graphkin.construction.component import is_hidden
+from graphkin.construction.kind import construction
 from graphkin.paper.drawing import Drawing
 from graphkin.paper.flattest import OWN
-from graphkin.paper.letters import is_undrawn
 from graphkin.paper.naming import names_in
 from graphkin.paper.sentence import Sentence
 from graphkin.paper.sentences import TURNING
@@ -33,16 +34,12 @@ WHY = {
     (Part.VELOCITY, "meet"): "why.meet",
     (Part.CENTRE, "instant-centre"): "why.centre",
     (Part.CENTRE, "kennedy-line"): "why.kennedy",
-    (Part.NORMAL, "turn-over"): "why.height",
-    (Part.NORMAL, "coriolis-base"): "why.triangles",
     (Part.ACCELERATION, "centripetal"): "why.normal",
     (Part.ACCELERATION, "lay-off"): "why.normal",
     (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
     (Part.ACCELERATION, "square-to"): "why.tangential",
     (Part.ACCELERATION, "parallel-to"): "why.along_acceleration",
     (Part.ACCELERATION, "along-bar"): "why.no_slip",
-    (Part.ACCELERATION, "lay-off-coriolis"): "why.coriolis",
-    (Part.ACCELERATION, "lay-back-coriolis"): "why.coriolis",
     (Part.ACCELERATION, "similar-point"): "why.similar",
     (Part.ACCELERATION, "driven-slide"): "why.driven",
     (Part.ACCELERATION, "between"): "why.trials",
@@ -80,7 +77,7 @@ def reasons(
     for number in sorted(numbers):
         step = drawing.trace.program.steps[number]
         key, known = reason(drawing, step), fields(step)
-        if step.part not in parts or not key or is_undrawn(drawing, number):
+        if step.part not in parts or not key or is_hidden(drawing, number):
             continue
         if not all(known[gap] for gap in gaps(drawing.words, key)):
             continue
@@ -115,6 +112,9 @@ def alike(step: Step, names: Iterable[str]) -> Iterator[str]:
 
 def reason(drawing: Drawing, step: Step) -> str:
     """The key of a step's reason; nothing where it needs none."""
+    kind = construction(step)
+    if kind is not None:
+        return kind.reason(step.role)
     if step.action is None:
         return ""
     if step.action.key == "similar-point" and step.by_hand in drawing.trace.values:
@@ -130,6 +130,9 @@ def gaps(words: Words, key: str) -> Iterator[str]:
 def fields(step: Step) -> dict[str, str]:
     """The letters of a step as markup, each empty where the step has none."""
     known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "t", "bar", "letter"), "")
+    kind = construction(step)
+    if kind is not None:
+        known |= kind.symbols()
     says = {key: lettered(str(name)) for key, name in step.says.items() if name}
     known |= names_in(says)
     if says.get("k") and step.name:

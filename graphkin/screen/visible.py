@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphkin.arithmetic import smaller
-from graphkin.paper.desk import TINY, Desk
+from graphkin.construction.component import Component
+from graphkin.construction.kind import construction
+from graphkin.paper.desk import Desk
 from graphkin.paper.labels import Board
 from graphkin.paper.layout import Layout
-from graphkin.paper.letters import ends_of, is_coriolis
 from graphkin.screen.binding import Bench
-from graphkin.steps.program import Part, Plane, Step
+from graphkin.screen.canvas import MovingCanvas
+from graphkin.steps.program import Plane, Step
 
 ALIKE = 1e-6
 """Millimetres within which two places of the page are one."""
@@ -23,6 +25,7 @@ class Seen:
 
     bench: Bench
     layout: Layout
+    parts: dict[int, MovingCanvas] = field(default_factory=dict)
 
     @property
     def desk(self) -> Desk:
@@ -52,28 +55,20 @@ class Seen:
 
         None for what belongs to none.
         """
-        step, spots = self.step(number), self.bench.places.spots
-        if step.part is not Part.NORMAL or step.plane is not Plane.MECHANISM:
+        kind = construction(self.step(number))
+        if not isinstance(kind, Component) or self.step(number).plane is not Plane.MECHANISM:
             return None
-        if is_coriolis(step):
-            return self.shortest(number)
-        pin = spots.get(step.says.get("q", ""))
-        if pin is None:
-            return None
-        ends = ends_of(self.bench.places.drawing, step)
-        return smaller(*(self.apart(self.value(end), pin) for end in ends)) - TINY
+        return kind.room(MovingCanvas(self))
 
-    def shortest(self, number: int) -> Any:
-        """The same of the similar triangles of a Coriolis component."""
-        drawing = self.bench.places.drawing
-        for user in sorted(drawing.trace.program.descendants(number)):
-            if self.key(user) == "coriolis-by-hand":
-                base, top = self.step(user).args[:2]
-                pivot = self.step(self.step(top).args[1]).args[1]
-                places = [self.value(each) for each in (base, top, pivot)]
-                sides = self.apart(places[1], places[0]), self.apart(places[0], places[2])
-                return smaller(*sides) - TINY
-        return None
+    def part_of(self, number: int) -> MovingCanvas:
+        """What the marks of a step that is part of a construction are drawn from."""
+        if number not in self.parts:
+            self.parts[number] = canvas = MovingCanvas(self)
+            step, kind = self.step(number), construction(self.step(number))
+            known = self.bench.places.values
+            if kind is not None and all(each in known for _, each in kind.given()):
+                kind.marks(canvas, step.role)
+        return self.parts[number]
 
     def apart(self, one: Any, other: Any) -> Any:
         """How far two points stand apart on the page, in mm."""

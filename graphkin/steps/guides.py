@@ -1,4 +1,4 @@
-"""Guides that move: where a link is turned to, where a block leads a point, and Coriolis.
+"""Guides that move: where a link is turned to, and where a block leads a point.
 
 Axes are unit complex numbers: the direction of a link's x axis, or of a guide, in the plane.
 """
@@ -193,42 +193,3 @@ def set_back(line: Line, coordinate: Real, here: Point, through: Point, axis: Po
 def driven_slide(start: Point, line: Line, speed: Real, way: int) -> Point:
     """From a point of a plan the given speed, or acceleration, along a guide or back."""
     return start + line.along * (way * speed / abs(line.along))
-
-
-# --- Coriolis ------------------------------------------------------------------------------------
-
-
-@action("coriolis")
-def coriolis(omega: Real, image_under: Point, image: Point) -> Point:
-    """Coriolis acceleration: twice the relative velocity times omega, turned a quarter by it."""
-    return 2j * (image - image_under) * omega
-
-
-@action("coriolis-base")
-def coriolis_base(pivot: Point, image_under: Point, image: Point, seconds: Real) -> Point:
-    """From the pivot of the guide twice the relative velocity, in the scale of the plan."""
-    return pivot + 2 * (image - image_under) * seconds
-
-
-@action("coriolis-ray")
-def coriolis_ray(base: Point, pivot: Point, pin: Point, tip: Point) -> Line:
-    """From the pivot the line that leans against the base as the tip's line against the bar."""
-    return Line(pivot, (base - pivot) * ((tip - pivot) / (pin - pivot)))
-
-
-@action("coriolis-by-hand")
-def coriolis_by_hand(base: Point, top: Point, seconds: Real) -> Point:
-    """The Coriolis acceleration read off the similar triangle, in the scale of the plan."""
-    return (top - base) / (seconds * seconds)
-
-
-@action("lay-off-coriolis")
-def lay_off_turned(start: Point, vector: Point) -> Point:
-    """A Coriolis acceleration laid off from a point of the plan."""
-    return start + vector
-
-
-@action("lay-back-coriolis")
-def lay_back(start: Point, vector: Point) -> Point:
-    """A vector laid off from a point against its sense."""
-    return start - vector

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from graphkin.arithmetic import Kind, at, pick
 from graphkin.steps.effect import Effect
@@ -66,6 +66,23 @@ class Given:
                 return first.si(values, kind)
 
 
+class Roles:
+    """The steps of one construction by their roles: a dataclass with a step's number in each.
+
+    ``gives`` are the roles of the steps that it draws itself, None in those that it does without;
+    the other numbers are those of the steps that it starts from.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ()
+
+    def given(self) -> Iterator[tuple[str, int]]:
+        """Its own steps: the role and the number of each."""
+        for role in self.gives:
+            number = getattr(self, role)
+            if number is not None:
+                yield role, number
+
+
 @dataclass(frozen=True, slots=True)
 class Step:
     """One step: an action on earlier steps, or a given value, with the words its sentence needs.
@@ -73,7 +90,8 @@ class Step:
     ``by_hand`` is the step that gives the same value in the hand's way; ``hand`` marks steps that
     only that way uses, ``arrow`` those that are only drawn. ``name`` is the letter on
     the drawing, ``says`` the names in the sentence. ``effect`` is what of the motion the step is
-    drawn for, None where its part of the work says it.
+    drawn for, None where its part of the work says it. ``of`` is the construction that it is part
+    of, ``role`` what it is there.
     """
 
     action: Action | None
@@ -88,6 +106,8 @@ class Step:
     arrow: bool = False
     says: Mapping[str, str] = field(default_factory=dict)
     effect: Effect | None = None
+    of: Roles | None = None
+    role: str = ""
 
 
 PLACES = ("axis", "guide", "track", "rolled")

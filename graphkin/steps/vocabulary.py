@@ -235,18 +235,6 @@ def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> 
     return start + 1j * (pin - pivot) * epsilon
 
 
-@action("normal")
-def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Point:
-    """Normal component of a pin's acceleration about a pivot: v·(v/l), from pin to pivot (Rivals).
-
-    The product is taken in this order so that no square overflows; 4·eps relative.
-    """
-    bar = pivot - pin
-    length = abs(bar)
-    speed = abs(image_pin - image_pivot)
-    return bar * (speed * (speed / length) / length)
-
-
 @action("lay-off")
 def lay_off(start: Point, vector: Point) -> Point:
     """The end of a vector laid off from a point."""
@@ -291,24 +279,6 @@ def set_velocity(pin: Point, image_pivot: Point, image_pin: Point, seconds: Real
 def square_at(corner: Point, pivot: Point) -> Line:
     """At the tip of the velocity the perpendicular to the line that joins it with the pivot."""
     return Line(corner, 1j * (corner - pivot))
-
-
-@action("bar-line")
-def bar_line(pivot: Point, pin: Point) -> Line:
-    """The line of a bar, produced beyond the pin."""
-    return Line(pin, pin - pivot)
-
-
-@action("turn-over")
-def turn_over(point: Point, about: Point) -> Point:
-    """A point turned by 180 degrees about another."""
-    return about + (about - point)
-
-
-@action("normal-by-hand")
-def normal_by_hand(pin: Point, end: Point, seconds: Real) -> Point:
-    """The normal component read off the triangle: the segment from the pin, in the plan's scale."""
-    return (end - pin) / (seconds * seconds)
 
 
 # --- poles and centres ---------------------------------------------------------------------------

@@ -1,0 +1,1 @@
+"""What a hand draws, kind by kind: everything about a construction stands in its own module."""

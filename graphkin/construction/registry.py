@@ -1,0 +1,13 @@
+"""The kinds of constructions, in the order in which calculation pages and slips name them."""
+
+from __future__ import annotations
+
+from graphkin.construction.component import Component, LaidOff
+from graphkin.construction.coriolis import CoriolisComponent
+from graphkin.construction.kind import Construction
+from graphkin.construction.normal_component import NormalComponent
+
+COMPONENTS: tuple[type[Component], ...] = (NormalComponent, CoriolisComponent)
+"""The components of accelerations that follow from velocities."""
+KINDS: tuple[type[Construction], ...] = (*COMPONENTS, LaidOff)
+"""All kinds."""
