@@ -19,7 +19,7 @@ from graphkin.paper.relation import Relation, answer, figure
 from graphkin.paper.short import laid_off
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.plane import Line, cross
-from graphkin.plans.carried import image_under, omega_of, second_image_under
+from graphkin.plans.carried import omega_of
 from graphkin.plans.links import under
 from graphkin.plans.pen import PRIME, Pen, letter
 from graphkin.scene.known import all_points
@@ -27,7 +27,6 @@ from graphkin.scene.model import Scene
 from graphkin.steps.effect import Effect
 from graphkin.steps.program import Part, Plane
 from graphkin.steps.vocabulary import Action, action, join, meet, set_velocity, square_at
-from graphkin.structure.joints import Joint, partner
 
 if TYPE_CHECKING:
     from graphkin.paper.drawing import Drawing
@@ -386,34 +385,6 @@ def corners(scene: Scene) -> str:
     return next((pair for pair in CORNERS if not points & {*pair}), CORNERS[0])
 
 
-def of_slide(pen: Pen, pair: Joint, link: str, name: str, point: str) -> int | None:
-    """The Coriolis component of a slide; None where what guides does not turn.
-
-    Where the point of a guide's link under a pin is sought (name A@3, point A), the pin's relative
-    velocity counts, else that of the point against what it slides on.
-    """
-    known = partner(pair, link)
-    if "@" in name:
-        tail, tip = pen.the("velocity", name), pen.the("velocity", point)
-        return coriolis_of(pen, link, tail, tip, point, pair.links[0])
-    if not pen.turns(known):
-        return None
-    tail, tip = image_under(pen, known, point), pen.the("velocity", point)
-    return coriolis_of(pen, known, tail, tip, point, pair.links[0])
-
-
-def lay_off(pen: Pen, pair: Joint, link: str, name: str, point: str, vector: int | None) -> int:
-    """The end of the component, laid off from the point under the sliding one.
-
-    Where that is the one that is sought, it is laid off backwards from the sliding one.
-    """
-    if "@" in name:
-        assert vector is not None
-        return end_of(pen, lay_back, pen.the("acceleration", point), vector)
-    start = second_image_under(pen, partner(pair, link), point)
-    return start if vector is None else end_of(pen, lay_off_turned, start, vector)
-
-
 def end_of(pen: Pen, laying: Action, start: int, vector: int) -> int:
     """The component laid off from a point, or back from it, with its arrow."""
     component = pen.steps[vector].of
@@ -429,8 +400,3 @@ def end_of(pen: Pen, laying: Action, start: int, vector: int) -> int:
     if name not in pen.arrows:
         pen.arrow(join, *ends, name=name, symbol=name, kind="c", q=component.point, p="")
     return corner
-
-
-def known_end(pen: Pen, pair: Joint, link: str, point: str) -> int:
-    """Where the known part of a sliding point's acceleration ends: the point under it, Coriolis."""
-    return lay_off(pen, pair, link, point, point, of_slide(pen, pair, link, point, point))

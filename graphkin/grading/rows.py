@@ -9,6 +9,7 @@ from math import isnan
 from graphkin.errors import PageError
 from graphkin.grading.model import Graded, Mark, Status
 from graphkin.grading.numbers import TURNING, shown
+from graphkin.lab.slip_names import NAMES
 from graphkin.paper.glyphs import advance
 from graphkin.paper.richtext import escape
 from graphkin.text import Words
@@ -22,36 +23,7 @@ HEADS = {
     "off": "feedback.off",
     "earned": "feedback.earned",
 }
-SLIPS = {
-    "rpm_as_rad": "feedback.slip_rpm_as_rad",
-    "turns_as_rad": "feedback.slip_turns_as_rad",
-    "rad_as_rpm": "feedback.slip_rad_as_rpm",
-    "degrees_as_radians": "feedback.slip_degrees_as_radians",
-    "angle_clockwise": "feedback.slip_angle_clockwise",
-    "driver_reversed": "feedback.slip_driver_reversed",
-    "driver_acceleration_missing": "feedback.slip_driver_acceleration_missing",
-    "diameter_for_radius": "feedback.slip_diameter_for_radius",
-    "radius_for_diameter": "feedback.slip_radius_for_diameter",
-    "other_side": "feedback.slip_other_side",
-    "coriolis_missing": "feedback.slip_coriolis_missing",
-    "coriolis_reversed": "feedback.slip_coriolis_reversed",
-    "normal_missing": "feedback.slip_normal_missing",
-    "normal_reversed": "feedback.slip_normal_reversed",
-    "sense_reversed": "feedback.slip_sense_reversed",
-    "wrong_scale": "feedback.slip_wrong_scale",
-    "scale_missing": "feedback.slip_scale_missing",
-    "length_not_scaled": "feedback.slip_length_not_scaled",
-    "power_of_ten": "feedback.slip_power_of_ten",
-    "drawn_in_full": "feedback.slip_drawn_in_full",
-    "swapped": "feedback.slip_swapped",
-    "normal_for_tangential": "feedback.slip_normal_for_tangential",
-    "whole_for_tangential": "feedback.slip_whole_for_tangential",
-    "absolute_for_relative": "feedback.slip_absolute_for_relative",
-    "rate_in_degrees": "feedback.slip_rate_in_degrees",
-    "rate_in_turns": "feedback.slip_rate_in_turns",
-    "axes_swapped": "feedback.slip_axes_swapped",
-    "opposite": "feedback.slip_opposite",
-}
+SLIPS = {name: f"feedback.slip_{name}" for name in NAMES}
 """The sentence of each slip."""
 SENSES = {
     (True, True): "feedback.anticlockwise",

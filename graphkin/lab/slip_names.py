@@ -1,5 +1,7 @@
 """The names of known slips, by which a rubric gives them shares of the points."""
 
+from graphkin.construction.registry import COMPONENTS
+
 NAMES = (
     "rpm_as_rad",
     "turns_as_rad",
@@ -11,10 +13,7 @@ NAMES = (
     "diameter_for_radius",
     "radius_for_diameter",
     "other_side",
-    "coriolis_missing",
-    "coriolis_reversed",
-    "normal_missing",
-    "normal_reversed",
+    *(name for kind in reversed(COMPONENTS) for name in kind.slips),
     "sense_reversed",
     "wrong_scale",
     "scale_missing",

@@ -17,7 +17,8 @@ from graphkin.paper.layout import centre
 from graphkin.paper.marks import Circle, Line, Mark, Text, moved
 from graphkin.paper.place import Spot
 from graphkin.paper.plan import DOT
-from graphkin.paper.symbols import SHORT, VECTORS, head
+from graphkin.paper.style import VECTORS
+from graphkin.paper.symbols import SHORT, head
 from graphkin.paper.together import finished
 
 SHOWN = (*VECTORS, "construction", "link")

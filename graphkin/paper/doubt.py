@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from graphkin.paper.field import XY, clipped
 from graphkin.paper.marks import Line, Mark, Polyline
 from graphkin.paper.place import CLEAR, Spot
-from graphkin.paper.symbols import VECTORS
+from graphkin.paper.style import VECTORS
 
 if TYPE_CHECKING:
     from graphkin.paper.labels import Label

@@ -11,6 +11,7 @@ from graphkin.paper.field import XY, Field
 from graphkin.paper.labels import Board, Label
 from graphkin.paper.marks import Polyline
 from graphkin.paper.scale import Extent, extent_of
+from graphkin.paper.style import CENTRODES
 from graphkin.paper.symbolic import symbol
 from graphkin.plane import Circle, cross
 from graphkin.steps.solution import Curve
@@ -27,8 +28,6 @@ ROOMY = 3.5
 """A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
 STRAIGHT = 1e-6
 """How far aside, in parts of its length, a curve may lead that counts as straight."""
-COLOURS = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
-"""The classes whose colours the names of centrodes take."""
 
 
 def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
@@ -96,7 +95,7 @@ def draw_curves(board: Board, drawing: Drawing, field: Field, rect: Rect) -> Non
         if parts:
             subject = middle_of(max(parts, key=length), share=SHARES[curve.kind])
             words = name_of(drawing.words, curve)
-            cls = COLOURS.get(curve.kind, "")
+            cls = CENTRODES.get(curve.kind, "")
             board.labels.append(Label(words, cls, subject, 2.5, name, led=True))
 
 

@@ -13,12 +13,11 @@ from graphkin.paper.labels import Label
 from graphkin.paper.layout import BEYOND
 from graphkin.paper.marks import Arc, Circle, Line
 from graphkin.paper.naming import way_of
+from graphkin.paper.style import BY_SIGN
 from graphkin.paper.symbolic import bar, symbol
 from graphkin.paper.symbols import PIN, SHORT, arrow
 from graphkin.steps.program import Plane, Step
 
-KINDS = {"ν": "normal", "τ": "tangential", "c": "coriolis", "r": "sliding"}
-"""The looks of the components of an acceleration."""
 SAME = 0.01
 """How near to each other, in mm, points of a plan stand that are told to be the same."""
 DOT = 0.7
@@ -143,9 +142,9 @@ def put_arrow(desk: Desk, number: int, step: Step, value: Any) -> None:
 
 def arrow_class(step: Step, desk: Desk) -> str:
     """The look of a vector: normal and tangential components, relative and absolute ones."""
-    kind = KINDS.get(step.says.get("kind", ""))
+    kind = BY_SIGN.get(step.says.get("kind", ""))
     if kind:
-        return kind
+        return kind.look
     tail = desk.drawing.trace.program.steps[step.args[0]].name
     if step.plane is Plane.MECHANISM or tail == desk.drawing.pole:
         return desk.colour

@@ -28,8 +28,8 @@ from graphkin.paper.richtext import escape, extent, flowed
 from graphkin.paper.ruled import plan_at
 from graphkin.paper.slides import covered
 from graphkin.paper.standing import lettered
+from graphkin.paper.style import VECTORS
 from graphkin.paper.symbolic import symbol
-from graphkin.paper.symbols import VECTORS
 from graphkin.paper.tables import tables
 
 TITLE = 182.0

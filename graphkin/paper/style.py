@@ -70,7 +70,32 @@ class Style:
     round: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class VectorKind:
+    """A kind of component of an acceleration: its class, its sign, how it looks, its legend."""
+
+    look: str
+    sign: str
+    style: Style
+    legend: str
+
+
+COMPONENTS = (
+    VectorKind("normal", "ν", Style(0.4, RED, DASHED), "legend.normal"),
+    VectorKind("tangential", "τ", Style(0.4, RED, SHORT_CHAIN), "legend.tangential"),
+    VectorKind("coriolis", "c", Style(0.4, PURPLE, DOTTED), "legend.coriolis"),
+    VectorKind("sliding", "r", Style(0.4, TEAL, DOUBLE_CHAIN), "legend.along"),
+)
+"""The components of accelerations."""
+BY_SIGN = {kind.sign: kind for kind in COMPONENTS}
+"""The same by their signs."""
+VECTORS = ("velocity", "relative-velocity", "acceleration", *(kind.look for kind in COMPONENTS))
+"""The classes of lines that are vectors."""
+CENTRODES = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
+"""The classes whose colours the names of centrodes take."""
+
 STYLES: dict[str, Style] = {
+    **{kind.look: kind.style for kind in COMPONENTS},
     # sheet
     "frame": Style(0.7),
     "border": Style(0.35),
@@ -123,12 +148,8 @@ STYLES: dict[str, Style] = {
     "relative-velocity": Style(0.35, TEAL),
     "acceleration": Style(0.5, RED),
     "relative-acceleration": Style(0.35, RED),
-    "sliding": Style(0.4, TEAL, DOUBLE_CHAIN),
     "trial": Style(0.13, GREY),
     "trial-line": Style(0.18, GREY, CHAIN),
-    "normal": Style(0.4, RED, DASHED),
-    "tangential": Style(0.4, RED, SHORT_CHAIN),
-    "coriolis": Style(0.4, PURPLE, DOTTED),
     "arrowhead": Style(0, NEXT, fill="ink"),
     "pole": Style(0.35, NEXT, fill=WHITE),
     "point": Style(0.25, NEXT, fill=WHITE),

@@ -9,16 +9,6 @@ from graphkin.paper.field import XY
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline, polygon
 from graphkin.paper.style import BRIEF
 
-VECTORS = (
-    "velocity",
-    "relative-velocity",
-    "acceleration",
-    "normal",
-    "tangential",
-    "coriolis",
-    "sliding",
-)
-"""The classes of lines that are vectors."""
 HEAD, SHARE = 3.2, 0.4
 """Length of an arrowhead in mm, and of that of a short vector in parts of it."""
 SHORT, SHAFTED = 2.0, 6.0

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from graphkin.construction import coriolis
 from graphkin.construction.normal_component import lay_off_normal, normal_component, square
+from graphkin.construction.sliding import lay_off_component, turning_component
 from graphkin.plans import wheels
 from graphkin.plans.arrows import acceleration_arrow, component_arrow, slide_arrow
 from graphkin.plans.carried import (
     accelerated,
-    image_under,
     omega_of,
-    second_image_under,
     tangential_effect,
 )
-from graphkin.plans.guides import known_guide
 from graphkin.plans.links import Base, crank_tip, sides_of
 from graphkin.plans.pen import Pen, Says, about, letter, named, second_image
 from graphkin.plans.plates import crosses_well
@@ -28,7 +25,6 @@ from graphkin.steps.vocabulary import (
     driven_tangential,
     meet,
     parallel_to,
-    part_along,
     similar_point,
 )
 from graphkin.structure.graph import Contact, Pin, Sliding
@@ -75,7 +71,7 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False)
 
 
 def driven(pen: Pen, shapes: Shapes, group: Driven) -> None:
-    """Second image of a driven slider or wheel: Coriolis where its guide turns, then along it."""
+    """Second image of a driven slider or wheel: along its guide from what is known of it."""
     if isinstance(group.pair, Contact):
         rate = wheels.given_speed(pen, group.driver, group.pair, "acceleration")
     else:
@@ -88,9 +84,9 @@ def slide_on(pen: Pen, shapes: Shapes, pair: Sliding | Contact, link: str, rate:
     point, known = pen.bases[link].start, partner(pair, link)
     way = 1 if pair.links[0] == link else -1
     line = line_of(pen, shapes, pair, link, point)
-    vector = coriolis.of_slide(pen, pair, link, point, point)
+    vector = turning_component(pen, pair, link, point, point)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = coriolis.lay_off(pen, pair, link, point, point, vector)
+        corner = lay_off_component(pen, pair, link, point, point, vector)
         says: Says = {"q": point, "g": pair.links[0], "s": named(pen, corner)}
         name = second_image(point)
         with pen.calls_for(sliding_effect(pen, rate)):
@@ -120,7 +116,7 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
         if isinstance(pair, Pin)
     }
     slides = {
-        pair.links: coriolis.of_slide(pen, pair, link, name, point)
+        pair.links: turning_component(pen, pair, link, name, point)
         for pair, link in sides
         if not isinstance(pair, Pin)
     }
@@ -132,7 +128,7 @@ def cross(pen: Pen, shapes: Shapes, name: str, point: str, sides: list[tuple[Joi
                 corner = lay_off_normal(pen, pair.point, name, normals[pair.point])
                 lines.append(square(pen, pair.point, name, corner))
             else:
-                corner = coriolis.lay_off(pen, pair, link, name, point, slides[pair.links])
+                corner = lay_off_component(pen, pair, link, name, point, slides[pair.links])
                 lines.append(along(pen, shapes, pair, link, point, corner))
             corners.append(corner)
         found = pen.draw(meet, *lines, name=second_image(name), q=name)
@@ -229,21 +225,3 @@ def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str,
 def turning(pen: Pen, base: Base) -> None:
     """Angular acceleration of a link: tangential component over length, with its sense."""
     omega_of(pen, base.link, "epsilon")
-
-
-def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
-    """Acceleration of a block along its guide, and its Coriolis acceleration where that turns."""
-    pair = pen.first_slide(block)
-    first = pen.scene.link(block).points[0]
-    start = second_image_under(pen, pair.links[1], first)
-    guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
-    if pen.turns(pair.links[1]):
-        tail = image_under(pen, pair.links[1], first)
-        tip = pen.the("velocity", first)
-        vector = coriolis.coriolis_of(pen, pair.links[1], tail, tip, first, block)
-        pen.want("coriolis", block, vector)
-        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            start = coriolis.lay_off(pen, pair, block, first, first, vector)
-            slide_arrow(pen, start, end, pair.links[1], first)
-    with pen.on(Part.RESULT, Plane.NUMBERS):
-        pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))

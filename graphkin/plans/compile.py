@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphkin.construction import sliding
 from graphkin.errors import Problem, StructureError
 from graphkin.plans import (
     acceleration,
@@ -162,7 +163,7 @@ def write_accelerations(pen: Pen, shapes: Shapes, standing: Standing) -> None:
         accelerate(pen, shapes, group, found)
     for link in pen.scene.links.values():
         if link.slides:
-            acceleration.sliding(pen, shapes, link.name)
+            sliding.sliding(pen, shapes, link.name)
     asked.show(pen, asked.ACCELERATION, tips(pen, standing))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.construction.coriolis import coriolis_of, end_of, lay_off_turned
+from graphkin.construction.sliding import component_between
 from graphkin.plans import acceleration, position, velocity
 from graphkin.plans.arrows import slide_arrow, velocity_arrows
 from graphkin.plans.guides import local_line
@@ -75,16 +75,15 @@ def move(pen: Pen, shapes: Shapes, group: Stretched) -> None:
 
 
 def accelerate(pen: Pen, shapes: Shapes, group: Stretched) -> None:
-    """Second image of that point: Coriolis, the given acceleration along the guide."""
+    """Second image of that point: the given acceleration along the guide that turns."""
     foot, way = foot_of(group)
     point, far = group.pin.point, group.dyad.links[0]
     start, line = pen.the("acceleration", point), pen.shared["guide", *group.slide.links]
     rate = pen.drive(group.driver).acceleration
     images = pen.the("velocity", point), pen.the("velocity", foot)
-    vector = coriolis_of(pen, far, *images, point, group.slide.block)
+    corner = component_between(pen, far, images, point, group.slide.block)
     says: Says = {"q": letter(foot), "g": group.slide.block, "s": named(pen, start)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = end_of(pen, lay_off_turned, start, vector)
         name = second_image(foot)
         with pen.calls_for(acceleration.sliding_effect(pen, rate)):
             found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.construction.component import LaidOff
-from graphkin.construction.coriolis import CoriolisComponent
+from graphkin.construction.sliding import slid
 from graphkin.plans.arrows import arrow_between, relative_arrow
 from graphkin.plans.links import under
 from graphkin.plans.pen import Pen, Says, about, letter
@@ -42,7 +41,7 @@ def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range)
     """The arrows of the components in the right plan, and of the velocities that they start from.
 
     What is laid off there is what the second trial has laid off, for it does not hang on what is
-    tried: normal and Coriolis components. What closes the way to a point is its tangential
+    tried: components that follow from velocities. What closes the way to a point is its tangential
     component, or the acceleration along a guide.
     """
     right = {number: pen.targets[t] for t, number in second.items() if t in pen.targets}
@@ -70,14 +69,14 @@ def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
 
 
 def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
-    """Coriolis component and relative acceleration of a point that slides on what turns.
+    """The component that turning gives a sliding point, and its relative acceleration.
 
     Where the point of the guide under it is sought, the way is gone backwards from the sliding one.
     """
-    laid = pen.steps[number].of
-    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
+    found = slid(pen.steps[number])
+    if found is None:
         return
-    component = laid.component
+    laid, component = found
     start, vector = (right.get(arg, arg) for arg in pen.steps[number].args)
     says: Says = {"i": component.index, "q": component.point, "p": ""}
     if not laid.back:

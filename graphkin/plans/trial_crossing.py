@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from graphkin.construction.coriolis import known_end
 from graphkin.construction.normal_component import lay_off_normal, normal_component, square
+from graphkin.construction.sliding import known_end
 from graphkin.plans import velocity as velocities
 from graphkin.plans.carried import image_under
 from graphkin.plans.guides import known_guide

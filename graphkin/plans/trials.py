@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from graphkin.construction.coriolis import known_end
 from graphkin.construction.normal_component import normal_component
+from graphkin.construction.sliding import known_end
 from graphkin.plans import acceleration as accelerations
 from graphkin.plans import velocity as velocities
 from graphkin.plans.arrows import acceleration_arrow, velocity_arrows
@@ -50,7 +50,7 @@ def velocity(pen: Pen, shapes: Shapes, group: Higher, each: Each) -> None:
 
 
 def acceleration(pen: Pen, shapes: Shapes, group: Higher, each: Each) -> None:
-    """The acceleration plan in the same way; normal components and Coriolis are known by then."""
+    """The acceleration plan in the same way; what follows from velocities is known by then."""
     two_trials(pen, shapes, group, each, ACCELERATION)
 
 

@@ -233,8 +233,8 @@ def sliding(pen: Pen, shapes: Shapes, block: str) -> None:
 def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
     """The arrow of a relative velocity along a guide that moves.
 
-    Of one that only shifts, so that no Coriolis component comes of it, that of the guide along the
-    block suffices.
+    Of one that only shifts, so that no component of an acceleration comes of it, that of the guide
+    along the block suffices.
     """
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
     start, tip = image_under(pen, known, point), pen.the("velocity", point)

@@ -15,7 +15,8 @@ from graphkin.paper.desk import TINY, above_foot
 from graphkin.paper.images import undrawn_sides
 from graphkin.paper.layout import BEYOND, SWEEP
 from graphkin.paper.marks import Arc, Circle, Line, Mark, Polyline
-from graphkin.paper.symbols import SHORT, VECTORS
+from graphkin.paper.style import VECTORS
+from graphkin.paper.symbols import SHORT
 from graphkin.paper.tips import BEYOND as BEYOND_TIPS
 from graphkin.paper.tips import PARALLEL, parallel_velocities
 from graphkin.paper.trial_gaps import gap_lines

@@ -13,7 +13,7 @@ from graphkin.paper.drawing import Drawing
 from graphkin.paper.layout import Layout
 from graphkin.paper.marks import Circle, Line, Mark, Text
 from graphkin.paper.mechanism import stretched
-from graphkin.paper.symbols import VECTORS
+from graphkin.paper.style import VECTORS
 from graphkin.plane import Line as Carrier
 from graphkin.plane import Ratio, Vector
 from graphkin.screen.binding import Bench, Binding, Record, Told, only_at_start, still

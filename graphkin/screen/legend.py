@@ -5,19 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from html import escape
 
+from graphkin.paper.style import BY_SIGN
 from graphkin.paper.symbolic import symbol
 from graphkin.paper.tags import marked_up
 from graphkin.screen.sheets import ScreenSheet
 from graphkin.steps.program import Part, Step
 from graphkin.text import Words
 
-KINDS = {
-    "ν": "legend.normal",
-    "τ": "legend.tangential",
-    "c": "legend.coriolis",
-    "r": "legend.along",
-}
-"""What is said of the components of accelerations, by their signs."""
 PLANS = {
     "velocity": ("*k*_v", "*ω*", "legend.omega"),
     "acceleration": ("*k*_a", "*ε*", "legend.epsilon"),
@@ -67,4 +61,6 @@ def images(words: Words, arrows: Sequence[Step], sheet: ScreenSheet) -> Iterator
 def components(words: Words, arrows: Sequence[Step]) -> Iterator[tuple[str, str]]:
     """The components of accelerations by their signs, in the order in which they are drawn."""
     kinds = dict.fromkeys(step.says["kind"] for step in arrows if step.says.get("kind"))
-    yield from ((symbol(f"a^{kind}"), words(KINDS[kind])) for kind in kinds if kind in KINDS)
+    yield from (
+        (symbol(f"a^{kind}"), words(BY_SIGN[kind].legend)) for kind in kinds if kind in BY_SIGN
+    )

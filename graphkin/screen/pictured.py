@@ -20,8 +20,8 @@ from graphkin.paper.layout import Layout
 from graphkin.paper.marks import Line, Mark, Polyline, reach
 from graphkin.paper.mechanism import draw_bars, draw_ground, draw_pins, draw_plates
 from graphkin.paper.scale import Extent, extent_of
+from graphkin.paper.style import VECTORS
 from graphkin.paper.symbolic import symbol
-from graphkin.paper.symbols import VECTORS
 from graphkin.plane import Vector
 from graphkin.screen.grounds import travelling
 from graphkin.screen.lettered import Letter, Seen
