@@ -60,7 +60,7 @@ class Chains:
         """Second derivative of every chain in two directions of the unknowns: shape (N, R).
 
         Vectors that turn give -θ̇_u θ̇_v times themselves; a slide on a turning guide gives
-        i(ṡ_u θ̇_v + ṡ_v θ̇_u) along itself, which for u = v is the Coriolis term.
+        i(ṡ_u θ̇_v + ṡ_v θ̇_u) along itself, which for u = v comes of sliding on what turns.
         """
         (turn_u, slide_u), (turn_v, slide_v) = self.split(u), self.split(v)
         centripetal = linear.turned @ (turn_u * turn_v)[:, 1:, None]

@@ -75,10 +75,9 @@ def test_triangles_are_relative_velocity_over_bar_as_drawn(judgement):
     for i, sheets in enumerate(singles):
         sheet = sheets[-1]
         for step, value in [(s, v) for _, s, v in sheet.mechanism_steps() if "″" in s.name]:
-            says = step.says
-            name = "v_" + says["i"]
-            if name in found.triangles and step.name.endswith("″_" + says["i"]):
-                pin, pivot = sheet.standing.spot(says["q"]), sheet.standing.spot(says["p"])
+            name = step.of.speed
+            if name in found.triangles and step.role == "tip":
+                pin, pivot = sheet.standing.spot(step.of.q), sheet.standing.spot(step.of.p)
                 ratio = abs(value - pin) / abs(pin - pivot)
                 assert found.triangles[name][i] == pytest.approx(ratio)
                 break

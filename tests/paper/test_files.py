@@ -14,6 +14,7 @@ from xml.etree import ElementTree as ET
 import pypdf
 import pytest
 
+from graphkin.construction.normal_component import NormalComponent
 from graphkin.paper.desk import TINY
 from graphkin.paper.marks import Line, Text
 from graphkin.paper.pdf import write_pdf
@@ -97,8 +98,8 @@ def expected_vectors(page: Drawn) -> dict[tuple[str, str], tuple[complex, comple
         if motion is not None:
             found["mechanism", f"{quantity[0]}_{point}"] = (tail, tail + 1000 * motion / k)
     for _, step, value in drawing.steps(Plane.NUMBERS):
-        if step.part is Part.NORMAL and step.action.key == "normal":
-            p, q, index = step.says["p"], step.says["q"], step.says["i"]
+        if isinstance(step.of, NormalComponent) and step.role == "vector":
+            p, q, index = step.of.p, step.of.q, step.of.index
             tail = 1000 * (drawing.positions[q] - start) / kL
             relative = drawing.trace.value("velocity", q) - drawing.trace.value("velocity", p)
             found["mechanism", f"v_{index}"] = (tail, tail + 1000 * relative / kv)
@@ -146,11 +147,11 @@ def test_every_vector_in_the_svg_has_the_ends_that_the_trace_and_the_scales_give
     assert {name for name in wanted if name[0] == "plan"} <= seen
     if drawing.kind == "acceleration":
         numbers = drawing.steps(Plane.NUMBERS)
-        normals = [(s, v) for _, s, v in numbers if s.part is Part.NORMAL]
+        normals = [(s.of, v) for _, s, v in numbers if s.role == "vector"]
         triangles = [s for s, v in normals if 1000 * abs(v) / drawing.scales.ka >= TINY]
         assert normals
-        assert {("mechanism", f"v_{s.says['i']}") for s in triangles} <= seen
-        assert {("mechanism", f"a_{s.says['i']}^ν") for s in triangles} <= seen
+        assert {("mechanism", f"v_{s.index}") for s in triangles} <= seen
+        assert {("mechanism", f"a_{s.index}^ν") for s in triangles} <= seen
 
 
 def test_every_line_in_the_pdf_lies_where_the_mark_and_the_svg_have_it(page):
