@@ -6,7 +6,7 @@ Run it with ``python examples/01_pump.py``.
 from __future__ import annotations
 
 import graphkin
-from graphkin.steps.solution import Solution
+from graphkin.construction.core.solution import Solution
 
 STUDENT = 7
 

@@ -10,8 +10,8 @@ import tempfile
 from pathlib import Path
 
 import graphkin
-from graphkin.handout import hand_out
-from graphkin.paper.files import file_stem, rendered, write_all
+from graphkin.documents.sheet_documents import hand_out
+from graphkin.writers.files import file_stem, rendered, write_all
 
 STUDENTS = (7, 8)
 

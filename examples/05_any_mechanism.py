@@ -10,7 +10,7 @@ from pathlib import Path
 
 import graphkin
 from graphkin.mechanism import Mechanism
-from graphkin.motion import cycle
+from graphkin.motion.cycle import cycle
 from graphkin.structure.mobility import count
 
 SCENES = Path(__file__).resolve().parent / "scenes"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.cli import main
+from graphkin.cli.main import main
 
 if __name__ == "__main__":
     main()

@@ -8,29 +8,29 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin import labs
-from graphkin.arithmetic import FLOAT, Kind
-from graphkin.errors import Problem, SceneError
-from graphkin.kinds import array_kind
-from graphkin.plans.compile import write
-from graphkin.plans.trial_rates import trial_rates
+from graphkin.construction.compile import write
+from graphkin.construction.core.batch import run_blocks
+from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.results import decided, gathered, product_of_sines, row_of, rows_of
+from graphkin.construction.core.run import StepFailed, Trace, run
+from graphkin.construction.core.solution import Solution, Verdict
+from graphkin.construction.higher_class.trial_rates import trial_rates
+from graphkin.numbers.arithmetic import FLOAT, Kind
+from graphkin.numbers.kinds import array_kind
+from graphkin.scene import scene_files
+from graphkin.scene.link_names import in_language
 from graphkin.scene.model import Scene
-from graphkin.scene.names import in_language
-from graphkin.scene.read import read_scene
-from graphkin.steps.batch import run_blocks
-from graphkin.steps.gather import decided, gathered, product_of_sines, row_of, rows_of
-from graphkin.steps.press import LEAST, Press
-from graphkin.steps.program import Program, Target
-from graphkin.steps.run import StepFailed, Trace, run
-from graphkin.steps.solution import Solution, Verdict
-from graphkin.structure.drivers import refuse_drivers
+from graphkin.scene.read_scene import read_scene
+from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import Group
-from graphkin.structure.order import decompose
+from graphkin.tape.batch_runner import LEAST, BatchRunner
+from graphkin.text.errors import Problem, SceneError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from graphkin.notebook import Which
+    from graphkin.documents.notebook import Which
 
 DECIDED = 1e-6
 """Sine of a crossing below which it is decided without rounding whether there is one."""
@@ -51,7 +51,7 @@ def load(name: str | Path, /, **settings: object) -> Mechanism:
 
     Raises SceneError or StructureError with everything that is wrong.
     """
-    return Mechanism(read_scene(labs.find(str(name)), settings))
+    return Mechanism(read_scene(scene_files.find(str(name)), settings))
 
 
 @dataclass(frozen=True)
@@ -73,9 +73,9 @@ class Mechanism:
         return write(self.scene, self.groups)
 
     @cached_property
-    def press(self) -> Press:
+    def press(self) -> BatchRunner:
         """What runs the program on many variants at once."""
-        return Press(self.program)
+        return BatchRunner(self.program)
 
     @cached_property
     def trial_rates(self) -> Mapping[int, float]:
@@ -129,11 +129,11 @@ class Mechanism:
             with kind.working():
                 trace = run(program, needed, self.scene.values_in(kind), kind, overrides=overrides)
         except StepFailed as failed:
-            from graphkin.reach import does_not_close
+            from graphkin.diagnosis.assembly_failure import does_not_close
 
             raise does_not_close(self.scene, program, needed, failed) from failed
         if kind is FLOAT and min(trace.margins.values(), default=1.0) < DECIDED:
-            from graphkin.reach import refuse_touching
+            from graphkin.diagnosis.assembly_failure import refuse_touching
 
             refuse_touching(self.scene, trace)
         return trace
@@ -145,7 +145,7 @@ class Mechanism:
 
     def witness(self, solution: Solution) -> Verdict:
         """The judgement of the independent route on a solution of this scene."""
-        from graphkin.witness import compare
+        from graphkin.loops.witness import compare
 
         return compare(self.scene, solution)
 
@@ -244,7 +244,7 @@ class Mechanism:
         flat = np.flatnonzero(np.broadcast_to(losing, count) < LOSSY)
         if not flat.size:
             return solution
-        from graphkin.witness import examine, sure_of
+        from graphkin.loops.witness import examine, sure_of
 
         unsure: dict[str, Any] = {}
         for start in range(0, flat.size, EXAMINED):
@@ -257,19 +257,19 @@ class Mechanism:
     @cached_property
     def evenness(self) -> float:
         """The shortest length of the mechanism in parts of its longest."""
-        from graphkin.witness.sure import evenness
+        from graphkin.loops.witness.sure_quantities import evenness
 
         return evenness(self.scene)
 
     def plot(self, ax: Axes, which: Which = "velocity", **options: Any) -> Axes:
         """Draw the mechanism or one of its plans into axes of matplotlib (see notebook.plot)."""
-        from graphkin.notebook import plot
+        from graphkin.documents.notebook import plot
 
         return plot(self, ax, which, **options)
 
     def _repr_svg_(self) -> str:
         """The first sheet, as a notebook shows it."""
-        from graphkin.notebook import picture
+        from graphkin.documents.notebook import picture
 
         return picture(self)
 

@@ -17,8 +17,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from graphkin.mechanism import Mechanism, load
-from graphkin.plane import cross, dot
-from graphkin.scene.read import read_text
+from graphkin.numbers.plane import cross, dot
+from graphkin.scene.read_scene import read_text
 
 HEAD = """graphkin = 1
 title = "made at random"

@@ -14,7 +14,7 @@ from typing import Any
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
-from graphkin.scene.words import KEYWORDS
+from graphkin.scene.phrases import KEYWORDS
 
 
 class AsWritten(str):

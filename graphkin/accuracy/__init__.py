@@ -1,1 +1,1 @@
-"""What accuracy costs: the same positions by every kind of number and route, errors and times."""
+"""What accuracy costs: the same positions by every kind of number and route."""

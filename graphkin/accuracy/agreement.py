@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.accuracy.answers import Found, Reference, rows_of
+from graphkin.accuracy.compared_answers import Found, Reference, rows_of
 from graphkin.accuracy.methods import batch_work, found_singly, radii_in
-from graphkin.accuracy.routes import columns_of, in_floats, start_before
-from graphkin.arithmetic import FLOAT
-from graphkin.kinds import ball_kind
+from graphkin.accuracy.other_routes import columns_of, in_floats, start_before
 from graphkin.loops.equations import equations
-from graphkin.loops.solve import closed_from
+from graphkin.loops.newton import closed_from
 from graphkin.motion.course import Reals
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.numbers.kinds import ball_kind
 
 DOUBLE = 53
 """Bits of a ball that has as many as a double."""

@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.accuracy.answers import Found, Reference, radii_of, rows_of
+from graphkin.accuracy.compared_answers import Found, Reference, radii_of, rows_of
 from graphkin.accuracy.stopwatch import Effort, Work
-from graphkin.arithmetic import FLOAT, Kind
-from graphkin.errors import GraphkinError
-from graphkin.kinds import array_kind, ball_kind, decimal_kind
+from graphkin.construction.core.batch import run_blocks
+from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.run import StepFailed, run
+from graphkin.construction.core.timing import Timing
+from graphkin.numbers.arithmetic import FLOAT, Kind
+from graphkin.numbers.kinds import array_kind, ball_kind, decimal_kind
 from graphkin.scene.model import Closure
-from graphkin.steps.batch import run_blocks
-from graphkin.steps.press import Press, Way
-from graphkin.steps.program import Program, Target
-from graphkin.steps.run import StepFailed, run
-from graphkin.steps.timed import Timing
+from graphkin.tape.batch_runner import BatchRunner, Way
+from graphkin.text.errors import GraphkinError
 
 DIGITS = (15, 30, 60, 120)
 BITS = (53, 106, 212, 400)
@@ -28,7 +28,7 @@ FEW = 1_000
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class MethodRow:
     """A method: its largest errors in parts of the largest of each quantity, and its time.
 
     An error is None for what a method does not give, inf where it fails at some position.
@@ -51,7 +51,7 @@ class Row:
 class Method:
     """A row still without its time, and the work on so many positions that is to be timed."""
 
-    row: Row
+    row: MethodRow
     work: Work | None = None
     positions: int = 1
 
@@ -89,7 +89,7 @@ def one_by_one(
         for number in some:
             singly(reference, kind, number)
 
-    row = Row(family, name, key, reference.relative(missed), None, 1, certified)
+    row = MethodRow(family, name, key, reference.relative(missed), None, 1, certified)
     return Method(row, work, len(some))
 
 
@@ -160,7 +160,7 @@ def batch(reference: Reference, effort: Effort, kind: str, way: Way, name: str, 
     work = batch_work(reference.places.course.program, reference.answers.every, values, kind, way)
     columns = {t: head_of(v, positions) for t, v in work().items()}
     missed = reference.missed(rows_of(columns, positions))
-    row = Row(kind, name, key, reference.relative(missed), None, count)
+    row = MethodRow(kind, name, key, reference.relative(missed), None, count)
     return Method(row, work, count)
 
 
@@ -175,7 +175,7 @@ def batch_work(
     """What runs the targets on arrays of values in a kind and a way, and gives them by name."""
     needed = program.needed(targets)
     keep = [program.targets[target] for target in targets]
-    press = Press(program)
+    press = BatchRunner(program)
 
     def work() -> dict[Target, Any]:
         with np.errstate(all="ignore"):
@@ -190,9 +190,9 @@ def batch_work(
 
 def can_be_emitted(reference: Reference) -> bool:
     """Whether source can follow the program."""
-    from graphkin.steps.press import Order
+    from graphkin.tape.batch_runner import BatchRequest
 
     program, answers = reference.places.course.program, reference.answers
     keep = [program.targets[target] for target in answers.every]
-    order = Order(reference.needed, reference.places.values, keep, False, {})
-    return Press(program).emitted(order) is not None
+    order = BatchRequest(reference.needed, reference.places.values, keep, False, {})
+    return BatchRunner(program).emitted(order) is not None

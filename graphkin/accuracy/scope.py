@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from graphkin.accuracy.answers import Reference
+from graphkin.accuracy.compared_answers import Reference
 from graphkin.accuracy.methods import batch_work, can_be_emitted, variants_of
 from graphkin.accuracy.stopwatch import Effort, Stopwatch, Work
-from graphkin.arithmetic import FLOAT
+from graphkin.construction.core.program import Target
+from graphkin.construction.core.run import run
+from graphkin.construction.core.timing import Timing
 from graphkin.mechanism import Mechanism
-from graphkin.steps.press import Way
-from graphkin.steps.program import Target
-from graphkin.steps.run import run
-from graphkin.steps.timed import Timing
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.tape.batch_runner import Way
 
 SCOPES = (
     ("position", ("position", "slide")),

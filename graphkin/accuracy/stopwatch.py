@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from statistics import quantiles
 from time import perf_counter
 
-from graphkin.steps.timed import Timing
+from graphkin.construction.core.timing import Timing
 
 Clock = Callable[[], float]
 FEWEST = 5
@@ -56,7 +56,7 @@ Work = Callable[[], object]
 
 
 @dataclass(slots=True)
-class Run:
+class TimedWork:
     """Work on so many positions, how often it is done in a round, and the rounds' times."""
 
     work: Work
@@ -86,7 +86,7 @@ class Stopwatch:
         A round takes all works in turn, so that what else the machine does meanwhile troubles
         them alike.
         """
-        runs = [self.prepared(Run(work, positions)) for work, positions in works]
+        runs = [self.prepared(TimedWork(work, positions)) for work, positions in works]
         for n in range(max((run.rounds for run in runs), default=0)):
             self.say(f"timing, round {n + 1}")
             for run in runs:
@@ -95,7 +95,7 @@ class Stopwatch:
                     run.seconds.append(seconds / (run.calls * run.positions))
         return [run.timing for run in runs]
 
-    def prepared(self, run: Run) -> Run:
+    def prepared(self, run: TimedWork) -> TimedWork:
         """How many calls and rounds a work is worth."""
         run.work()
         once = self.seconds(run.work, 1)

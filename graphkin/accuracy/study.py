@@ -9,18 +9,18 @@ from time import perf_counter
 import numpy as np
 
 from graphkin.accuracy.agreement import Agreement, agreement
-from graphkin.accuracy.answers import Reference, answers_of, reference_of
-from graphkin.accuracy.flat import Flattening, flattened
-from graphkin.accuracy.methods import Method, Row, own_methods
-from graphkin.accuracy.pencils import pencil_rows, pencilled
-from graphkin.accuracy.places import approach, ground_of, places_around
-from graphkin.accuracy.routes import other_methods
+from graphkin.accuracy.compared_answers import Reference, answers_of, reference_of
+from graphkin.accuracy.compared_positions import approach, ground_of, places_around
+from graphkin.accuracy.flattening import Flattening, flattened
+from graphkin.accuracy.methods import Method, MethodRow, own_methods
+from graphkin.accuracy.other_routes import other_methods
+from graphkin.accuracy.pencil.original import DrawingScales
+from graphkin.accuracy.pencil_rows import pencil_rows, pencilled
 from graphkin.accuracy.scope import Scope, scopes
 from graphkin.accuracy.stopwatch import Clock, Effort, Stopwatch
-from graphkin.errors import GraphkinError
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
-from graphkin.pencil.original import Scales
+from graphkin.text.errors import GraphkinError
 
 Say = Callable[[str], None]
 
@@ -36,20 +36,20 @@ class Study:
     mechanism: Mechanism
     reference: Reference
     agreement: Agreement
-    rows: tuple[Row, ...]
+    rows: tuple[MethodRow, ...]
     flattening: Flattening | None
     pencil: tuple[Reals, Reals]
     scopes: tuple[Scope, ...]
     effort: Effort = field(default_factory=Effort)
 
-    def row(self, method: str) -> Row:
+    def row(self, method: str) -> MethodRow:
         """The row of a method."""
         return next(row for row in self.rows if row.method == method)
 
 
 def study(
     mechanism: Mechanism,
-    scales: Scales | None,
+    scales: DrawingScales | None,
     effort: Effort | None = None,
     *,
     say: Say = lambda words: None,
@@ -95,7 +95,7 @@ def every_method(reference: Reference, effort: Effort) -> Iterator[Method]:
     yield from other_methods(reference, effort)
 
 
-def timed(methods: Sequence[Method], watch: Stopwatch) -> list[Row]:
+def timed(methods: Sequence[Method], watch: Stopwatch) -> list[MethodRow]:
     """The rows of methods with their times."""
     works = [(method.work, method.positions) for method in methods if method.work is not None]
     times = iter(watch.times(works))

@@ -1,1 +1,1 @@
-"""What a hand draws, kind by kind: everything about a construction stands in its own module."""
+"""What a hand draws: steps, their values, marks and words, a folder for each kind."""

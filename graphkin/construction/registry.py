@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from graphkin.construction.component import Component, LaidOff
-from graphkin.construction.coriolis import CoriolisComponent
-from graphkin.construction.kind import Construction
-from graphkin.construction.normal_component import NormalComponent
+from graphkin.construction.core.component import Component, LaidOff
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.coriolis.coriolis import CoriolisComponent
+from graphkin.construction.normal_component.normal_component import NormalComponent
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, CoriolisComponent)
 """The components of accelerations that follow from velocities."""

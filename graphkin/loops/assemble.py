@@ -12,16 +12,16 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.errors import GraphkinError, Problem, StructureError, WitnessError
-from graphkin.loops.bodies import Reals
-from graphkin.loops.closures import closures, scattered, turned_side
+from graphkin.loops.branch_closures import closures, scattered, turned_side
+from graphkin.loops.closing_groups import Group, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, undriven
-from graphkin.loops.groups import Group, speaks_of, stages
-from graphkin.loops.motion import Motion
+from graphkin.loops.loop_motion import Motion
+from graphkin.loops.newton import AT_REST, LoopSolution, closed_from, largest, newton, scaled
+from graphkin.loops.newton_start import Start
 from graphkin.loops.poses import Pose, pose_of, setting_of, spot, unknowns_of
-from graphkin.loops.solve import AT_REST, LoopSolution, closed_from, largest, newton, scaled
-from graphkin.loops.start import Start
+from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
+from graphkin.text.errors import GraphkinError, Problem, StructureError, WitnessError
 
 TRIES = 64
 """Random starts from which some closed position is looked for."""

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphkin.loops.bodies import Complexes, Numbers, Reals
-from graphkin.loops.vectors import Chain, Tree
+from graphkin.loops.rigid_bodies import Complexes, Numbers, Reals
+from graphkin.loops.vector_chains import Chain, Tree
 
 
 class Linear(NamedTuple):

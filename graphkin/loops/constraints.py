@@ -12,9 +12,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphkin.loops.bodies import Reals
 from graphkin.loops.equations import Equations, undriven
-from graphkin.loops.motion import Motion
+from graphkin.loops.loop_motion import Motion
+from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.model import FRAME
 
 

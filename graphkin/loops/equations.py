@@ -15,8 +15,18 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.errors import Problem, StructureError
-from graphkin.loops.bodies import (
+from graphkin.loops.chains import Chains, Linear, packed
+from graphkin.loops.driver_equations import Drives, drives_of
+from graphkin.loops.no_slip import (
+    Gear,
+    Slips,
+    counted_turnings,
+    gears_of,
+    packed_slips,
+    slips_of,
+    tracks_of,
+)
+from graphkin.loops.rigid_bodies import (
     Body,
     Complexes,
     Guide,
@@ -26,19 +36,9 @@ from graphkin.loops.bodies import (
     guides_of,
     longest,
 )
-from graphkin.loops.chains import Chains, Linear, packed
-from graphkin.loops.drives import Drives, drives_of
-from graphkin.loops.rolling import (
-    Gear,
-    Slips,
-    counted_turnings,
-    gears_of,
-    packed_slips,
-    slips_of,
-    tracks_of,
-)
-from graphkin.loops.vectors import Tree, Turnings, refuse_unknown_lean, turnings
+from graphkin.loops.vector_chains import Tree, Turnings, refuse_unknown_lean, turnings
 from graphkin.scene.model import FRAME, Scene
+from graphkin.text.errors import Problem, StructureError
 
 
 @dataclass(frozen=True, eq=False)

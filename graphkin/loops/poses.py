@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphkin.loops.bodies import Guide, Reals
 from graphkin.loops.equations import Equations
+from graphkin.loops.rigid_bodies import Guide, Reals
 
 Spot = tuple[str, int, bool]
 """A guide by its block, its number there, and whether it is a track."""

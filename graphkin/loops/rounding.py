@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphkin.loops.bodies import Complexes, Reals
 from graphkin.loops.equations import Equations
-from graphkin.loops.motion import Motion
+from graphkin.loops.loop_motion import Motion
+from graphkin.loops.rigid_bodies import Complexes, Reals
 
 UNIT = 4 * 2.0**-52
 """Share of its terms by which a sound computation in doubles misses an equation at most."""
@@ -152,7 +152,7 @@ class Rounding:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Standing:
+class PositionBounds:
     """How sure a position is: ``off`` (N, K + m) bounds the errors of its unknowns.
 
     ``regular`` marks the unknowns that the equations determine to first order; ``places`` are
@@ -167,7 +167,7 @@ class Standing:
     regular: Flags
 
     @classmethod
-    def of(cls, loops: Equations, unknowns: Reals) -> Standing:
+    def of(cls, loops: Equations, unknowns: Reals) -> PositionBounds:
         """Bounded at a closed position."""
         still = np.zeros_like(unknowns)
         motion = Motion.of(loops, unknowns, still, still)
@@ -181,7 +181,7 @@ class Standing:
         )
         return first.bounded(unknowns)
 
-    def bounded(self, unknowns: Reals) -> Standing:
+    def bounded(self, unknowns: Reals) -> PositionBounds:
         """With the bounds: to first order, and by how much the loops bend within that."""
         loops, rows = self.loops, self.rows
         shaken = rows.moved(self.split(self.off), self.places).turned.sum(axis=-1)
@@ -214,7 +214,7 @@ def rounding(loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) ->
     motion = Motion.of(loops, unknowns, rates, seconds)
     links, points = len(loops.links), len(loops.links) + len(loops.closing)
     with np.errstate(all="ignore"):
-        found = Standing.of(loops, unknowns)
+        found = PositionBounds.of(loops, unknowns)
         rows, places, split = found.rows, found.places, found.split
         off, speed, thrust = split(found.off), split(rates), split(seconds)
         moved = rows.moved(split(found.lost), places)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.motion.cycle import Cycle
-from graphkin.plane import Ratio
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Link, Scene
 
 MOST = 2

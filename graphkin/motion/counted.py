@@ -16,7 +16,7 @@ import numpy as np
 from graphkin.scene.expression import Name
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import Quantity
-from graphkin.structure.counting import counted_near
+from graphkin.structure.turn_counting import counted_near
 
 if TYPE_CHECKING:
     from graphkin.motion.course import Course

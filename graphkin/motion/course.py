@@ -9,20 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.arithmetic import FLOAT, batch_kind
-from graphkin.errors import GraphkinError
+from graphkin.construction.compile import write
+from graphkin.construction.core.batch import BLOCK, run_batch, run_blocks
+from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.run import StepFailed, Trace, evaluate
+from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.rolling.wheel_actions import counted_link
 from graphkin.motion.counted import Turned
 from graphkin.motion.sweep import Sweep
-from graphkin.plane import Circle, Line, Ratio
-from graphkin.plans.compile import write
+from graphkin.numbers.arithmetic import FLOAT, batch_kind
+from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.scene.model import Branch, Scene
-from graphkin.steps.batch import BLOCK, run_batch, run_blocks
-from graphkin.steps.program import Program, Target
-from graphkin.steps.run import StepFailed, Trace, evaluate
-from graphkin.steps.trying import Closer
-from graphkin.steps.wheels import counted_link
+from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Group
-from graphkin.structure.order import decompose
+from graphkin.text.errors import GraphkinError
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
@@ -131,7 +131,7 @@ class Course:
         values = self.values(np.array([self.sweep.start]))
         for n in self.early:
             action = self.program.steps[n].action
-            if action is None or not isinstance(action.value, Closer):
+            if action is None or not isinstance(action.value, ClosureSolver):
                 continue
             args = self.program.steps[n].args
             before = Program(self.program.steps, {("", str(arg)): arg for arg in args})

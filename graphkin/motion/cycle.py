@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.errors import ClosureError, GraphkinError, Problem, SceneError
+from graphkin.construction.core.program import Target
+from graphkin.construction.core.results import gathered, row_of, rows_of
+from graphkin.construction.core.run import Trace
+from graphkin.construction.core.solution import Solution
 from graphkin.motion.course import Flags, Reals, spread
 from graphkin.motion.driving import TURN
 from graphkin.motion.events import Singular, singulars
 from graphkin.motion.pieces import Path, Piece, followed
 from graphkin.motion.sweep import Sweep, sweep_of
-from graphkin.plane import Ratio
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Branch, Scene
-from graphkin.steps.gather import gathered, row_of, rows_of
-from graphkin.steps.program import Target
-from graphkin.steps.run import Trace
-from graphkin.steps.solution import Solution
+from graphkin.text.errors import ClosureError, GraphkinError, Problem, SceneError
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
@@ -104,7 +104,7 @@ class Cycle:
     @cached_property
     def sure(self) -> Solution:
         """The motion of every row, with NaN for each quantity of which no digit is sure there."""
-        from graphkin.witness import sure_of
+        from graphkin.loops.witness import sure_of
 
         return sure_of(self.solution, self.witnessed.unsure)
 
@@ -316,7 +316,7 @@ def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
 
 def witnessed(found: Cycle) -> Witnessed:
     """Each piece held against the vector loops with its own closures."""
-    from graphkin.witness import examine
+    from graphkin.loops.witness import examine
 
     count = len(found.at)
     difference, agrees = np.full(count, np.nan), np.zeros(count, dtype=bool)

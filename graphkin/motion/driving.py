@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees
 from typing import Any, Literal
 
-from graphkin.arithmetic import batch_kind
+from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import At, Driver, Scene
 from graphkin.scene.quantity import Quantity

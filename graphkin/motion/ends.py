@@ -14,7 +14,7 @@ import numpy as np
 from graphkin.motion.course import Course, Reals
 from graphkin.motion.driving import GRID
 from graphkin.motion.refine import AROUND, TOUCH, last_closing, least_square, touching
-from graphkin.plane import Line
+from graphkin.numbers.plane import Line
 
 End = Literal["dead", "change", "number", "window"]
 SUSPECT = 0.3

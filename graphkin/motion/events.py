@@ -7,13 +7,13 @@ from typing import Literal
 
 import numpy as np
 
+from graphkin.construction.core.program import Program
 from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN
 from graphkin.motion.ends import Event
-from graphkin.motion.numbered import numbered
+from graphkin.motion.numbered_closures import numbered
 from graphkin.motion.pieces import ALIKE, Path
-from graphkin.plane import Circle, Line
-from graphkin.steps.program import Program
+from graphkin.numbers.plane import Circle, Line
 
 COINCIDE = 1e-6
 """Distance of two centres, in radii, at which they fall on one another."""

@@ -12,16 +12,15 @@ from math import floor, lcm, pi, sqrt
 
 import numpy as np
 
-from graphkin.arithmetic import phase
-from graphkin.errors import ClosureError, Problem, SceneError
-from graphkin.motion.change import beyond
+from graphkin.construction.core.program import Target
+from graphkin.motion.change_points import beyond
 from graphkin.motion.counted import led
 from graphkin.motion.course import Branches, Course, Reals
 from graphkin.motion.driving import GRID, TURN
 from graphkin.motion.ends import Event, next_event
-from graphkin.motion.numbered import (
-    Node,
+from graphkin.motion.numbered_closures import (
     Numbered,
+    NumberedPlace,
     changes,
     nodes,
     numbered,
@@ -29,7 +28,8 @@ from graphkin.motion.numbered import (
 )
 from graphkin.motion.refine import TOUCH
 from graphkin.motion.sweep import Sweep
-from graphkin.steps.program import Target
+from graphkin.numbers.arithmetic import phase
+from graphkin.text.errors import ClosureError, Problem, SceneError
 
 ALIKE = 1e-8
 """Degrees within which two places are one."""
@@ -176,7 +176,7 @@ def numbered_path(group: Numbered, start: float) -> Path:
     return Path((joined_at(turned, upward),), False, False)
 
 
-def cut(group: Numbered, found: list[Node], start: Event, end: Event) -> Range:
+def cut(group: Numbered, found: list[NumberedPlace], start: Event, end: Event) -> Range:
     """The pieces of one number each, on the way from the first node to the last."""
     marks = changes(group, found)
     numbers = [found[0].number, *(number for _, _, number in marks)]

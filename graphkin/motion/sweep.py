@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 from math import pi
 from typing import Any
 
-from graphkin.errors import Problem, SceneError
 from graphkin.motion.counted import named_angles
 from graphkin.motion.driving import GRID, TURN, UNITS, What, stated, timed
 from graphkin.motion.window import usual, window
 from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import Branch, Driver, Scene
 from graphkin.scene.quantity import LENGTHS, Quantity
+from graphkin.text.errors import Problem, SceneError
 
 SYMBOLS = {"turn": "phi", "slide": "s", "roll": "s", "time": "t"}
 

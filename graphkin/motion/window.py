@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from math import isfinite, pi, radians, sqrt
 from typing import Any
 
-from graphkin.errors import Problem, SceneError
 from graphkin.motion.driving import GRID, TURN, UNITS, What, reach_of, stated, timed
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Link, Scene
+from graphkin.text.errors import Problem, SceneError
 
 DOUBLINGS = 60
 """How often the time is doubled to find a driver's first whole turn."""

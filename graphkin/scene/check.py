@@ -8,12 +8,12 @@ from fractions import Fraction
 from graphkin.scene.check_blocks import check_blocks
 from graphkin.scene.check_drivers import check_drivers
 from graphkin.scene.check_far import check_far
-from graphkin.scene.edges import check_profiles
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.known import all_points, known_link, known_point, named, place_of, quoted
+from graphkin.scene.known_names import all_points, known_link, known_point, named, place_of, quoted
+from graphkin.scene.link_names import check_names
 from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
-from graphkin.scene.names import check_names
 from graphkin.scene.quantity import shortest
+from graphkin.scene.read_profiles import check_profiles
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.scene.findings import Findings, numbered
-from graphkin.scene.known import named, place_of, quoted
+from graphkin.scene.known_names import named, place_of, quoted
 from graphkin.scene.model import FRAME, Link, Scene
 
 

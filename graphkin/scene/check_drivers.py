@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from graphkin.scene.findings import Findings
-from graphkin.scene.known import known_link, known_point, named, place_of, quoted
+from graphkin.scene.known_names import known_link, known_point, named, place_of, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene
 
 

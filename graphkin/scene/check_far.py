@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graphkin.errors import SceneError
 from graphkin.scene.findings import Findings
 from graphkin.scene.model import FRAME, At, Rolling, Scene, Slide
 from graphkin.scene.quantity import Quantity, shortest
+from graphkin.text.errors import SceneError
 
 FARTHEST = 1e9
 """Lengths of the shortest bar beyond which coordinates of 16 digits are too coarse for it."""

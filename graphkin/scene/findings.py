@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphkin.errors import MOST, Problem, SceneError
+from graphkin.text.errors import MOST, Problem, SceneError
 
 LISTED = 12
 

@@ -8,10 +8,10 @@ from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral, Rational, Real
 
-from graphkin.errors import SceneError
 from graphkin.scene.expression import FARTHEST, TIME, Number, UnreadableError, decimal, integer
 from graphkin.scene.findings import Findings, listed, nearest, shown
 from graphkin.scene.quantity import Quantity, exact, expression
+from graphkin.text.errors import SceneError
 
 Pair = tuple[Quantity, Quantity]
 LARGEST = 10**FARTHEST

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from graphkin.scene.findings import Findings, listed, nearest
+from graphkin.scene.link_keys import LinkKeys
 from graphkin.scene.model import Side
-from graphkin.scene.sketch import Sketch
 
 
-def explain(sketch: Sketch, waiting: list[str], placed: set[str], findings: Findings) -> None:
+def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Findings) -> None:
     """Note, for each point left over, what it lacks; points that only wait for those are passed."""
     before = len(findings.problems)
     for point in waiting:
@@ -24,7 +24,7 @@ def explain(sketch: Sketch, waiting: list[str], placed: set[str], findings: Find
         )
 
 
-def missing(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str]:
+def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, str]:
     """What one point lacks: found, expected and hint; empty when it only waits for another."""
     polar, words = sketch.polars.get(point), sketch.words.get(point)
     if polar is not None:
@@ -53,7 +53,7 @@ def missing(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str
     return ("", "", "")
 
 
-def bare_turn(sketch: Sketch, point: str, placed: set[str]) -> str:
+def bare_turn(sketch: LinkKeys, point: str, placed: set[str]) -> str:
     """The length that an angle of this point wants, where it is not written."""
     for first, vertex, last in sketch.angles:
         ready = point in (first, last) and {first, vertex, last} - {point} <= placed
@@ -62,7 +62,7 @@ def bare_turn(sketch: Sketch, point: str, placed: set[str]) -> str:
     return ""
 
 
-def bare_base(sketch: Sketch, point: str, placed: set[str]) -> str:
+def bare_base(sketch: LinkKeys, point: str, placed: set[str]) -> str:
     """The length of the first two points, on which other points are built, where it is missing."""
     for first, vertex, last in sketch.angles:
         for arm in (first, last):
@@ -76,7 +76,7 @@ def bare_base(sketch: Sketch, point: str, placed: set[str]) -> str:
     return ""
 
 
-def missing_lengths(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, str, str]:
+def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, str]:
     """What a point with a side or a line lacks."""
     words = sketch.words[point]
     ends = (words.first, words.second)
@@ -91,7 +91,7 @@ def missing_lengths(sketch: Sketch, point: str, placed: set[str]) -> tuple[str, 
     return (f"{point} is on a line but nothing says how far", f"the length {' or '.join(bare)}", "")
 
 
-def unknown(sketch: Sketch, what: str, ends: tuple[str, ...] | list[str]) -> tuple[str, str, str]:
+def unknown(sketch: LinkKeys, what: str, ends: tuple[str, ...] | list[str]) -> tuple[str, str, str]:
     """A point named in a placing that this link does not have."""
     for end in ends:
         if end not in sketch.points:
@@ -101,7 +101,7 @@ def unknown(sketch: Sketch, what: str, ends: tuple[str, ...] | list[str]) -> tup
 
 
 def spare(
-    sketch: Sketch, used: set[frozenset[str] | tuple[str, str, str]], findings: Findings
+    sketch: LinkKeys, used: set[frozenset[str] | tuple[str, str, str]], findings: Findings
 ) -> None:
     """Note each length and angle that no placing needs: what it says is settled already."""
     left = [(pair, quantity) for pair, quantity in sketch.lengths.items() if pair not in used]

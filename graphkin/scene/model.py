@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from graphkin.arithmetic import FLOAT, Kind
+from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from graphkin.errors import Problem, SceneError
 from graphkin.scene.expression import RESERVED, Name, UnreadableError
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.measures import quantity
 from graphkin.scene.model import Parameter
+from graphkin.scene.phrases import is_name
 from graphkin.scene.quantity import Quantity, exact, shortest
-from graphkin.scene.words import is_name
+from graphkin.text.errors import Problem, SceneError
 
 MOST = 200
 

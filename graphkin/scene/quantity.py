@@ -9,11 +9,11 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
 
-from graphkin.arithmetic import FLOAT, Kind, Point, Real
-from graphkin.errors import Problem, SceneError
+from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real
+from graphkin.scene.evaluate import EvaluationError, differentiated, evaluate
 from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Pair, Tree, names, parse, size
 from graphkin.scene.findings import shown
-from graphkin.scene.reckon import UnreckonableError, differentiated, reckon
+from graphkin.text.errors import Problem, SceneError
 
 LENGTHS = {
     "mm": Fraction(1, 1000),
@@ -69,7 +69,7 @@ class Quantity:
             return self.tree.value
         try:
             value = reckoned(self.tree, values, kind)
-        except UnreckonableError as error:
+        except EvaluationError as error:
             raise SceneError(self.problem(str(error), values)) from None
         except OverflowError:
             raise SceneError(self.problem("a number that grows without bound", values)) from None
@@ -110,7 +110,7 @@ class Quantity:
             raise SceneError(self.problem("a derivative of too many parts", {}))
         try:
             tree = differentiated(self.tree, name)
-        except UnreckonableError as error:
+        except EvaluationError as error:
             raise SceneError(self.problem(str(error), {})) from None
         unit = per_second(self.unit) if name == TIME else self.unit
         return Quantity(f"d({self.text})/d{name}", tree, unit, self.place)
@@ -134,11 +134,11 @@ class Quantity:
 def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
     """Value of a tree; in a batch what does not exist is masked without a warning."""
     if not any(hasattr(value, "shape") for value in values.values()):
-        return reckon(tree, values, kind)
+        return evaluate(tree, values, kind)
     import numpy as np
 
     with np.errstate(all="ignore"):
-        return reckon(tree, values, kind)
+        return evaluate(tree, values, kind)
 
 
 def per_second(unit: str) -> str:

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal
 
-from graphkin.plane import cross
+from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.bodies import body, guide_line, metres
-from graphkin.structure.graph import Pin, Sliding
 from graphkin.structure.joints import Joint, Joints
+from graphkin.structure.link_axes import body, guide_line, metres
+from graphkin.structure.pairs import Pin, Sliding
 
 EVEN = 1e-9
 """Share of the lengths below which two sums count as equal."""

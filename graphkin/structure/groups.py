@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.assur import assur_class
-from graphkin.structure.graph import Contact, Pin, Sliding
 from graphkin.structure.joints import Joint, partner
+from graphkin.structure.pairs import Contact, Pin, Sliding
 
 LETTERS = {Pin: "R", Sliding: "P", Contact: "W"}
 ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
@@ -165,7 +165,7 @@ class Tie:
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class TriedLink:
     """A link whose place in its pair with a known one is tried until the rest closes."""
 
     link: str
@@ -184,7 +184,7 @@ class Higher:
     What closes it at last is a link between two known points, or a driver's given motion.
     """
 
-    trial: Trial
+    trial: TriedLink
     chain: tuple[Group, ...]
     last: Tie | Driver
     joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 from copy import copy
 
-from graphkin.errors import Problem, StructureError
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.graph import Contact, Pair, Pin, Sliding, contacts, sharers
+from graphkin.structure.pairs import Contact, Pair, Pin, Sliding, contacts, sharers
+from graphkin.text.errors import Problem, StructureError
 
 Joint = Pair | Contact
 """A pair that joins two links: a pin, a slide or a rolling contact."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.scene.model import Scene
-from graphkin.structure.graph import contacts, pairs
+from graphkin.structure.pairs import contacts, pairs
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from graphkin.plane import cross
+from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Scene, Slide
-from graphkin.structure.bodies import body, guide_line, metres
+from graphkin.structure.link_axes import body, guide_line, metres
 
 LEVEL = 1e-9
 """Sine of an angle below which two directions count as parallel."""

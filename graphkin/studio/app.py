@@ -7,13 +7,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from graphkin.errors import GraphkinError
-from graphkin.paper.glyphs import FILES
-from graphkin.paper.glyphs import FOLDER as FONTS
-from graphkin.studio.desk import Desk
-from graphkin.studio.orders import MOST_BYTES, Order, OrderError
-from graphkin.studio.page import page
+from graphkin.drawing.glyphs import FILES
+from graphkin.drawing.glyphs import FOLDER as FONTS
+from graphkin.studio.page_requests import MOST_BYTES, PageRequest, PageRequestError
+from graphkin.studio.session import Session
+from graphkin.studio.studio_page import page
 from graphkin.text import LANGUAGES
+from graphkin.text.errors import GraphkinError
 
 HERE = Path(__file__).parent / "web"
 KINDS = {
@@ -27,21 +27,21 @@ WORK = ("look", "write", "save", "sheets")
 """What the page asks the desk to do."""
 
 
-def application(desk: Desk) -> Any:
+def application(session: Session) -> Any:
     """The WSGI application of a desk."""
     from bottle import Bottle
 
     app = Bottle()
     app.config["catchall"] = False  # a fault is told where the studio was started
-    app.route("/", "GET", lambda: start_page(desk))
-    app.route("/scenes", "GET", lambda: record(desk.listed()))
+    app.route("/", "GET", lambda: start_page(session))
+    app.route("/scenes", "GET", lambda: record(session.listed()))
     app.route("/<name:re:[a-zA-Z-]+\\.(css|js|svg|woff2)>", "GET", static)
     for name in WORK:
-        app.route(f"/{name}", "POST", answering(getattr(desk, name)))
+        app.route(f"/{name}", "POST", answering(getattr(session, name)))
     return app
 
 
-def answering(work: Callable[[Order], dict[str, Any]]) -> Callable[[], Any]:
+def answering(work: Callable[[PageRequest], dict[str, Any]]) -> Callable[[], Any]:
     """A handler that reads what is asked for and gives the answer as JSON."""
 
     def handler() -> Any:
@@ -53,14 +53,14 @@ def answering(work: Callable[[Order], dict[str, Any]]) -> Callable[[], Any]:
             return answer(413, "text/plain", b"too large\n")
         data = request.body.read(MOST_BYTES + 1)
         try:
-            return record(work(Order(data)))
-        except OrderError as error:
+            return record(work(PageRequest(data)))
+        except PageRequestError as error:
             return answer(400, "text/plain", f"{error}: not as the page asks\n".encode())
 
     return handler
 
 
-def start_page(desk: Desk) -> Any:
+def start_page(session: Session) -> Any:
     """The page with the text that its address names."""
     from bottle import request
 
@@ -68,10 +68,10 @@ def start_page(desk: Desk) -> Any:
         str(request.query.getunicode(key, "")) for key in ("scene", "lab", "lang")
     )
     try:
-        opened = desk.open(scene, lab)
+        opened = session.open(scene, lab)
     except GraphkinError as error:
         return answer(404, "text/plain", f"{error}\n".encode())
-    words = desk.words(opened.text, language if language in LANGUAGES else "")
+    words = session.words(opened.text, language if language in LANGUAGES else "")
     return answer(200, "text/html", page(opened, words).encode())
 
 

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from graphkin import labs
-from graphkin.errors import Problem, SceneError
-from graphkin.paper.files import RESERVED
-from graphkin.scene.limits import decoded, read_bytes
-from graphkin.scene.read import read_text
+from graphkin.scene import scene_files
+from graphkin.scene.file_limits import decoded, read_bytes
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import Problem, SceneError
+from graphkin.writers.files import RESERVED
 
 ENDING = ".toml"
 SCENE = "scene.toml"
@@ -23,7 +23,7 @@ FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
 """Signs that some file system takes for something else."""
 WORD = re.compile(r"\w[\w-]{0,60}")
 """A name that is good everywhere."""
-OTHERS = frozenset((labs.LAB, "pyproject.toml"))
+OTHERS = frozenset((scene_files.LAB, "pyproject.toml"))
 """Files that are no scenes: neither listed nor read nor written."""
 
 
@@ -118,12 +118,12 @@ def stem_of(name: str) -> str:
 
 def shipped() -> Iterator[tuple[str, str]]:
     """The labs that come with graphkin: names and titles."""
-    for name in labs.names():
+    for name in scene_files.names():
         yield name, read_text(shipped_text(name), name).title
 
 
 def shipped_text(name: str) -> str:
     """The text of the scene of a shipped lab. Raises SceneError for a name that is none."""
-    if name not in labs.names():
-        raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(labs.names())))
-    return decoded(read_bytes(labs.shelf() / name / SCENE))
+    if name not in scene_files.names():
+        raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(scene_files.names())))
+    return decoded(read_bytes(scene_files.shelf() / name / SCENE))

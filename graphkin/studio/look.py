@@ -6,19 +6,19 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from graphkin.errors import GraphkinError, Problem, SceneError
-from graphkin.handout import drawings_of, language_of, lost
+from graphkin.construction.core.solution import FAIR, Verdict
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet_documents import drawings_of, language_of, lost
+from graphkin.loops.witness import sure_of
 from graphkin.mechanism import Mechanism
-from graphkin.scaling import shown
 from graphkin.scene.model import Scene
-from graphkin.scene.read import read_text
-from graphkin.steps.solution import FAIR, Verdict
+from graphkin.scene.read_scene import read_text
 from graphkin.studio.panels import Memory, panels, style
-from graphkin.studio.places import Mark, marked
+from graphkin.studio.problem_places import MarkedProblem, marked
+from graphkin.studio.result_panel import margins, results, verdict_words
 from graphkin.studio.sliders import sliders
-from graphkin.studio.tables import margins, results, verdict_words
 from graphkin.text import Words, words
-from graphkin.witness import sure_of
+from graphkin.text.errors import GraphkinError, Problem, SceneError
 
 SETTING = "setting "
 """What begins the place of a problem of a parameter that is set from outside."""
@@ -121,7 +121,7 @@ def doubts(margin: float, verdict: Verdict) -> list[Problem]:
     return [Problem("position", flattest, f"at least {FAIR:g}", hint), *found]
 
 
-def told(mark: Mark) -> dict[str, Any]:
+def told(mark: MarkedProblem) -> dict[str, Any]:
     """A problem as a record, with its line and what to select; the setting it is about, if any."""
     problem = mark.problem
     setting = problem.place.removeprefix(SETTING) if problem.place.startswith(SETTING) else ""

@@ -11,21 +11,21 @@ from dataclasses import dataclass, field, replace
 from html import escape
 from math import ceil, floor
 
-from graphkin.errors import PageError, Problem
-from graphkin.paper.areas import ABOVE, MARGIN, Rect
-from graphkin.paper.detail import with_detail
-from graphkin.paper.drawing import Drawing
-from graphkin.paper.field import Field
-from graphkin.paper.inset import insets
-from graphkin.paper.labels import Board
-from graphkin.paper.layout import Layout, lay_out, spans
-from graphkin.paper.marks import Mark, Text, reach
-from graphkin.paper.scale import Extent, Scales
-from graphkin.paper.sheet import left_board, right_board
-from graphkin.paper.style import in_variables
-from graphkin.paper.svg import element, rules
-from graphkin.paper.tags import marked_up
-from graphkin.studio.riding import Seats, riding, seats_of
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import Layout, lay_out, spans
+from graphkin.documents.detail import with_detail
+from graphkin.documents.inset import insets
+from graphkin.documents.sheet import left_board, right_board
+from graphkin.drawing.areas import ABOVE, MARGIN, Rect
+from graphkin.drawing.field import Field
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import Mark, Text, reach
+from graphkin.drawing.scale import Extent, Scales
+from graphkin.drawing.style import in_variables
+from graphkin.studio.follow_labels import FollowLabels, riding, seats_of
+from graphkin.text.errors import PageError, Problem
+from graphkin.writers.html_markup import marked_up
+from graphkin.writers.svg import element, rules
 
 MECHANISM = "mechanism"
 AROUND = 3.0
@@ -58,7 +58,7 @@ class Memory:
     """
 
     at_rest: AtRest | None = None
-    seats: dict[tuple[str, str], Seats] = field(default_factory=dict)
+    seats: dict[tuple[str, str], FollowLabels] = field(default_factory=dict)
     frames: dict[tuple[str, str], Rect] = field(default_factory=dict)
     edges: dict[tuple[str, str], Rect] = field(default_factory=dict)
 
@@ -138,7 +138,7 @@ def panels(
         if marks is not None:
             memory.seats[own] = seats_of(labels, marks)
         else:
-            marks = riding(board, memory.seats.get(own, Seats()))
+            marks = riding(board, memory.seats.get(own, FollowLabels()))
         if quick and own in memory.frames:
             most = outside(memory.frames[own], 1.0 if name == MECHANISM else PLAN)
             memory.edges[own] = grown(memory.edges[own], edges_of(marks), most)
@@ -149,13 +149,13 @@ def panels(
         yield Panel(name, caption, svg, tuple(marks)), problems
 
 
-def board_of(name: str, drawing: Drawing, layout: Layout) -> Board:
+def board_of(name: str, drawing: Drawing, layout: Layout) -> FieldContent:
     """The field of the mechanism, or that of the plan, its labels not yet placed."""
     draw = left_board if name == MECHANISM else right_board
     return draw(drawing, layout, "key")
 
 
-def finished(name: str, drawing: Drawing, layout: Layout, board: Board) -> list[Mark]:
+def finished(name: str, drawing: Drawing, layout: Layout, board: FieldContent) -> list[Mark]:
     """The marks of a field with every label at a free place. Raises PageError where one has none.
 
     Centres that lie far off the mechanism have their insets.

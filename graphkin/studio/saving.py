@@ -10,16 +10,16 @@ from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
 
-from graphkin import labs
-from graphkin.errors import SceneError
-from graphkin.handout import hand_out
+from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism
-from graphkin.paper.files import file_stem, rendered, write_all
+from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
 from graphkin.studio.folder import SCENE, Folder, shipped_text, stem_of
 from graphkin.studio.sliders import written
+from graphkin.text.errors import SceneError
+from graphkin.writers.files import file_stem, rendered, write_all
 
 VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
@@ -84,7 +84,7 @@ def mark_of_file(path: Path) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class WantedSheets:
     """Which sheets are wanted: of which text under which name, in which language and form."""
 
     text: str
@@ -95,7 +95,7 @@ class Wanted:
     formats: Sequence[str]
 
 
-def sheets_of(folder: Folder, wanted: Wanted) -> dict[str, bytes]:
+def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
     """The files of a scene's sheets by name, as ``graphkin sheet`` writes and names them where the
     value of every parameter is set.
 
@@ -107,7 +107,7 @@ def sheets_of(folder: Folder, wanted: Wanted) -> dict[str, bytes]:
     stem = file_stem(mechanism.scene.name, values_of(mechanism.scene))
     files: dict[str, bytes] = {}
     if PAGE in formats:
-        from graphkin.screen.handed import hand_out_page
+        from graphkin.classroom.page_documents import hand_out_page
 
         lab = lab_of(folder, name, text)
         page = hand_out_page(mechanism, lab, stem, view, language)
@@ -133,7 +133,7 @@ def lab_of(folder: Folder, name: str, text: str) -> str:
     if name.rpartition("/")[2] == SCENE:
         return str(folder.path(name).parent)
     lab = stem_of(name)
-    return lab if lab in labs.names() and text == shipped_text(lab) else name
+    return lab if lab in scene_files.names() and text == shipped_text(lab) else name
 
 
 def save_files(folder: Folder, files: Mapping[str, bytes], *, replace: bool) -> Saved:

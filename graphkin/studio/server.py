@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlencode
 
-from graphkin.errors import PageError, Problem
 from graphkin.studio.app import application
-from graphkin.studio.desk import Desk
 from graphkin.studio.guard import Guard, new_token
-from graphkin.studio.orders import MOST_BYTES
+from graphkin.studio.page_requests import MOST_BYTES
+from graphkin.studio.session import Session
+from graphkin.text.errors import PageError, Problem
 
 HOME = "127.0.0.1"
 THREADS = 16
@@ -35,7 +35,7 @@ class Served:
 
 
 def serve(
-    desk: Desk,
+    session: Session,
     port: int = 0,
     first: Mapping[str, str] = NOTHING,
     known: Callable[[], None] = lambda: None,
@@ -57,7 +57,7 @@ def serve(
     port = listening.getsockname()[1]
     token = new_token()
     hosts = (f"{HOME}:{port}", f"localhost:{port}")
-    guard = Guard(application(desk), token, hosts, known)
+    guard = Guard(application(session), token, hosts, known)
     server = create_server(
         guard,
         sockets=[listening],

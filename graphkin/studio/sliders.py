@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import lru_cache
 from math import ceil, floor, log10
 
-from graphkin.paper.settings import unit_of
+from graphkin.construction.core.parameter_words import unit_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.quantity import Quantity, shortest
@@ -23,7 +23,7 @@ HALF = Fraction(1, 2)
 
 
 @dataclass(frozen=True, slots=True)
-class Slider:
+class ParameterSlider:
     """A parameter: its value as set, the values at which its slider stands, and which is nearest.
 
     ``low`` and ``high`` are its bounds as the scene states them, empty where it states none.
@@ -38,20 +38,20 @@ class Slider:
     high: str
 
 
-def sliders(scene: Scene) -> Iterator[Slider]:
+def sliders(scene: Scene) -> Iterator[ParameterSlider]:
     """A slider for each parameter, in the order of the scene."""
     for name, parameter in scene.parameters.items():
         if name != TIME:
             yield slider(scene, parameter)
 
 
-def slider(scene: Scene, parameter: Parameter) -> Slider:
+def slider(scene: Scene, parameter: Parameter) -> ParameterSlider:
     """The slider of one parameter, as it is set."""
     value = Fraction(str(scene.values[parameter.name]))
     low, high = ends(parameter, value)
     step = plain(parameter.step) if parameter.step else None
     places, names = stops(plain(parameter.minimum or parameter.value), low, high, step)
-    return Slider(
+    return ParameterSlider(
         parameter.name,
         written(value),
         unit_of(scene, parameter.name),

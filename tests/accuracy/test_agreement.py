@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from graphkin.accuracy.agreement import agreement, contained
-from graphkin.accuracy.answers import answers_of, reference_of
+from graphkin.accuracy.compared_answers import answers_of, reference_of
+from graphkin.accuracy.compared_positions import ground_of, places_around
 from graphkin.accuracy.methods import found_singly
-from graphkin.accuracy.places import ground_of, places_around
-from graphkin.kinds import ball_kind, decimal_kind
 from graphkin.mechanism import load
+from graphkin.numbers.kinds import ball_kind, decimal_kind
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 EVERY = ["pump", "pump-collinear", *sorted(str(path) for path in SCENES.glob("*.toml"))]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphkin.accuracy.labels import Name, name_points, overlap
-from graphkin.curves.style import look, new_figure
+from graphkin.accuracy.point_names import PointName, name_points, overlap
+from graphkin.writers.plot_style import look, new_figure
 
 
 def written(points, texts):
@@ -15,7 +15,7 @@ def written(points, texts):
         ax = figure.subplots()
         ax.set_xlim(0, 1)
         ax.set_ylim(0, 1)
-        names = [Name(x, y, text, "k") for (x, y), text in zip(points, texts, strict=True)]
+        names = [PointName(x, y, text, "k") for (x, y), text in zip(points, texts, strict=True)]
         boxes = name_points(figure, ax, names)
         room = ax.get_window_extent()
         return boxes, [tuple(ax.transData.transform(point)) for point in points], room

@@ -13,18 +13,23 @@ import pytest
 
 from graphkin.accuracy import machine
 from graphkin.accuracy.agreement import Agreement
-from graphkin.accuracy.answers import error
-from graphkin.accuracy.files import picture_files
-from graphkin.accuracy.flat import LAW
+from graphkin.accuracy.compared_answers import error
+from graphkin.accuracy.compared_positions import approach, ground_of, places_around
+from graphkin.accuracy.flattening import LAW
 from graphkin.accuracy.methods import BITS, DIGITS, batch, found_singly, radii_in
-from graphkin.accuracy.places import approach, ground_of, places_around
-from graphkin.accuracy.routes import STEPS, TOLERANCES, plain
+from graphkin.accuracy.other_routes import STEPS, TOLERANCES, plain
 from graphkin.accuracy.stopwatch import QUICK, Effort, Stopwatch
 from graphkin.accuracy.study import Study, study
-from graphkin.handout import scales
-from graphkin.kinds import ball_kind
+from graphkin.accuracy.study_files import picture_files
+from graphkin.cli.report.accuracy_report import (
+    HEADS,
+    accuracy_lines,
+    accuracy_table,
+    agreement_lines,
+)
+from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
-from graphkin.report.accuracy import HEADS, accuracy_lines, accuracy_table, agreement_lines
+from graphkin.numbers.kinds import ball_kind
 from tests.cli.conftest import Run, run  # noqa: F401
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -163,8 +168,8 @@ def test_towards_a_dead_point_errors_grow_as_one_two_three(name):
 
 
 def test_a_group_of_class_three_dies_by_the_same_law():
-    from graphkin.accuracy.answers import answers_of
-    from graphkin.accuracy.flat import flattened
+    from graphkin.accuracy.compared_answers import answers_of
+    from graphkin.accuracy.flattening import flattened
 
     ground = ground_of(load(str(SCENES / "rod-and-wheel.toml")).scene)
     flat = flattened(approach(ground, 10, 2), answers_of(ground.piece.course.program))

@@ -17,19 +17,19 @@ from statistics import median
 
 import numpy as np
 
-from graphkin.arithmetic import batch_kind
-from graphkin.handout import drawings_of, proved
+from graphkin.construction.core.batch import run_blocks
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.results import gathered
+from graphkin.construction.core.run import Trace
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet import sheet
+from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.drawing.marks import Page
 from graphkin.mechanism import Mechanism, load
-from graphkin.paper.drawing import Drawing
-from graphkin.paper.marks import Page
-from graphkin.paper.pdf import write_pdf
-from graphkin.paper.sheet import sheet
-from graphkin.paper.svg import write_svg
-from graphkin.scaling import shown
-from graphkin.steps.batch import run_blocks
-from graphkin.steps.gather import gathered
-from graphkin.steps.run import Trace
+from graphkin.numbers.arithmetic import batch_kind
 from graphkin.text import words
+from graphkin.writers.pdf import write_pdf
+from graphkin.writers.svg import write_svg
 from tests.bench import chain, effects, motion, printing, screen, variants
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files

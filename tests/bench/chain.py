@@ -16,14 +16,14 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.arithmetic import batch_kind
+from graphkin.construction.compile import write
+from graphkin.construction.core.batch import run_blocks
+from graphkin.construction.core.results import gathered
 from graphkin.mechanism import Mechanism
-from graphkin.plans.compile import write
-from graphkin.scene.read import read_scene
-from graphkin.steps.batch import run_blocks
-from graphkin.steps.gather import gathered
-from graphkin.steps.press import Press
-from graphkin.structure.order import decompose
+from graphkin.numbers.arithmetic import batch_kind
+from graphkin.scene.read_scene import read_scene
+from graphkin.structure.decomposition import decompose
+from graphkin.tape.batch_runner import BatchRunner
 
 DYADS = (2, 5, 10, 20, 50, 100, 200)
 FITTED = 20
@@ -80,7 +80,7 @@ def costs(dyads: int) -> dict[str, float]:
         found[f"the check of {name}"] = timed(partial(mechanism.witness, solution))
     needed, keep = program.needed(program.targets), list(program.targets.values())
     values = {"phi": np.linspace(0, 360, POSITIONS, endpoint=False)}
-    press = Press(program)
+    press = BatchRunner(program)
     with np.errstate(all="ignore"):
         run = partial(run_blocks, program, needed, values, batch_kind(), keep)
         found[f"{POSITIONS} positions, step by step"] = timed(run)
@@ -90,7 +90,7 @@ def costs(dyads: int) -> dict[str, float]:
     return found
 
 
-def emitted_anew(press: Press, run: Callable[[], Any]) -> None:
+def emitted_anew(press: BatchRunner, run: Callable[[], Any]) -> None:
     """Trace and run once, nothing kept from before."""
     press.kept.clear()
     run()

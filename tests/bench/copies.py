@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from itertools import chain
 
-from tests.grading.classes import (
+from tests.classroom.grading.classes import (
     COPYING,
     HONEST,
     LABS,

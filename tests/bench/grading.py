@@ -13,11 +13,11 @@ from dataclasses import replace
 from fractions import Fraction
 from resource import RUSAGE_SELF, getrusage
 
-from graphkin.grading.book import KEPT, Book, graded_class
-from graphkin.grading.model import Answer, Taker
-from graphkin.lab.read import read_lab
-from graphkin.lab.rules import exact_text
-from graphkin.roster.model import Student
+from graphkin.classroom.grading.class_marking import KEPT, Book, graded_class
+from graphkin.classroom.grading.graded import Answer, Taker
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.roster.student import Student
 
 ROWS, ALONE = 10_000, 100
 """Rows of a class, and how many of them are marked one by one."""

@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.arithmetic import batch_kind
+from graphkin.construction.core.batch import run_blocks
+from graphkin.construction.core.run import Trace
 from graphkin.mechanism import Mechanism, load
-from graphkin.steps.batch import run_blocks
-from graphkin.steps.press import Press, Way
-from graphkin.steps.run import Trace
+from graphkin.numbers.arithmetic import batch_kind
+from graphkin.tape.batch_runner import BatchRunner, Way
 from tests.bench.four_bar_in_c import compiled
 from tests.bench.linkages import PINS, SCENES, peer
 from tests.bench.linkages_by_formulas import in_blocks
@@ -31,7 +31,7 @@ class Turn:
     """A linkage with the angles of a full turn, ready to be run in several ways."""
 
     mechanism: Mechanism
-    press: Press
+    press: BatchRunner
     needed: tuple[int, ...]
     keep: tuple[int, ...]
     degrees: np.ndarray
@@ -63,7 +63,7 @@ def turn_of(name: str, size: int) -> Turn:
     targets = [(quantity, pin) for pin in PINS[name] for quantity in QUANTITIES]
     keep = tuple(program.targets[target] for target in targets)
     degrees = np.linspace(0, 360, size, endpoint=False)
-    return Turn(mechanism, Press(program), program.needed(targets), keep, degrees)
+    return Turn(mechanism, BatchRunner(program), program.needed(targets), keep, degrees)
 
 
 def best(work: Callable[[], object], repeat: int = 9) -> float:

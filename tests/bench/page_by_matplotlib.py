@@ -10,8 +10,8 @@ from matplotlib.patches import Arc as ArcPatch
 from matplotlib.patches import Circle as CirclePatch
 from matplotlib.patches import Polygon
 
-from graphkin.paper.marks import Arc, Circle, Line, Page, Polyline, Text
-from graphkin.paper.richtext import plain
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text
+from graphkin.drawing.richtext import plain
 
 POINTS_PER_MM = 72 / 25.4
 
@@ -25,11 +25,11 @@ def drawn(page: Page) -> Figure:
     axes.axis("off")
     for mark in page.marks:
         match mark:
-            case Line():
+            case LineMark():
                 axes.plot([mark.x1, mark.x2], [mark.y1, mark.y2], linewidth=0.7)
             case Polyline():
                 axes.add_patch(Polygon(mark.points, closed=mark.closed, fill=False))
-            case Circle():
+            case CircleMark():
                 axes.add_patch(CirclePatch((mark.cx, mark.cy), mark.r, fill=False))
             case Arc():
                 size = 2 * mark.r

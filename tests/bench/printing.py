@@ -13,17 +13,17 @@ import tempfile
 from pathlib import Path
 from time import perf_counter
 
-from graphkin.handout import hand_out
-from graphkin.lab.read import read_lab
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
+from graphkin.classroom.printing.print_work import PrintOrder, StudentSheets, make
+from graphkin.classroom.printing.workers import CHUNK, processes
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import assigned
+from graphkin.classroom.variants.class_files import write_class
+from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import load
-from graphkin.paper.files import rendered
-from graphkin.printing.engine import CHUNK, processes
-from graphkin.printing.manifest import read_edition
-from graphkin.printing.run import Means, Wishes, print_class
-from graphkin.printing.work import Order, Wanted, make
-from graphkin.roster.model import Student
-from graphkin.variants.assign import assigned
-from graphkin.variants.files import write_class
+from graphkin.writers.files import rendered
 
 LAB = "pump"
 STUDENTS = 300
@@ -52,7 +52,9 @@ def seconds(count: int, jobs: int) -> float:
     with tempfile.TemporaryDirectory() as folder:
         made = class_of(count, Path(folder))
         start = perf_counter()
-        outcome = print_class(read_edition(made), Wishes(), Means(jobs), lambda done, total: None)
+        outcome = print_class(
+            read_edition(made), PrintRequest(), Means(jobs), lambda done, total: None
+        )
         assert outcome.made == count
         return perf_counter() - start
 
@@ -76,14 +78,14 @@ def memory(count: int) -> float:
     """Megabytes that a worker has taken when it has made so many students' files."""
     with tempfile.TemporaryDirectory() as folder:
         edition = read_edition(class_of(count, Path(folder)))
-    order = Order(edition.lab, edition.scene, "ro", "colour")
+    order = PrintOrder(edition.lab, edition.scene, "ro", "colour")
     parts = (("task", "pdf"), ("key", "pdf"))
-    wanted = [Wanted(variant, variant.id, parts) for variant in edition.variants]
+    wanted = [StudentSheets(variant, variant.id, parts) for variant in edition.variants]
     with processes(1) as pool:
         return pool.submit(worked, order, wanted).result()
 
 
-def worked(order: Order, wanted: list[Wanted]) -> float:
+def worked(order: PrintOrder, wanted: list[StudentSheets]) -> float:
     """What a worker does, and its largest memory in megabytes."""
     import resource
 

@@ -13,13 +13,13 @@ from functools import partial
 from pathlib import Path
 from statistics import median
 
-from graphkin.handout import drawings_of, drawn, language_of, proved
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet_documents import drawings_of, drawn, language_of, proved
 from graphkin.mechanism import Mechanism, load
-from graphkin.paper.svg import write_svg
-from graphkin.scaling import shown
-from graphkin.screen.moving import moving
-from graphkin.screen.page import step_page
-from graphkin.screen.sheets import screen_sheets
+from graphkin.web.moving import moving
+from graphkin.web.screen_sheets import screen_sheets
+from graphkin.web.step_page import step_page
+from graphkin.writers.svg import write_svg
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ("slotted-lever", "oldham", "gears-ring", "oscillating-slide", "centrodes-cardan")

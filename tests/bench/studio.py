@@ -20,7 +20,7 @@ from statistics import median, quantiles
 from time import perf_counter
 from urllib.parse import urlsplit
 
-from graphkin import labs
+from graphkin.scene import scene_files
 
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT = 0.05
@@ -87,7 +87,7 @@ def spent(process: int) -> float:
 
 def measured(lab: str) -> list[str]:
     """The rows of one lab."""
-    text = (labs.shelf() / lab / "scene.toml").read_text(encoding="utf-8")
+    text = (scene_files.shelf() / lab / "scene.toml").read_text(encoding="utf-8")
     with served(lab) as (process, address):
         page = Page(address, text)
         first = page.look(7)

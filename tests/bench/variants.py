@@ -10,14 +10,14 @@ from __future__ import annotations
 import timeit
 from fractions import Fraction
 
-from graphkin import labs
-from graphkin.lab.model import Lab
-from graphkin.lab.read import read_lab
-from graphkin.lab.rules import settings
+from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.classroom.lab.rules import settings
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import assigned
+from graphkin.documents.scaling import scales
 from graphkin.mechanism import load
-from graphkin.roster.model import Student
-from graphkin.scaling import scales
-from graphkin.variants.assign import assigned
+from graphkin.scene import scene_files
 
 STUDENTS = 10_000
 LIMIT = 5.0
@@ -47,8 +47,8 @@ def table() -> str:
     """A row for each shipped lab."""
     lines = [f"{STUDENTS} students' data, judged (limit {LIMIT:g} s)", ""]
     everybody = students()
-    for name in labs.names():
-        if labs.folder(name) is None:
+    for name in scene_files.names():
+        if scene_files.folder(name) is None:
             continue
         lab = read_lab(name)
         whole = min(timeit.repeat(lambda lab=lab: assigned(lab, everybody), number=1, repeat=3))

@@ -10,8 +10,8 @@ from typing import Any
 
 from playwright.sync_api import sync_playwright
 
+from graphkin.classroom.page_documents import hand_out_page
 from graphkin.mechanism import load
-from graphkin.screen.handed import hand_out_page
 from graphkin.studio.server import serve
 from tests.browser.opening import ARGS
 from tests.studio.pump import desk_in, running
@@ -41,9 +41,9 @@ def draw_page(page: Any, path: Path) -> None:
 
 def draw_studio(page: Any, path: Path) -> None:
     """The studio with the pump in English, its slider moved."""
-    desk = desk_in(Path(tempfile.mkdtemp()))
-    desk.language = "en"
-    with running(serve(desk)) as served:
+    session = desk_in(Path(tempfile.mkdtemp()))
+    session.language = "en"
+    with running(serve(session)) as served:
         page.goto(f"{served.address}?lab=pump")
         page.wait_for_selector("body[data-settled=true]")
         page.fill("#value-n", "12")

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.grading.feedback import feedback_html
-from graphkin.grading.report import class_report
+from graphkin.classroom.grading.class_report import class_report
+from graphkin.classroom.grading.feedback import feedback_html
 from graphkin.text import LANGUAGES, words
 from tests.browser.opening import Opened, barred
-from tests.grading.students import marker_of
-from tests.grading.test_feedback import graded, mistaken, waiting
-from tests.grading.test_outputs import small_class
+from tests.classroom.grading.students import marker_of
+from tests.classroom.grading.test_feedback import graded, mistaken, waiting
+from tests.classroom.grading.test_outputs import small_class
 
 
 def pages(language: str) -> dict[str, str]:

@@ -12,15 +12,15 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from graphkin.cli import app
-from graphkin.grading.numbers import read_answer
-from graphkin.lab.model import Item
-from graphkin.screen.form import Identity, form_fragment, script, style
-from graphkin.screen.skeleton import offline_page
+from graphkin.classroom.form_page import Identity, form_fragment, script, style
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.cli.main import app
 from graphkin.text import words
+from graphkin.web.offline_page import offline_page
 from tests.browser.opening import Opened, barred
+from tests.classroom.grading.students import marker_of
 from tests.cli.conftest import Run, run  # noqa: F401
-from tests.grading.students import marker_of
 
 ROSTER = 'Nr.;Matricol;Nume;Grupa\n7;0042;Ștefănescu Ana;A\n9;0043;"O\'Neil, Jr. Pat";A\n'
 LABS = ("pump", "slotted-lever")

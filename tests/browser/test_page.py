@@ -12,19 +12,19 @@ from typing import Any
 
 import pytest
 
-from graphkin.arithmetic import FLOAT
+from graphkin.construction.core.crossings import crossings
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.run import Trace, run
 from graphkin.mechanism import Mechanism, load
-from graphkin.paper.drawing import Drawing
-from graphkin.scene.read import read_text
-from graphkin.screen.page import step_page, task_page
-from graphkin.screen.sheets import screen_sheets
-from graphkin.screen.telling import telling
-from graphkin.steps.crossings import crossings
-from graphkin.steps.run import Trace, run
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.read_scene import read_text
 from graphkin.text import words
+from graphkin.web.protocol import telling
+from graphkin.web.screen_sheets import screen_sheets
+from graphkin.web.step_page import step_page, task_page
 from tests.browser.opening import Opened, barred
-from tests.paper.sheet_tools import SCENES, mechanism_named
-from tests.screen.test_page import NASTY
+from tests.documents.sheet_tools import SCENES, mechanism_named
+from tests.web.test_page import NASTY
 
 DESKTOP = {"viewport": {"width": 1440, "height": 900}}
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "device_scale_factor": 2}

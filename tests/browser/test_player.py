@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from graphkin.drawing.marks import Text, reach
 from graphkin.mechanism import load
-from graphkin.motion import cycle
-from graphkin.paper.marks import Text, reach
-from graphkin.screen.frames import Stage, stage
-from graphkin.screen.moments import Motion, motion
-from graphkin.screen.player import player_page
+from graphkin.motion.cycle import cycle
 from graphkin.text import words
+from graphkin.web.animation_pictures import Stage, stage
+from graphkin.web.frames import FrameSequence, motion
+from graphkin.web.player import player_page
 from tests.browser.opening import Opened, barred
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -26,7 +26,7 @@ NEAR = 0.01
 
 
 @lru_cache
-def shown(name: str) -> tuple[Motion, Stage]:
+def shown(name: str) -> tuple[FrameSequence, Stage]:
     """A motion and its stage."""
     path = SCENES / f"{name}.toml"
     mechanism = load(str(path)) if path.is_file() else load(name, n=7)

@@ -37,9 +37,9 @@ def place(tmp_path) -> Path:
 @pytest.fixture
 def served(place) -> Iterator[Served]:
     """A studio that runs there, in English."""
-    desk = desk_in(place)
-    desk.language = "en"
-    with running(serve(desk)) as found:
+    session = desk_in(place)
+    session.language = "en"
+    with running(serve(session)) as found:
         yield found
 
 
@@ -678,10 +678,10 @@ def test_it_can_be_used_by_keys_alone(studio, place):
 
 
 def test_a_page_that_is_no_longer_served_says_so(chromium, place):
-    desk = desk_in(place)
-    desk.language = "en"
+    session = desk_in(place)
+    session.language = "en"
     page = chromium.new_page()
-    with running(serve(desk)) as found:
+    with running(serve(session)) as found:
         page.goto(f"{found.address}?scene=mine.toml")
         at_rest(page)
     page.get_by_label("n", exact=True).press("ArrowRight")

@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphkin.arithmetic import FLOAT
+from graphkin.construction.core.run import run
+from graphkin.construction.higher_class.closure_solver import ClosureSolver
 from graphkin.mechanism import Mechanism
-from graphkin.plane import cross, dot
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import Closure
-from graphkin.scene.read import read_text
-from graphkin.steps.run import run
-from graphkin.steps.trying import Closer
-from graphkin.structure.graph import Pin, Sliding
+from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
+from graphkin.structure.pairs import Pin, Sliding
 from tests.chance.records import Standing
 from tests.chance.written import Written
 
@@ -124,7 +124,7 @@ def closure_number(standing: Standing, mechanism: Mechanism, group: Higher, coun
     closers = [
         step
         for step in program.steps
-        if step.action is not None and isinstance(step.action.value, Closer)
+        if step.action is not None and isinstance(step.action.value, ClosureSolver)
     ]
     step = closers[count]
     alone = replace(program, targets={("", str(arg)): arg for arg in step.args})

@@ -9,11 +9,11 @@ from functools import cached_property
 
 import mpmath
 
-from graphkin.errors import WitnessError
+from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
-from graphkin.steps.solution import Solution
+from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Dyad, Higher, Stretched
+from graphkin.text.errors import WitnessError
 from tests.chance.branches import DeadChainError, branches_of
 from tests.chance.exact import Motion, motion
 from tests.chance.groups import made

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from graphkin.cli import app
+from graphkin.cli.main import app
 
 ROOT = Path(__file__).resolve().parents[2]
 FOUR_BAR = """

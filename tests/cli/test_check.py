@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from graphkin import load
-from graphkin.closures import choices
+from graphkin.diagnosis.closures import choices
 from tests.cli.conftest import ROOT, Run
 
 

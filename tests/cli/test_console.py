@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from graphkin import __version__
-from graphkin.console import BROKEN_PIPE
+from graphkin.cli.console import BROKEN_PIPE
 from tests.cli.conftest import ROOT, Run, command, python
 
 HEAVY = ("shapely", "reportlab", "svgwrite", "matplotlib")
@@ -116,9 +116,9 @@ def test_every_problem_of_a_scene_names_its_file_once(
 def test_a_file_that_cannot_be_opened_is_named_once(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from graphkin import labs
+    from graphkin.scene import scene_files
 
-    monkeypatch.setattr(labs, "find", Path)
+    monkeypatch.setattr(scene_files, "find", Path)
     missing = tmp_path / "missing.toml"
     said = f"graphkin: {missing}: the scene cannot be read: No such file or directory\n"
     assert run("check", missing).stderr == said
@@ -136,24 +136,24 @@ def test_a_fault_of_our_own_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatc
 
 
 def test_an_unreadable_file_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin import labs
+    from graphkin.scene import scene_files
 
     def refused(name: str) -> Path:
         raise PermissionError(13, "Permission denied", name)
 
-    monkeypatch.setattr(labs, "find", refused)
+    monkeypatch.setattr(scene_files, "find", refused)
     result = run("solve", "pump")
     assert result.exit_code == 2
     assert result.stderr == "graphkin: pump: Permission denied\n"
 
 
 def test_control_c_gives_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin import labs
+    from graphkin.scene import scene_files
 
     def stopped(name: str) -> Path:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(labs, "find", stopped)
+    monkeypatch.setattr(scene_files, "find", stopped)
     result = run("solve", "pump")
     assert result.exit_code == 130
     assert result.stderr.strip() == "graphkin: stopped"
@@ -222,7 +222,7 @@ def imported_by(*args: str) -> set[str]:
     """The packages that a command has imported by its end."""
     code = (
         "import sys, contextlib, io\n"
-        "from graphkin.cli import main\n"
+        "from graphkin.cli.main import main\n"
         f"sys.argv = ['graphkin', *{list(args)!r}]\n"
         "with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):\n"
         "    main()\n"

@@ -10,14 +10,14 @@ from typing import Any
 import pytest
 
 from graphkin import load
-from graphkin.effects import BY_COMMAND, BY_HAND, NAMES, Row, effects
-from graphkin.steps.effect import Effect
+from graphkin.construction.core.effect import Effect
+from graphkin.diagnosis.effects import BY_COMMAND, BY_HAND, NAMES, EffectRow, effects
 from tests.cli.conftest import ROOT, Run
 
 SCENES = ROOT / "examples" / "scenes"
 
 
-def of(path: str | Path) -> dict[str, Row]:
+def of(path: str | Path) -> dict[str, EffectRow]:
     """The effects of a scene by name."""
     return {row.name: row for row in effects(load(str(path)))}
 
@@ -57,7 +57,7 @@ def test_an_accelerated_driver_is_named_and_counted(four_bar: Callable[..., Path
     assert after["driver acceleration"].reason.startswith("driver 1 has an acceleration")
     without = of(four_bar(driver="acceleration = 5"))["driver acceleration"]
     why = "velocity of B can be found without"
-    assert without == Row("driver acceleration", 0, why, False)
+    assert without == EffectRow("driver acceleration", 0, why, False)
 
 
 def test_a_law_of_time_is_named(four_bar: Callable[..., Path]) -> None:
@@ -122,8 +122,8 @@ def test_every_effect_that_is_in_has_its_own_time_and_no_other(run: Run, name: o
 
 def test_only_the_steps_of_an_effect_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
     """The steps handed to the clock are those of the slice, each once, under its own effect."""
-    from graphkin import effects as room
-    from graphkin.steps.timed import Timing
+    from graphkin.construction.core.timing import Timing
+    from graphkin.diagnosis import effects as room
 
     mechanism = load(str(SCENES / "oscillating-slide.toml"))
     handed: list[list[int]] = []

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.errors import PageError
-from graphkin.paper import files
-from graphkin.paper.files import RESERVED, file_part, file_stem, write_all
+from graphkin.text.errors import PageError
+from graphkin.writers import files
+from graphkin.writers.files import RESERVED, file_part, file_stem, write_all
 
 FILES = {"a.txt": b"one", "b.txt": b"two", "c.txt": b"three"}
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from graphkin.handout import scales
+from graphkin.accuracy.pencil import Pencil, drawn
+from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
-from graphkin.pencil import Pencil, drawn
 from tests.cli.conftest import ROOT, Run
 
 

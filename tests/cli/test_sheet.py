@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-import graphkin.handout
-from graphkin.errors import PageError, Problem, WitnessError
-from graphkin.paper.marks import Page
+import graphkin.documents.sheet_documents
+from graphkin.drawing.marks import Page
+from graphkin.text.errors import PageError, Problem, WitnessError
 from tests.cli.conftest import Run
 
 
@@ -36,7 +36,7 @@ def blank(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, object]]:
             Part("calculation", (a4, a4)),
         ]
 
-    monkeypatch.setattr(graphkin.handout, "hand_out", hand_out)
+    monkeypatch.setattr(graphkin.documents.sheet_documents, "hand_out", hand_out)
     return asked
 
 
@@ -127,7 +127,7 @@ def test_what_cannot_be_handed_out_is_not_written(
     def refuse(*args: object, **kwargs: object) -> None:
         raise error
 
-    monkeypatch.setattr(graphkin.handout, "hand_out", refuse)
+    monkeypatch.setattr(graphkin.documents.sheet_documents, "hand_out", refuse)
     result = run("sheet", "pump", "-o", tmp_path / "out")
     assert result.exit_code == status
     assert result.stderr.startswith(f"graphkin: {words}")
@@ -137,12 +137,12 @@ def test_what_cannot_be_handed_out_is_not_written(
 def test_a_page_that_cannot_be_rendered_leaves_nothing(
     run: Run, tmp_path: Path, blank: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import graphkin.paper.pdf
+    import graphkin.writers.pdf
 
     def full(*args: object, **kwargs: object) -> bytes:
         raise MemoryError
 
-    monkeypatch.setattr(graphkin.paper.pdf, "write_pdf", full)
+    monkeypatch.setattr(graphkin.writers.pdf, "write_pdf", full)
     result = run("sheet", "pump", "-o", tmp_path / "out")
     assert result.exit_code == 2
     assert "Traceback" not in result.stderr

@@ -217,8 +217,8 @@ def test_a_flat_crossing_is_answered_with_a_warning_and_status_1(
 
 
 def test_a_witness_that_disagrees_gives_status_1(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from graphkin.construction.core.solution import Verdict
     from graphkin.mechanism import Mechanism
-    from graphkin.steps.solution import Verdict
 
     verdict = Verdict(False, 0.5, "points.D.velocity", 1e-9, 0.0, 0.0, ("B",))
     monkeypatch.setattr(Mechanism, "witness", lambda self, solution: verdict)
@@ -235,8 +235,8 @@ def test_a_branch_that_does_not_hold_is_told_as_it_is_stated(
     run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Numbers within their limit are not called different; the sheets refuse for the same cause."""
+    from graphkin.construction.core.solution import Verdict
     from graphkin.mechanism import Mechanism
-    from graphkin.steps.solution import Verdict
 
     verdict = Verdict(False, 1.1e-14, "links.3.epsilon", 1e-9, 0.0, 0.0, ("B", "5"))
     monkeypatch.setattr(Mechanism, "witness", lambda self, solution: verdict)
@@ -252,8 +252,8 @@ def test_a_branch_that_does_not_hold_is_told_as_it_is_stated(
 def test_a_witness_that_cannot_judge_gives_status_1(
     run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from graphkin.errors import Problem, WitnessError
     from graphkin.mechanism import Mechanism
+    from graphkin.text.errors import Problem, WitnessError
 
     def refuse(self: Mechanism, solution: object) -> None:
         raise WitnessError(Problem("loops", "are singular here"))

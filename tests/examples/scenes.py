@@ -12,10 +12,10 @@ from pathlib import Path
 import mpmath
 import pytest
 
+from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism, load
-from graphkin.plane import Ratio
-from graphkin.scene.read import read_text
-from graphkin.steps.solution import Solution
+from graphkin.numbers.plane import Ratio
+from graphkin.scene.read_scene import read_text
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "examples" / "scenes"

@@ -13,10 +13,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 import graphkin
-from graphkin.cli import app
+from graphkin.cli.main import app
+from graphkin.construction.core.solution import FAIR
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
-from graphkin.steps.solution import FAIR
+from graphkin.scene.read_scene import read_text
 from tests.examples.document import (
     EXAMPLES,
     README,

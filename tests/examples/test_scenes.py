@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 from click.testing import CliRunner
 
-from graphkin.cli import app
-from graphkin.handout import hand_out
-from graphkin.paper.files import rendered
+from graphkin.cli.main import app
+from graphkin.construction.core.solution import FAIR
+from graphkin.documents.sheet_documents import hand_out
 from graphkin.scene.model import FRAME
-from graphkin.steps.solution import FAIR
 from graphkin.text import LANGUAGES
+from graphkin.writers.files import rendered
 from tests.examples.scenes import FILES, is_rigid, mechanism, motion
 
 ROWS = {

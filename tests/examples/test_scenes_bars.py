@@ -7,11 +7,11 @@ import math
 import mpmath
 import pytest
 
-from graphkin.errors import ClosureError
-from graphkin.freedom import true_mobility
-from graphkin.steps.solution import Solution
+from graphkin.construction.core.solution import Solution
+from graphkin.loops.freedom import true_mobility
 from graphkin.structure.grashof import single_loops
 from graphkin.structure.mobility import count, kutzbach
+from graphkin.text.errors import ClosureError
 from tests.examples.scenes import (
     acceleration,
     angle,

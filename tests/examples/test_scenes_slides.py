@@ -7,8 +7,8 @@ import math
 import mpmath
 import pytest
 
-from graphkin.errors import ClosureError
 from graphkin.structure.mobility import count
+from graphkin.text.errors import ClosureError
 from tests.examples.scenes import (
     acceleration,
     angle,

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.errors import GraphkinError
-from graphkin.handout import hand_out
-from graphkin.labs import names
+from graphkin.documents.sheet_documents import hand_out
+from graphkin.drawing.style import Ink
 from graphkin.mechanism import load
-from graphkin.paper.style import Ink
+from graphkin.scene.scene_files import names
 from graphkin.text import LANGUAGES
+from graphkin.text.errors import GraphkinError
 from tests.gallery.pixels import picture, side_by_side
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from graphkin.paper.marks import Page
+    from graphkin.drawing.marks import Page
 
 __all__ = ["LANGUAGES", "VIEWS", "Subject", "pages_of", "row_of", "subjects"]
 

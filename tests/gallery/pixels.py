@@ -10,9 +10,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
-from graphkin.paper.axes import put_marks
-from graphkin.paper.marks import Page
-from graphkin.paper.style import Ink
+from graphkin.drawing.marks import Page
+from graphkin.drawing.style import Ink
+from graphkin.writers.axes import put_marks
 
 GUTTER = 12
 """White between pages, in pixels."""

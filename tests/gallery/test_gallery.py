@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.labs import names
+from graphkin.scene.scene_files import names
 from tests.gallery.__main__ import README, main
 from tests.gallery.pages import SCENES, STUDENTS, Subject, pages_of, subjects
 from tests.gallery.pixels import GUTTER, picture, side_by_side, stacked

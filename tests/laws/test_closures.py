@@ -2,13 +2,13 @@
 
 import pytest
 
-from graphkin.closures import choices
-from graphkin.loops.closures import closures
+from graphkin.diagnosis.closures import choices
+from graphkin.loops.branch_closures import closures
+from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
-from graphkin.loops.groups import groups
 from graphkin.loops.poses import pose_of, setting_of, unknowns_of
+from graphkin.loops.witness.examine import examine
 from graphkin.structure.groups import Higher
-from graphkin.witness.examine import examine
 from tests.chance.checking import case
 
 SEEDS = (9, 16, 52, 78, 302, 434, 690, 1263)

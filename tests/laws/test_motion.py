@@ -66,7 +66,7 @@ def test_the_same_of_the_pump_while_its_crank_turns(name, n):
     source = scene.source.read_text(encoding="utf-8")
     source = source.replace("[parameters]", "[parameters]\nh = 0")
     source = source.replace('angle = "30 + 2*n"', 'angle = "30 + 2*n + 6*(300 + 10*n)*h"')
-    from graphkin.scene.read import read_text
+    from graphkin.scene.read_scene import read_text
 
     mechanism = Mechanism(read_text(source, name, None, {"n": n}))
     assert_rates_of_change(*moved(mechanism, 40))

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
-from graphkin.steps.solution import Solution
+from graphkin.scene.read_scene import read_text
 from tests.examples.scenes import FILES
 from tests.orders import reordered
 

@@ -16,8 +16,8 @@ import pytest
 from hypothesis import given, settings
 
 from graphkin.mechanism import Mechanism
-from graphkin.plane import cross, dot
-from graphkin.structure.graph import Pin, Sliding, pairs
+from graphkin.numbers.plane import cross, dot
+from graphkin.structure.pairs import Pin, Sliding, pairs
 from tests.mechanisms import LAW, SHIPPED, mechanisms, shipped
 
 CLOSE = 1e-10

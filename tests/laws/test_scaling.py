@@ -8,9 +8,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from graphkin.construction.core.program import Plane
 from graphkin.mechanism import Mechanism
-from graphkin.plane import Ratio, Vector
-from graphkin.steps.program import Plane
+from graphkin.numbers.plane import Ratio, Vector
 from tests.mechanisms import LAW, SHIPPED, angles, log_scaled, mechanisms, shipped, signs
 
 CLOSE = 1e-9

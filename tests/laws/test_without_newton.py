@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.loops.solve import newton
+from graphkin.loops.newton import newton
 from graphkin.mechanism import load
 from graphkin.scene.model import Closure
 from graphkin.structure.groups import Higher

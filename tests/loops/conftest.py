@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
+from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
 from graphkin.loops.equations import equations
-from graphkin.loops.solve import LoopSolution, solve
-from graphkin.plane import Ratio
+from graphkin.loops.newton import LoopSolution, solve
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Scene
-from graphkin.scene.read import read_scene, read_text
-from graphkin.steps.solution import LinkMotion, PointMotion, SlideMotion, Solution
+from graphkin.scene.read_scene import read_scene, read_text
 
 SHEETS = Path(__file__).parents[2] / "sheets"
 HEAD = """graphkin = 1

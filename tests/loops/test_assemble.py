@@ -9,12 +9,12 @@ import mpmath
 import numpy as np
 import pytest
 
-from graphkin.errors import StructureError, WitnessError
-from graphkin.freedom import true_mobility
+from graphkin.construction.core.solution import PointMotion, Solution
 from graphkin.loops.assemble import assemble
+from graphkin.loops.freedom import true_mobility
+from graphkin.loops.witness import by_loops, compare, examine
 from graphkin.scene.model import Closure
-from graphkin.steps.solution import PointMotion, Solution
-from graphkin.witness import by_loops, compare, examine
+from graphkin.text.errors import StructureError, WitnessError
 
 FOUR_BAR = """
 [frame]

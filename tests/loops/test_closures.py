@@ -8,12 +8,12 @@ from fractions import Fraction
 
 import pytest
 
-from graphkin.certified import Certifier
+from graphkin.accuracy.certified import Certifier
+from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
-from graphkin.loops.groups import groups
+from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
-from graphkin.witness import compare
 
 RAPID_RETURN = """
 [frame]

@@ -7,9 +7,9 @@ import math
 
 import pytest
 
-from graphkin.errors import StructureError, WitnessError
-from graphkin.freedom import idle, true_mobility
 from graphkin.loops.assemble import assemble
+from graphkin.loops.freedom import idle, true_mobility
+from graphkin.text.errors import StructureError, WitnessError
 
 CRANKS = """
 [frame]

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.errors import ClosureError
 from graphkin.mechanism import Mechanism, load
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import ClosureError
 
 SCENES = Path(__file__).parents[1] / "scenes"
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.loops import groups
+from graphkin.loops import closing_groups
 from graphkin.loops.equations import equations
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
 from tests.bench.chain import scene
 
 
@@ -14,13 +14,13 @@ from tests.bench.chain import scene
 def looked_at(monkeypatch) -> list[tuple[str, ...]]:
     """Every set of links that is looked at."""
     sets: list[tuple[str, ...]] = []
-    group_of = groups.group_of
+    group_of = closing_groups.group_of
 
     def counted(links, *rest):
         sets.append(links)
         return group_of(links, *rest)
 
-    monkeypatch.setattr(groups, "group_of", counted)
+    monkeypatch.setattr(closing_groups, "group_of", counted)
     return sets
 
 
@@ -30,7 +30,7 @@ def test_a_chain_of_dyads_is_looked_at_dyad_by_dyad(looked_at):
     for dyads in (10, 20, 40):
         looked_at.clear()
         read = read_text(scene(dyads), "chain", None, {})
-        found = groups.stages(read, equations(read))
+        found = closing_groups.stages(read, equations(read))
         expected = [("crank",), *((f"rod{k}", f"rocker{k}") for k in range(1, dyads + 1))]
         assert [group.links for group in found] == expected
         counts.append(len(looked_at))

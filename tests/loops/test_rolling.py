@@ -8,10 +8,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from graphkin.errors import StructureError, WitnessError
-from graphkin.freedom import true_mobility
 from graphkin.loops.assemble import assemble
 from graphkin.loops.constraints import constraints
+from graphkin.loops.freedom import true_mobility
+from graphkin.text.errors import StructureError, WitnessError
 
 ROLLER = """
 [frame]

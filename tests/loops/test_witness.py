@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from graphkin.errors import StructureError, WitnessError
-from graphkin.plane import Ratio
-from graphkin.steps.solution import PointMotion, Solution
-from graphkin.witness import by_loops, compare, examine
+from graphkin.construction.core.solution import PointMotion, Solution
+from graphkin.loops.witness import by_loops, compare, examine
+from graphkin.numbers.plane import Ratio
+from graphkin.text.errors import StructureError, WitnessError
 
 
 @pytest.fixture

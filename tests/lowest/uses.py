@@ -11,10 +11,10 @@ from distributed import LocalCluster
 from matplotlib.figure import Figure
 
 import graphkin
-from graphkin.printing.engine import CLUSTER, engine
-from graphkin.studio.desk import Desk
+from graphkin.classroom.printing.workers import CLUSTER, engine
 from graphkin.studio.folder import Folder
 from graphkin.studio.server import serve
+from graphkin.studio.session import Session
 
 
 def main() -> None:
@@ -36,7 +36,7 @@ def main() -> None:
         assert workers == 1
         assert executor is not None
         assert executor.submit(abs, -3).result() == 3
-    served = serve(Desk(Folder(Path())))
+    served = serve(Session(Folder(Path())))
     Thread(target=served.server.run, daemon=True).start()
     with urlopen(served.address) as answer:
         assert b"<html" in answer.read()

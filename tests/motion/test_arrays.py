@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from graphkin.mechanism import load
-from graphkin.motion import cycle
 from graphkin.motion.centrodes import centrodes
+from graphkin.motion.cycle import cycle
 from tests.motion.linkages import four_bar, slider_crank
 
 SCENES = "examples/scenes"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphkin.motion import cycle
+from graphkin.motion.cycle import cycle
 from graphkin.scene.model import Side
 from tests.motion.linkages import four_bar
 

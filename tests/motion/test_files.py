@@ -10,17 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.curves.files import picture_files
-from graphkin.curves.mechanism import stand_about
-from graphkin.curves.over import pictures
-from graphkin.curves.sampled import sampled
-from graphkin.curves.style import look
+from graphkin.cli.report.cycle_report import cycle_lines
+from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion import cycle
-from graphkin.report.cycle import cycle_lines
-from graphkin.report.cycle_table import cycle_table
-from graphkin.report.table import labelled
-from graphkin.scene.read import read_text
+from graphkin.motion.curves.curve_files import picture_files
+from graphkin.motion.curves.outline import stand_about
+from graphkin.motion.curves.over_driver import pictures
+from graphkin.motion.curves.sampled import sampled
+from graphkin.motion.cycle import cycle
+from graphkin.scene.read_scene import read_text
+from graphkin.text.plain_table import labelled
+from graphkin.writers.plot_style import look
 from tests.bench.chain import scene as chain
 from tests.cli.conftest import Run, run  # noqa: F401
 from tests.motion.linkages import five_bar, four_bar, slider_crank

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from graphkin.mechanism import load
-from graphkin.motion import cycle, limits
-from graphkin.motion.limits import followers, movers_of
-from graphkin.motion.loop import class_of, loop_of
+from graphkin.motion import follower_limits
+from graphkin.motion.cycle import cycle
+from graphkin.motion.follower_limits import followers, movers_of
 from graphkin.motion.refine import crossings_of_nought
+from graphkin.motion.single_loop import class_of, loop_of
 from tests.bench.chain import scene as chain
 from tests.motion.linkages import four_bar, slider_crank
 
@@ -136,7 +137,7 @@ def test_followers_found_together_are_those_found_alone(tmp_path, monkeypatch):
     assert len(together) == 4
     every = list(movers_of(found))
     for mover, of in zip(every, together, strict=True):
-        monkeypatch.setattr(limits, "movers_of", lambda _, mover=mover: [mover])
+        monkeypatch.setattr(follower_limits, "movers_of", lambda _, mover=mover: [mover])
         assert followers(found) == (of,)
 
 

@@ -7,10 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from graphkin.cli.report.piece_words import pieces_words
 from graphkin.mechanism import load
-from graphkin.motion import cycle
-from graphkin.motion.limits import followers
-from graphkin.report.pieces import pieces_words
+from graphkin.motion.cycle import cycle
+from graphkin.motion.follower_limits import followers
 from graphkin.scene.model import Closure
 
 

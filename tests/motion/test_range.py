@@ -7,9 +7,9 @@ from math import acos, degrees, pi, sqrt
 import numpy as np
 import pytest
 
-from graphkin.errors import ClosureError, SceneError
 from graphkin.mechanism import load
-from graphkin.motion import cycle
+from graphkin.motion.cycle import cycle
+from graphkin.text.errors import ClosureError, SceneError
 from tests.motion.linkages import five_bar, four_bar, slider_crank
 
 EXACT = 6e-11

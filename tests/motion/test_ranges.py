@@ -2,7 +2,7 @@
 
 import pytest
 
-from graphkin.motion import cycle
+from graphkin.motion.cycle import cycle
 from tests.mechanisms import mechanism_of
 
 TRIPLE_ROCKER = """

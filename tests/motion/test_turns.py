@@ -8,22 +8,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.errors import GraphkinError
-from graphkin.handout import drawings_of, proved
-from graphkin.loci import curves_of
+from graphkin.cli.report.check_report import Checking
+from graphkin.construction.core.given_data import given
+from graphkin.diagnosis.ranges import closing
+from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated
+from graphkin.motion.motion_curves import curves_of
 from graphkin.motion.period import strangers, turns_to_return
-from graphkin.paper.data import given
-from graphkin.paper.richtext import plain
-from graphkin.ranges import closing
-from graphkin.report.checking import Checking
-from graphkin.scene.read import read_text
-from graphkin.screen.driven import INPUT, driven_by
-from graphkin.screen.shelf import runner
-from graphkin.screen.tracing import Tracing
+from graphkin.scene.read_scene import read_text
+from graphkin.tape.tape_outputs import runner
 from graphkin.text import words
+from graphkin.text.errors import GraphkinError
+from graphkin.web.page_driver import INPUT, driven_by
+from graphkin.web.tracing import Tracing
 from tests.examples.scenes import FILES
 
 OWN = {path.stem: path for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))}

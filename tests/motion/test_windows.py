@@ -7,14 +7,14 @@ import re
 import numpy as np
 import pytest
 
-from graphkin.errors import ClosureError, SceneError
+from graphkin.cli.report.cycle_report import cycle_lines
+from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion import cycle
 from graphkin.motion.course import Course
+from graphkin.motion.cycle import cycle
 from graphkin.motion.driving import GRID
-from graphkin.report.cycle import cycle_lines
-from graphkin.report.cycle_table import cycle_table
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import ClosureError, SceneError
 from tests.motion.linkages import four_bar, slider_crank
 
 

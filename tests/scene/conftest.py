@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.errors import Problem, SceneError
 from graphkin.scene.model import Link, Scene
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import Problem, SceneError
 
 DATA = Path(__file__).parent / "data"
 HEAD = """

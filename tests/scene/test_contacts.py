@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.scene.contacts import contact_letters
-from graphkin.scene.read import read_text
-from graphkin.structure.graph import contacts
+from graphkin.scene.contact_letters import contact_letters
+from graphkin.scene.read_scene import read_text
+from graphkin.structure.pairs import contacts
 
 TRAIN = """
 graphkin = 1

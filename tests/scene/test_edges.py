@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.errors import SceneError
 from graphkin.scene.model import Profile, Scene
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import SceneError
 from tests.mechanisms import HEAD
 
 TOUCHING = """

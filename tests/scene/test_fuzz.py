@@ -9,11 +9,11 @@ from pathlib import Path
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from graphkin.errors import SceneError
 from graphkin.scene.expression import UnreadableError, parse
-from graphkin.scene.limits import decoded
+from graphkin.scene.file_limits import decoded
 from graphkin.scene.model import Scene
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import SceneError
 
 DATA = Path(__file__).parent / "data"
 SCENES = [path.read_text(encoding="utf-8") for path in sorted(DATA.glob("*.toml"))]

@@ -8,9 +8,9 @@ from fractions import Fraction
 import mpmath
 import pytest
 
-from graphkin.errors import SceneError
 from graphkin.scene.quantity import expression
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import SceneError
 
 LAWS = {
     "30 + 120*t": lambda t: 30 + 120 * t,

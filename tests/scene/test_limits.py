@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.errors import MORE, Problem, SceneError
-from graphkin.scene.faults import NUMBER, PARTS, PLAIN, VALUE
-from graphkin.scene.read import read_scene, read_text
+from graphkin.scene.read_scene import read_scene, read_text
+from graphkin.scene.toml_faults import NUMBER, PARTS, PLAIN, VALUE
+from graphkin.text.errors import MORE, Problem, SceneError
 
 HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'
 DRIVER = "[[drivers]]\nturn = 1\nangle = 0\nspeed = 1\n"

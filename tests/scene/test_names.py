@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.errors import SceneError
-from graphkin.handout import hand_out
+from graphkin.documents.sheet_documents import hand_out
+from graphkin.drawing.marks import Text
 from graphkin.mechanism import Mechanism
-from graphkin.paper.marks import Text
-from graphkin.scene.names import in_language
-from graphkin.scene.read import read_text
-from graphkin.screen.page import step_page, task_page
+from graphkin.scene.link_names import in_language
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import SceneError
+from graphkin.web.step_page import step_page, task_page
 
 SCENE = """graphkin = 1
 units = { length = "mm", angle = "deg", speed = "rad/s" }

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.errors import Problem, SceneError
 from graphkin.mechanism import load
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import Problem, SceneError
 
 Finder = Callable[..., Problem]
 Finders = Callable[..., list[Problem]]

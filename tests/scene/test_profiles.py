@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.errors import SceneError
-from graphkin.plane import cross, dot
-from graphkin.report.centres import place_of
-from graphkin.scene.read import read_text
+from graphkin.documents.centre_tables import place_of
+from graphkin.numbers.plane import cross, dot
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import SceneError
 from tests.mechanisms import HEAD, mechanism_of
 
 PAIR = """

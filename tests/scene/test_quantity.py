@@ -9,11 +9,11 @@ import mpmath
 import numpy as np
 import pytest
 
-from graphkin.arithmetic import Kind, batch_kind
-from graphkin.errors import SceneError
+from graphkin.numbers.arithmetic import Kind, batch_kind
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.measures import quantity
 from graphkin.scene.quantity import Quantity, exact, expression, shortest
+from graphkin.text.errors import SceneError
 
 SEVEN = {"n": Fraction(7)}
 DIGITS = Kind(

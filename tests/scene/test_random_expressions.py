@@ -8,8 +8,8 @@ import re
 
 import pytest
 
-from graphkin.errors import GraphkinError
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import GraphkinError
 
 SCENE = """
 graphkin = 1

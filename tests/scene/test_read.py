@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.scene.model import Angled, Apart, At, Closure, Scene, Side, Slide, Triangle, Way
 from graphkin.scene.quantity import exact
-from graphkin.scene.read import read_scene, read_text
+from graphkin.scene.read_scene import read_scene, read_text
 
 
 def test_the_pump(data: Path) -> None:
@@ -210,5 +210,5 @@ def test_an_arm_with_an_angle(changed: Callable[..., Scene]) -> None:
 
 
 def test_reading_needs_no_numpy() -> None:
-    code = "import sys, graphkin.scene.read; sys.exit('numpy' in sys.modules)"
+    code = "import sys, graphkin.scene.read_scene; sys.exit('numpy' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[2])

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import pytest
 
-from graphkin.errors import Problem
 from graphkin.scene.model import Angled, Apart, At, Link, OnLine, Polar, Triangle
 from graphkin.scene.quantity import exact
+from graphkin.text.errors import Problem
 
 MM = {number: exact(number, "mm") for number in range(201)}
 Reader = Callable[[str], Link]

@@ -13,11 +13,11 @@ import mpmath
 import numpy as np
 from click.testing import CliRunner, Result
 
-from graphkin.cli import app
+from graphkin.cli.main import app
+from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
-from graphkin.plane import Ratio
-from graphkin.scene.read import read_text
-from graphkin.steps.solution import Solution
+from graphkin.numbers.plane import Ratio
+from graphkin.scene.read_scene import read_text
 from tests.stress.closed import (
     DIGITS,
     Motion,

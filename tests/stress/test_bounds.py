@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from graphkin.cli import app
-from graphkin.errors import ClosureError
+from graphkin.cli.main import app
 from graphkin.loops import rounding
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import ClosureError
 from tests.stress.families import FAMILIES, errors, four_bar
 
 SCENES = 6

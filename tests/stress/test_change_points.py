@@ -8,8 +8,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from graphkin.errors import ClosureError
-from graphkin.motion import cycle
+from graphkin.motion.cycle import cycle
+from graphkin.text.errors import ClosureError
 from tests.stress.cases import LONG, FourBar, Lever, commanded, held, held_batch, statuses
 
 BAR = FourBar(bars=("2", "4", "2", "4"))

@@ -8,9 +8,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from graphkin.errors import ClosureError, GraphkinError
-from graphkin.motion import cycle
-from graphkin.steps.solution import FAIR
+from graphkin.construction.core.solution import FAIR
+from graphkin.motion.cycle import cycle
+from graphkin.text.errors import ClosureError, GraphkinError
 from tests.stress.cases import (
     DRAWN,
     LONG,

@@ -8,11 +8,11 @@ import re
 import pytest
 from click.testing import CliRunner
 
-from graphkin.cli import app
-from graphkin.errors import ClosureError
+from graphkin.cli.main import app
+from graphkin.diagnosis.exact_intersection import ROUNDING
 from graphkin.mechanism import Mechanism
-from graphkin.meeting import ROUNDING
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import ClosureError
 from tests.stress.families import MP, chain
 
 LOST = (11, 55, 185)

@@ -10,7 +10,7 @@ import mpmath
 import pytest
 
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
 
 MP = mpmath.mp.clone()
 MP.dps = 60

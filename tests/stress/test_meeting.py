@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphkin.errors import ClosureError
-from graphkin.exact import Exact, IrrationalError, root
-from graphkin.meeting import clearance, meet, stated_loci
-from graphkin.plane import Circle, Line, circle_meets_circle, triangle_area
+from graphkin.diagnosis.exact_intersection import clearance, meet, stated_loci
+from graphkin.numbers.exact import Exact, IrrationalError, root
+from graphkin.numbers.plane import Circle, Line, circle_meets_circle, triangle_area
+from graphkin.text.errors import ClosureError
+from tests.construction.test_primitives import MANY, teeth
 from tests.mechanisms import directions, log_scaled, signs
-from tests.steps.test_primitives import MANY, teeth
 from tests.stress.cases import Case, FourBar, SliderCrank, commanded, statuses
 
 TANGENT = 8000

@@ -1,7 +1,7 @@
 """The primitives' last bounds with their teeth: dyads and directions, and the wrong ways to them.
 
-The others have theirs in tests/steps/test_primitives.py, the decision whether loci meet has its own
-in test_meeting.py. A test that the wrong formula passes is not a test.
+The others have theirs in tests/construction/test_primitives.py, the decision whether loci meet has
+its own in test_meeting.py. A test that the wrong formula passes is not a test.
 """
 
 from __future__ import annotations
@@ -16,10 +16,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphkin.arithmetic import FLOAT
-from graphkin.steps import vocabulary
+from graphkin.construction.core import vocabulary
+from graphkin.numbers.arithmetic import FLOAT
+from tests.construction.test_primitives import (
+    EPS,
+    MANY,
+    cross,
+    dot,
+    exactly,
+    flat_dyads,
+    mpc,
+    teeth,
+)
 from tests.mechanisms import log_scaled, signs
-from tests.steps.test_primitives import EPS, MANY, cross, dot, exactly, flat_dyads, mpc, teeth
 
 # --- the velocity of a dyad: the 2×2 of its bars -------------------------------------------------
 

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from graphkin.errors import PageError, WitnessError
-from graphkin.handout import hand_out
+from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
-from tests.paper.sheet_tools import within
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import PageError, WitnessError
+from tests.documents.sheet_tools import within
 from tests.stress.cases import Case, DrivenSlide, FourBar, Lever, SliderCrank, commanded, statuses
 
 ASK = "velocity = ['A', 'B']\nacceleration = ['A', 'B']"

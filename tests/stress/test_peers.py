@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from graphkin.motion import cycle
+from graphkin.motion.cycle import cycle
 from tests.stress.cases import FourBar, SliderCrank, assert_near, assert_within, held, held_batch
 from tests.stress.closed import EPS
 

@@ -9,8 +9,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from graphkin.errors import SceneError
-from graphkin.motion import cycle
+from graphkin.motion.cycle import cycle
+from graphkin.text.errors import SceneError
 from tests.stress.cases import (
     DRAWN,
     LONG,

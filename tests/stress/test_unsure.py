@@ -10,12 +10,12 @@ import re
 import numpy as np
 import pytest
 
-from graphkin import witness
+from graphkin.cli.report.cycle_report import cycle_lines
+from graphkin.cli.report.cycle_table import cycle_table
+from graphkin.loops import witness
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion import cycle
-from graphkin.report.cycle import cycle_lines
-from graphkin.report.cycle_table import cycle_table
-from graphkin.scene.read import read_text
+from graphkin.motion.cycle import cycle
+from graphkin.scene.read_scene import read_text
 from graphkin.studio.look import Sight, look
 from graphkin.studio.panels import Memory
 from tests.stress.families import chain

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.errors import StructureError
-from graphkin.structure.graph import contacts, contacts_between, pairs, turns
+from graphkin.structure.pairs import contacts, contacts_between, pairs, turns
+from graphkin.text.errors import StructureError
 from tests.mechanisms import scene_of
 
 DRIVEN = "[[drivers]]\nturn = {link}\nangle = 40\nspeed = 1\n"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.errors import StructureError
-from graphkin.structure.drivers import driver_problem, refuse_drivers, refuse_wrong_drivers
+from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import driver_problem, refuse_drivers, refuse_wrong_drivers
 from graphkin.structure.groups import Unresolved
-from graphkin.structure.order import decompose
+from graphkin.text.errors import StructureError
 from tests.mechanisms import scene_of
 from tests.structure.test_groups import DRIVEN, FIVE_BAR, FOUR_BAR, PARALLEL, SLIDER_CRANK
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from graphkin.scene.model import FRAME
-from graphkin.scene.read import read_scene
-from graphkin.structure.graph import contacts_between, pairs_between
+from graphkin.scene.read_scene import read_scene
 from graphkin.structure.joints import Joints
+from graphkin.structure.pairs import contacts_between, pairs_between
 
 SCENES = sorted((Path(__file__).resolve().parents[2] / "examples" / "scenes").glob("*.toml"))
 

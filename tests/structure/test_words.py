@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.report.structure import group_lines, structure
-from graphkin.structure.order import decompose
+from graphkin.cli.report.structure_report import group_lines, structure
+from graphkin.structure.decomposition import decompose
 from tests.mechanisms import scene_of
 from tests.structure.test_contacts import ALONE, plates, rack, train
 from tests.structure.test_groups import (

@@ -9,15 +9,15 @@ from contextlib import contextmanager, suppress
 from threading import Thread
 from typing import Any
 
-from graphkin import labs
-from graphkin.studio.desk import Desk
+from graphkin.scene import scene_files
 from graphkin.studio.folder import Folder
 from graphkin.studio.look import Sight, look
-from graphkin.studio.orders import Order
+from graphkin.studio.page_requests import PageRequest
 from graphkin.studio.panels import Memory
 from graphkin.studio.server import Served
+from graphkin.studio.session import Session
 
-PUMP = (labs.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
+PUMP = (scene_files.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
 
 
 def seen(text: str = PUMP, memory: Memory | None = None, **options: Any) -> dict[str, Any]:
@@ -31,14 +31,14 @@ def svgs(found: dict[str, Any]) -> dict[str, str]:
     return {panel["name"]: panel["svg"] for panel in found["panels"]}
 
 
-def ordered(**fields: Any) -> Order:
+def ordered(**fields: Any) -> PageRequest:
     """A request of the page."""
-    return Order(json.dumps({"text": PUMP, "language": "en", "tab": "a", **fields}).encode())
+    return PageRequest(json.dumps({"text": PUMP, "language": "en", "tab": "a", **fields}).encode())
 
 
-def desk_in(place: Any) -> Desk:
+def desk_in(place: Any) -> Session:
     """A desk in a folder."""
-    return Desk(Folder(place))
+    return Session(Folder(place))
 
 
 @contextmanager

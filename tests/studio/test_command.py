@@ -17,12 +17,12 @@ from urllib.request import url2pathname
 import pytest
 from click.testing import CliRunner
 
-from graphkin import cli_studio
-from graphkin.cli import app
-from graphkin.errors import PageError
-from graphkin.studio.desk import Desk
+from graphkin.cli import studio_command
+from graphkin.cli.main import app
 from graphkin.studio.redirect import Redirect
 from graphkin.studio.server import Served, serve
+from graphkin.studio.session import Session
+from graphkin.text.errors import PageError
 from tests.studio.pump import PUMP, desk_in, running
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -94,8 +94,10 @@ def test_without_its_libraries_it_says_what_to_install(tmp_path, monkeypatch):
 
 
 def test_without_its_packages_it_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(cli_studio, "find_spec", lambda name: None if name == "bottle" else name)
-    result = CliRunner().invoke(cli_studio.studio, ["--no-browser"])
+    monkeypatch.setattr(
+        studio_command, "find_spec", lambda name: None if name == "bottle" else name
+    )
+    result = CliRunner().invoke(studio_command.studio, ["--no-browser"])
     assert result.exit_code == 2
     assert "the studio needs bottle: pip install '.[studio]'" in result.output
 
@@ -113,13 +115,13 @@ def test_the_browser_is_led_by_a_file_of_this_user_alone_and_never_given_the_tok
             path = Path(url2pathname(urlsplit(opened[0]).path))
             found.append((path, path.read_text(encoding="utf-8"), path.parent.stat().st_mode))
 
-    def serving(desk: Desk, port: int, first: object, known: Callable[[], None]) -> Served:
+    def serving(session: Session, port: int, first: object, known: Callable[[], None]) -> Served:
         found.append(known)
         return Served("http://127.0.0.1:1/secret/?scene=one.toml&lang=it", 1, Server())
 
     monkeypatch.setattr("graphkin.studio.server.serve", serving)
     monkeypatch.setattr("webbrowser.open", opened.append)
-    result = CliRunner().invoke(cli_studio.studio, ["one.toml"])
+    result = CliRunner().invoke(studio_command.studio, ["one.toml"])
     assert result.exit_code == 0, result.output
     assert "secret" not in opened[0]
     _, (path, text, mode) = found

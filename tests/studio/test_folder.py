@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.errors import PageError, SceneError
-from graphkin.scene.read import read_text
+from graphkin.scene.read_scene import read_text
 from graphkin.studio.folder import Folder, stem_of
-from graphkin.studio.saving import Wanted, lab_of, save_files, save_scene, sheets_of
+from graphkin.studio.saving import WantedSheets, lab_of, save_files, save_scene, sheets_of
+from graphkin.text.errors import PageError, SceneError
 from tests.studio.pump import PUMP, desk_in, ordered
 
 
@@ -133,7 +133,7 @@ def test_sheets_are_written_all_or_none(place):
 
 
 def test_sheets_are_named_as_the_command_names_them(place):
-    wanted = Wanted(PUMP, "lab/one.toml", {"n": "9"}, "en", "key", ("svg", "html"))
+    wanted = WantedSheets(PUMP, "lab/one.toml", {"n": "9"}, "en", "key", ("svg", "html"))
     names = ["one-n9-key.html", "one-n9-velocity-key.svg", "one-n9-acceleration-key.svg"]
     assert list(sheets_of(Folder(place), wanted)) == names
 
@@ -142,7 +142,7 @@ def test_sheets_of_a_value_that_the_text_states_are_named_alike(place):
     """A value written into the text and one that is set give the same names."""
     names = []
     for text, settings in ((PUMP.replace("value = 7", "value = 9"), {}), (PUMP, {"n": "9.0"})):
-        wanted = Wanted(text, "one.toml", settings, "en", "key", ("svg",))
+        wanted = WantedSheets(text, "one.toml", settings, "en", "key", ("svg",))
         names.append(list(sheets_of(Folder(place), wanted)))
     assert names[0] == names[1] == ["one-n9-velocity-key.svg", "one-n9-acceleration-key.svg"]
 
@@ -164,10 +164,10 @@ def test_a_name_that_is_refused_is_answered_with_one_that_would_do(place, name, 
 
 
 def test_a_text_is_saved_whatever_is_wrong_with_it_and_while_something_is_drawn(place):
-    desk = desk_in(place)
+    session = desk_in(place)
     bad = PUMP.replace("A-B = 40", "A-B = ")
-    with desk.drawing():
-        assert desk.save(ordered(text=bad, name="bad.toml"))["files"] == ("bad.toml",)
+    with session.drawing():
+        assert session.save(ordered(text=bad, name="bad.toml"))["files"] == ("bad.toml",)
     assert (place / "bad.toml").read_text(encoding="utf-8") == bad
 
 
@@ -191,13 +191,13 @@ def test_files_that_are_no_scenes_are_neither_read_nor_replaced(place, name):
 
 
 def test_a_scene_is_saved_where_it_was_opened_until_somebody_else_changes_it(place):
-    desk = desk_in(place)
-    opened = desk.open("one.toml", "")
+    session = desk_in(place)
+    opened = session.open("one.toml", "")
     ours = PUMP.replace("A-B = 40", "A-B = 41")
-    assert desk.save(ordered(text=ours, name="one.toml", mark=opened.mark))["files"]
+    assert session.save(ordered(text=ours, name="one.toml", mark=opened.mark))["files"]
     theirs = PUMP.replace("C-D = 20", "C-D = 21")
     (place / "one.toml").write_text(theirs, encoding="utf-8")
-    found = desk.save(ordered(text=ours, name="one.toml", mark=opened.mark))
+    found = session.save(ordered(text=ours, name="one.toml", mark=opened.mark))
     assert found["exist"] == ("one.toml",)
     changed = [line for line in found["changes"] if line[0] in "-+"]
     assert changed == ["-A-B = 40", "+A-B = 41", "-C-D = 21", "+C-D = 20"]
@@ -218,7 +218,7 @@ def test_values_that_cannot_be_written_are_told(place):
 
 
 def test_a_name_of_a_scene_cannot_lead_its_sheets_elsewhere(place):
-    wanted = Wanted(PUMP, "../../evil.toml", {}, "en", "key", ("svg",))
+    wanted = WantedSheets(PUMP, "../../evil.toml", {}, "en", "key", ("svg",))
     assert all("/" not in name for name in sheets_of(Folder(place), wanted))
 
 
@@ -235,33 +235,33 @@ def test_a_scene_is_called_as_the_command_calls_it():
 
 
 def test_the_page_is_told_why_nothing_was_written(place):
-    desk = desk_in(place)
-    found = desk.save(ordered(name="link.toml", replace=True))
+    session = desk_in(place)
+    found = session.save(ordered(name="link.toml", replace=True))
     assert not found["files"]
     assert "leads out" in found["problems"][0]["found"]
     broken = ordered(text="graphkin = 1", name="x.toml", view="key", formats=["svg"])
-    assert desk.sheets(broken)["problems"]
+    assert session.sheets(broken)["problems"]
     assert sorted(path.suffix for path in place.iterdir()) == ["", "", *[".toml"] * 4]
 
 
 def test_a_scene_outside_the_folder_is_not_opened(place, monkeypatch):
     monkeypatch.chdir(place)
-    desk = desk_in(place)
-    assert desk.address_of("") == {}
-    assert desk.address_of("pump") == {"lab": "pump"}
-    assert desk.address_of("one.toml") == {"scene": "one.toml"}
-    assert desk.address_of("lab") == {"scene": "lab/scene.toml"}
+    session = desk_in(place)
+    assert session.address_of("") == {}
+    assert session.address_of("pump") == {"lab": "pump"}
+    assert session.address_of("one.toml") == {"scene": "one.toml"}
+    assert session.address_of("lab") == {"scene": "lab/scene.toml"}
     for name in ("../secret.toml", str(place.parent / "secret.toml"), "link.toml"):
         with pytest.raises(SceneError, match="lies outside this folder"):
-            desk.address_of(name)
+            session.address_of(name)
 
 
 def test_what_is_opened_is_what_was_named(place):
-    desk = desk_in(place)
-    assert desk.open("one.toml", "").text == PUMP
-    assert desk.open("", "pump").text == PUMP
-    assert desk.open("", "pump").name == "pump.toml"
-    read_text(desk.open("", "").text, "new")
+    session = desk_in(place)
+    assert session.open("one.toml", "").text == PUMP
+    assert session.open("", "pump").text == PUMP
+    assert session.open("", "pump").name == "pump.toml"
+    read_text(session.open("", "").text, "new")
     for scene, lab in (("none.toml", ""), ("", "../pump"), ("../secret.toml", "")):
         with pytest.raises(SceneError):
-            desk.open(scene, lab)
+            session.open(scene, lab)

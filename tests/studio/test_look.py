@@ -10,17 +10,17 @@ from threading import Thread
 
 import pytest
 
-from graphkin import labs
-from graphkin.errors import WitnessError
-from graphkin.handout import drawings_of, hand_out
+from graphkin.construction.core.solution import Verdict
+from graphkin.documents.flattest import crossings_on
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet_documents import drawings_of, hand_out
+from graphkin.drawing.style import INKS, STYLES, style_of
 from graphkin.mechanism import Mechanism, load
-from graphkin.paper.flattest import crossings_on
-from graphkin.paper.style import INKS, STYLES, style_of
-from graphkin.scaling import shown
-from graphkin.steps.solution import Verdict
+from graphkin.scene import scene_files
 from graphkin.studio.panels import Memory, StaleError, around
-from graphkin.studio.tables import FLATTEST
+from graphkin.studio.result_panel import FLATTEST
 from graphkin.text import LANGUAGES, words
+from graphkin.text.errors import WitnessError
 from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
 
 SINGULAR = """graphkin = 1
@@ -90,9 +90,9 @@ def test_the_mechanism_bears_the_construction_that_is_chosen(mechanism):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", labs.names())
+@pytest.mark.parametrize("name", scene_files.names())
 def test_every_lab_is_seen_in_every_language(name, language):
-    text = (labs.shelf() / name / "scene.toml").read_text(encoding="utf-8")
+    text = (scene_files.shelf() / name / "scene.toml").read_text(encoding="utf-8")
     from graphkin.studio.look import Sight, look
 
     found = look(Sight(text, name, language), Memory(), lambda: None)
@@ -185,22 +185,22 @@ def test_an_expression_is_never_evaluated_as_code(tmp_path, monkeypatch):
 
 
 def test_only_the_newest_move_is_computed(tmp_path):
-    desk = desk_in(tmp_path)
-    assert "panels" in desk.look(ordered(number=5, quick=True))
-    assert desk.look(ordered(number=3, quick=True)) == {"stale": True, "number": 3}
-    assert "panels" in desk.look(ordered(number=1, tab="another page", quick=True))
+    session = desk_in(tmp_path)
+    assert "panels" in session.look(ordered(number=5, quick=True))
+    assert session.look(ordered(number=3, quick=True)) == {"stale": True, "number": 3}
+    assert "panels" in session.look(ordered(number=1, tab="another page", quick=True))
 
 
 def test_what_is_being_drawn_ends_when_something_newer_is_asked_for(tmp_path):
-    desk = desk_in(tmp_path)
+    session = desk_in(tmp_path)
     from graphkin.studio.look import Sight, look
 
     calls = []
 
     def newer() -> None:
         calls.append(1)
-        desk.arrived("a", 2)
-        desk.still_wanted("a", 1)
+        session.arrived("a", 2)
+        session.still_wanted("a", 1)
 
     with pytest.raises(StaleError):
         look(Sight(PUMP, "pump", "en"), Memory(), newer)
@@ -208,12 +208,12 @@ def test_what_is_being_drawn_ends_when_something_newer_is_asked_for(tmp_path):
 
 
 def test_pages_not_heard_of_for_long_are_forgotten(tmp_path):
-    desk = desk_in(tmp_path)
+    session = desk_in(tmp_path)
     for page in range(30):
-        desk.arrived(str(page), 1)
-        desk.memory(str(page))
-    assert len(desk.newest) == len(desk.memories) == 8
-    assert "29" in desk.memories
+        session.arrived(str(page), 1)
+        session.memory(str(page))
+    assert len(session.newest) == len(session.memories) == 8
+    assert "29" in session.memories
 
 
 def test_a_route_that_does_not_agree_is_said_aloud_and_nothing_is_handed_out(monkeypatch):
@@ -293,10 +293,10 @@ def frame_of(svg: str) -> tuple[float, float, float, float]:
 
 
 def test_who_waits_for_a_drawing_goes_when_something_newer_is_asked_for(tmp_path):
-    desk, answers = desk_in(tmp_path), []
-    waiting = Thread(target=lambda: answers.append(desk.look(ordered(number=1))))
-    with desk.drawing():
+    session, answers = desk_in(tmp_path), []
+    waiting = Thread(target=lambda: answers.append(session.look(ordered(number=1))))
+    with session.drawing():
         waiting.start()
-        desk.arrived("a", 2)
+        session.arrived("a", 2)
         waiting.join()
     assert answers == [{"stale": True, "number": 1}]

@@ -9,33 +9,33 @@ from typing import Any
 
 import pytest
 
-from graphkin import labs
-from graphkin.errors import GraphkinError, Problem, SceneError
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
-from graphkin.studio.places import LINE, LONE, Mark, marked
-from graphkin.studio.spans import Path as Keys
-from graphkin.studio.spans import spans, values
+from graphkin.scene import scene_files
+from graphkin.scene.read_scene import read_text
+from graphkin.studio.problem_places import LINE, LONE, MarkedProblem, marked
+from graphkin.studio.toml_spans import Path as Keys
+from graphkin.studio.toml_spans import spans, values
+from graphkin.text.errors import GraphkinError, Problem, SceneError
 from tests.scene.conftest import DATA
 from tests.scene.test_problems import CASES, PLANETS, SAID, SEVERAL
 
 PLANET = (DATA / "planet.toml").read_text(encoding="utf-8")
-PUMP = labs.find("pump").read_text(encoding="utf-8")
+PUMP = scene_files.find("pump").read_text(encoding="utf-8")
 SCENES = [
     *sorted((Path(__file__).resolve().parents[2] / "examples" / "scenes").glob("*.toml")),
-    *(labs.find(name) for name in labs.names()),
+    *(scene_files.find(name) for name in scene_files.names()),
 ]
 HEADED = ("links.2", "links.5", "drivers[0]", "drivers")
 """What is missing there has no line of its own: the heading is marked."""
 
 
-def selected(text: str, mark: Mark) -> str:
+def selected(text: str, mark: MarkedProblem) -> str:
     """What a browser selects from start to end."""
     data = text.encode("utf-16-le")
     return data[2 * mark.start : 2 * mark.end].decode("utf-16-le")
 
 
-def mistakes(text: str) -> list[Mark]:
+def mistakes(text: str) -> list[MarkedProblem]:
     """The problems of a scene in place."""
     try:
         mechanism = Mechanism(read_text(text, "scene"))

@@ -7,22 +7,22 @@ from math import hypot
 
 import pytest
 
-from graphkin.handout import drawings_of
+from graphkin.construction.core.layout import lay_out
+from graphkin.documents.detail import with_detail
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet import left_board, right_board
+from graphkin.documents.sheet_documents import drawings_of
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import Mark, Text, reach
 from graphkin.mechanism import Mechanism, load
-from graphkin.paper.detail import with_detail
-from graphkin.paper.labels import Board
-from graphkin.paper.layout import lay_out
-from graphkin.paper.marks import Mark, Text, reach
-from graphkin.paper.sheet import left_board, right_board
-from graphkin.scaling import shown
-from graphkin.studio.riding import Seats, keyed, middle_of, riding, seats_of
+from graphkin.studio.follow_labels import FollowLabels, keyed, middle_of, riding, seats_of
 from graphkin.text import words
 from tests.studio.pump import drawn, seen, svgs
 
 FIELDS = [(kind, draw) for kind in (0, 1) for draw in (left_board, right_board)]
 
 
-def board_of(mechanism: Mechanism, kind: int, draw) -> Board:
+def board_of(mechanism: Mechanism, kind: int, draw) -> FieldContent:
     """A field with its labels still to be placed."""
     verdict = mechanism.witness(shown(mechanism))
     drawing = drawings_of(mechanism, verdict, words("en"))[kind]
@@ -34,7 +34,7 @@ def labels(marks: list[Mark]) -> list[Text]:
     return [m for m in marks if isinstance(m, Text) and m.cls.split()[0] == "label"]
 
 
-def settled(board: Board) -> tuple[Seats, list[Mark]]:
+def settled(board: FieldContent) -> tuple[FollowLabels, list[Mark]]:
     """A field with all labels at free places, and where they stand."""
     wished = list(board.labels)
     marks = with_detail(board)
@@ -79,7 +79,7 @@ def test_a_label_goes_along_with_what_it_names(kind, draw):
 
 def test_a_label_that_never_stood_anywhere_stands_beside_its_subject():
     board = board_of(load("pump"), 0, right_board)
-    found = labels(riding(board, Seats()))
+    found = labels(riding(board, FollowLabels()))
     assert len(found) == len(board.labels)
     for label, text in zip(board.labels, found, strict=True):
         x, y = middle_of(label)
@@ -89,13 +89,13 @@ def test_a_label_that_never_stood_anywhere_stands_beside_its_subject():
 def test_labels_that_were_left_out_stay_out_until_all_is_settled():
     board = board_of(load("pump"), 0, right_board)
     key, _ = next(keyed(board.labels))
-    kept = riding(board, Seats({}, frozenset([key])))
+    kept = riding(board, FollowLabels({}, frozenset([key])))
     assert len(labels(kept)) == len(board.labels) - 1
 
 
 def test_labels_stay_within_their_field():
     board = board_of(load("pump"), 1, right_board)
-    far = Seats(
+    far = FollowLabels(
         {
             key: replace(next(iter(settled(board)[0].of.values())), x=500.0, y=-500.0)
             for key, _ in keyed(board.labels)

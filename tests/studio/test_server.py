@@ -13,10 +13,10 @@ from urllib.parse import quote, urlsplit
 
 import pytest
 
-from graphkin.errors import PageError
 from graphkin.studio.guard import HEADERS
-from graphkin.studio.orders import MOST_BYTES, Order, OrderError
+from graphkin.studio.page_requests import MOST_BYTES, PageRequest, PageRequestError
 from graphkin.studio.server import HOME, Served, serve
+from graphkin.text.errors import PageError
 from tests.studio.pump import PUMP, desk_in, running
 
 JSON = {"Content-Type": "application/json"}
@@ -239,10 +239,10 @@ def test_what_the_page_does_not_ask_is_refused(served, body):
 
 def test_kinds_of_files_are_some_of_those_known():
     known = ("svg", "pdf")
-    assert Order(b'{"formats": ["pdf", "svg"]}').choices("formats", known) == known
+    assert PageRequest(b'{"formats": ["pdf", "svg"]}').choices("formats", known) == known
     for wrong in (b'{"formats": []}', b'{"formats": "svg"}', b'{"formats": ["exe"]}', b"{}"):
-        with pytest.raises(OrderError):
-            Order(wrong).choices("formats", known)
+        with pytest.raises(PageRequestError):
+            PageRequest(wrong).choices("formats", known)
 
 
 def test_nothing_is_written_by_looking(served, tmp_path):
@@ -279,7 +279,7 @@ def test_a_fault_is_told_without_its_inner_parts(served, monkeypatch, capsys):
     def fault(*_: Any) -> None:
         raise ZeroDivisionError("a secret path")
 
-    monkeypatch.setattr("graphkin.studio.desk.look", fault)
+    monkeypatch.setattr("graphkin.studio.session.look", fault)
     order = json.dumps({"text": PUMP, "language": "en"})
     answer, data = asked(served, "POST", "look", order, **JSON)
     assert answer.status == 500

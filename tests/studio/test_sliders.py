@@ -6,18 +6,18 @@ from fractions import Fraction
 
 import pytest
 
-from graphkin import labs
-from graphkin.errors import SceneError
-from graphkin.scene.read import read_text
-from graphkin.studio.sliders import MOST, Slider, sliders
-from graphkin.studio.spans import values
-from graphkin.studio.written import Edit, edits
+from graphkin.scene import scene_files
+from graphkin.scene.read_scene import read_text
+from graphkin.studio.scene_edits import Edit, edits
+from graphkin.studio.sliders import MOST, ParameterSlider, sliders
+from graphkin.studio.toml_spans import values
+from graphkin.text.errors import SceneError
 
-PUMP = labs.find("pump").read_text(encoding="utf-8")
+PUMP = scene_files.find("pump").read_text(encoding="utf-8")
 GIVEN = "n = { value = 7, min = 1, max = 30, step = 1 }"
 
 
-def one(written: str, **settings: str) -> Slider:
+def one(written: str, **settings: str) -> ParameterSlider:
     """The slider of a parameter p written in some way."""
     text = PUMP.replace(GIVEN, f"{GIVEN}\np = {written}")
     found = {slider.name: slider for slider in sliders(read_text(text, "s", None, settings))}

@@ -15,9 +15,9 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 
+from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read import read_text
-from graphkin.steps.solution import Solution
+from graphkin.scene.read_scene import read_text
 
 IN, FT, CM = 0.0254, 0.3048, 0.01
 """Metres in the books' units of length."""

@@ -1,0 +1,273 @@
+"""What is compared: positions, velocities and accelerations of points and blocks, and how far off.
+
+Differences from the certified reference are taken in balls, so that no rounding of doubles enters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from graphkin.accuracy.compared_positions import ComparedPositions
+from graphkin.construction.core.program import CONTACT, Program, Target
+from graphkin.construction.core.run import StepFailed, run
+from graphkin.motion.course import Reals
+from graphkin.numbers.arithmetic import is_ball, is_decimal
+from graphkin.numbers.kinds import ball_kind
+from graphkin.text.errors import GraphkinError, Problem, WitnessError
+
+QUANTITIES = ("position", "velocity", "acceleration")
+OF_BLOCKS = ("slide", "slide speed", "slide acceleration")
+BITS = 640
+"""Bits of the reference: some two hundred more than any method has."""
+ROOM = 64
+"""Further bits for the differences."""
+STILL = 1e-3
+"""Share of v²/L below which the largest acceleration is not taken seriously as a scale."""
+
+Found = Mapping[Target, Any]
+"""Values by target, of one position."""
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedTargets:
+    """The targets that are compared, for each of position, velocity and acceleration."""
+
+    targets: tuple[tuple[Target, ...], ...]
+
+    @property
+    def every(self) -> tuple[Target, ...]:
+        """All of them."""
+        return tuple(target for some in self.targets for target in some)
+
+
+def answers_of(program: Program) -> ComparedTargets:
+    """All named points and blocks that have all three quantities.
+
+    A point of one link under another's (A@3) is left out: it is another one at every instant, so
+    that its velocity is not the derivative of a position.
+    """
+    known = program.targets
+    found: list[tuple[Target, ...]] = []
+    points = of_all(known, QUANTITIES)
+    blocks = of_all(known, OF_BLOCKS)
+    for mine, theirs in zip(QUANTITIES, OF_BLOCKS, strict=True):
+        found.append((*((mine, p) for p in points), *((theirs, b) for b in blocks)))
+    return ComparedTargets(tuple(found))
+
+
+def of_all(known: Mapping[Target, int], quantities: Sequence[str]) -> list[str]:
+    """The names that have each of some quantities."""
+    names = dict.fromkeys(of for quantity, of in known if quantity == quantities[0])
+    return [
+        name
+        for name in names
+        if not name.startswith(CONTACT)
+        and "@" not in name
+        and all((quantity, name) in known for quantity in quantities)
+    ]
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """Certified answers at every position, and what errors are counted in.
+
+    ``sizes`` and ``radii`` have the shape (P, 3): largest distance of two points, largest speed,
+    largest acceleration, and the largest radius of a ball of each. ``sines`` (P,) are those of the
+    flattest crossing of the positions. ``places`` are those that could be certified, ``kept`` their
+    numbers among those that were asked.
+    """
+
+    places: ComparedPositions
+    answers: ComparedTargets
+    found: Sequence[Found]
+    sizes: Reals
+    radii: Reals
+    sines: Reals
+    kept: tuple[int, ...]
+
+    @cached_property
+    def needed(self) -> tuple[int, ...]:
+        """The steps that all answers need."""
+        return self.places.course.program.needed(self.answers.every)
+
+    @cached_property
+    def exact_values(self) -> list[dict[str, Any]]:
+        """The values of every position as exact numbers."""
+        return [self.places.exactly(number) for number in range(len(self.places.at))]
+
+    def missed(self, found: Sequence[Found]) -> Reals:
+        """The largest error of each quantity at each position, (P, 3); see missed_by."""
+        return missed_by(found, self)
+
+    @property
+    def scales(self) -> Reals:
+        """The largest of each quantity over all positions (3,); 1 for what is nought throughout."""
+        return sizeable(self.sizes.max(axis=0))
+
+    @property
+    def radius(self) -> float:
+        """The largest radius of the reference over the largest of its quantity."""
+        return float((self.radii.max(axis=0) / self.scales).max())
+
+    def relative(self, missed: Reals) -> tuple[float, float, float]:
+        """The largest error of each quantity over all positions and its scale; inf for failures."""
+        worst = np.nan_to_num((missed / self.scales).max(axis=0), nan=np.inf, posinf=np.inf)
+        return float(worst[0]), float(worst[1]), float(worst[2])
+
+
+def sizeable(size: Reals) -> Reals:
+    """Sizes (…, 3) to divide by: an acceleration beside v²/L counts at least a little of that."""
+    length, speed, acceleration = (size[..., n] for n in range(3))
+    length = np.where(length > 0, length, 1.0)
+    acceleration = np.maximum(acceleration, STILL * speed**2 / length)
+    stacked = np.stack([length, speed, acceleration], axis=-1)
+    return np.where(stacked > 0, stacked, 1.0)
+
+
+def reference_of(
+    places: ComparedPositions, answers: ComparedTargets, bits: int = BITS
+) -> Reference:
+    """The answers in balls; positions where a ball does not tell the step are left out.
+
+    Raises WitnessError where none is left.
+    """
+    program = places.course.program
+    needed = program.needed(answers.every)
+    kind = ball_kind(bits)
+    crossings = set(places.course.crossings)
+    found: list[Found] = []
+    sines: list[float] = []
+    kept: list[int] = []
+    for number in range(len(places.at)):
+        try:
+            with kind.working():
+                trace = run(program, needed, places.exactly(number), kind)
+        except (StepFailed, GraphkinError):
+            continue
+        found.append({target: trace.values[program.targets[target]] for target in answers.every})
+        margins = [nearly(m) for n, m in trace.margins.items() if n in crossings]
+        sines.append(min(margins, default=1.0))
+        kept.append(number)
+    if not found:
+        raise WitnessError(
+            Problem(
+                "reference",
+                f"no position near the scene's own can be certified with {bits} bits",
+                "a position that is not singular within such a ball",
+            )
+        )
+    sizes = np.array([sizes_of(each, answers) for each in found])
+    radii = np.array([radii_of(each, answers) for each in found])
+    some = places.some(kept)
+    return Reference(some, answers, found, sizes, radii, np.array(sines), tuple(kept))
+
+
+def nearly(ball: Any) -> float:
+    """The double next to the middle of a ball, or to any real number."""
+    return float(ball.mid()) if is_ball(ball) else float(ball)
+
+
+def size(value: Any) -> float:
+    """The magnitude of a number of any kind, as a double."""
+    return nearly(abs(value))
+
+
+def sizes_of(found: Found, answers: ComparedTargets) -> list[float]:
+    """Largest distance of two points, largest speed, largest acceleration of one position."""
+    places = [found[t] for t in answers.targets[0] if t[0] == QUANTITIES[0]]
+    spread = max((size(p - q) for p, q in combinations(places, 2)), default=0.0)
+    rest = [max((size(found[t]) for t in some), default=0.0) for some in answers.targets[1:]]
+    return [spread or max((size(p) for p in places), default=0.0), *rest]
+
+
+def radii_of(found: Found, answers: ComparedTargets) -> list[float]:
+    """The largest radius among the balls of each quantity."""
+    return [max((radius(found[t]) for t in some), default=0.0) for some in answers.targets]
+
+
+def radius(value: Any) -> float:
+    """The radius of a ball, of a complex one that of the circle about its box; inf for no ball."""
+    if not is_ball(value):
+        return 0.0
+    if not value.is_finite():
+        return float("inf")
+    parts = (value,) if is_real_ball(value) else (value.real, value.imag)
+    return float(np.hypot.reduce([float(part.rad()) for part in parts]))
+
+
+def is_real_ball(value: Any) -> bool:
+    """Whether a ball is one of real numbers."""
+    return hasattr(value, "mid") and not hasattr(value, "real")
+
+
+def missed_by(found: Sequence[Found], reference: Reference) -> Reals:
+    """The largest error of each quantity at each position, (P, 3).
+
+    Each is an upper bound: the reference's own radius is in it. NaN where an answer is missing.
+    """
+    from flint import ctx
+
+    with ctx.workprec(BITS + ROOM):
+        return np.array(
+            [
+                [
+                    max((error(each.get(t), sure[t]) for t in some), default=0.0, key=nan_last)
+                    for some in reference.answers.targets
+                ]
+                for each, sure in zip(found, reference.found, strict=True)
+            ]
+        )
+
+
+def nan_last(value: float) -> tuple[bool, float]:
+    """Orders numbers so that the largest is NaN where any is."""
+    return (bool(np.isnan(value)), value)
+
+
+def error(value: Any, sure: Any) -> float:
+    """The most by which a number can differ from what a ball holds; NaN for no number."""
+    ball = None if value is None else as_ball(value)
+    if ball is None:
+        return float("nan")
+    return float(abs(ball - sure).upper())
+
+
+def as_ball(value: Any) -> Any:
+    """A number of any kind, exactly; None for one that is not finite."""
+    from flint import acb, arb, fmpq
+
+    if is_ball(value):
+        return value.mid() if is_real_ball(value) else acb(value.real.mid(), value.imag.mid())
+    if is_decimal(value) and hasattr(value, "imag") and type(value).__name__ == "mpc":
+        return acb(as_ball(value.real), as_ball(value.imag))
+    if is_decimal(value):
+        if not value.context.isfinite(value):
+            return None
+        mantissa, exponent = value.man_exp
+        return (-1 if value < 0 else 1) * arb(int(mantissa)) * arb(2) ** int(exponent)
+    if not np.isfinite(value):
+        return None
+    if np.iscomplexobj(value):
+        return acb(as_ball(value.real), as_ball(value.imag))
+    whole = Fraction(*value.as_integer_ratio())
+    return arb(fmpq(whole.numerator, whole.denominator))
+
+
+def rows_of(columns: Mapping[Target, Any], count: int) -> list[Found]:
+    """The values of single positions from arrays, or from what all positions share."""
+    arrays = {
+        target: np.broadcast_to(np.asarray(v), (len_of(v, count),)) for target, v in columns.items()
+    }
+    return [{target: array[n] for target, array in arrays.items()} for n in range(count)]
+
+
+def len_of(value: Any, count: int) -> int:
+    """The length of an array, or of what is to be made of a single value."""
+    return len(value) if getattr(value, "shape", ()) else count

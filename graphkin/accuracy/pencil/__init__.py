@@ -1,0 +1,8 @@
+"""What a pencil makes of a construction: many drawings of it, and the error that they will have."""
+
+from graphkin.accuracy.pencil.forecast import Forecast, forecast
+from graphkin.accuracy.pencil.original import Original, original
+from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil.simulation import Drawn, drawn, simulated
+
+__all__ = ["Drawn", "Forecast", "Original", "Pencil", "drawn", "forecast", "original", "simulated"]

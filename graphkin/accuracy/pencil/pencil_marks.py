@@ -1,0 +1,131 @@
+"""What of a step is drawn, with how many errors, and where they put it: the rules of the pencil."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.numbers.arithmetic import Point, Real, turn_by
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+
+
+class PencilMark(Enum):
+    """The kinds of marks a hand makes; the value is the number of their errors."""
+
+    POINT = "a point, pricked or crossed"
+    ARROW = "a point laid off from another, along a line that is not drawn by itself"
+    LINE = "a line through a point"
+    ARC = "an opening of the compass"
+    WAY = "a direction"
+    CLOSING = "the place where a locus closes a group"
+
+    @property
+    def errors(self) -> int:
+        """How many independent errors it has."""
+        return COUNT[self]
+
+
+COUNT = {PencilMark.POINT: 2, PencilMark.ARROW: 3}
+COUNT |= dict.fromkeys((PencilMark.LINE, PencilMark.ARC, PencilMark.WAY, PencilMark.CLOSING), 1)
+LAID = {
+    "arm",
+    "beside",
+    "centripetal",
+    "driven-slide",
+    "driven-tangential",
+    "lay-off",
+    "rack-at",
+    "similar-point",
+    "turned-velocity",
+}
+"""Actions that lay off a point from the one that is their first value."""
+WAYS = {"axis", "from-foot", "swing", "swing-through"}
+"""Actions whose value is a direction, as a unit vector."""
+FREE = {"alike", "pole"}
+"""Actions that mark nothing: a pole is chosen, and what moves alike falls on the same point."""
+
+
+def mark_of(step: Step, value: Any) -> PencilMark | None:
+    """The mark that a step puts on paper; None where it puts none, or only joins what is there."""
+    if step.action is not None and isinstance(step.action.value, ClosureSolver):
+        return PencilMark.CLOSING
+    if step.plane is Plane.NUMBERS or isinstance(value, Vector):
+        return None
+    key = step.action.key if step.action is not None else ""
+    if key in FREE:
+        return None
+    if isinstance(value, Line):
+        return PencilMark.LINE
+    if isinstance(value, Circle):
+        return PencilMark.ARC
+    if isinstance(value, Ratio):
+        return PencilMark.POINT
+    if key in WAYS:
+        return PencilMark.WAY
+    kind = construction(step)
+    is_laid = key in LAID or (kind is not None and step.role in kind.laid_off)
+    return (
+        (PencilMark.ARROW if is_laid else PencilMark.POINT) if isinstance(value, complex) else None
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """What a metre of paper stands for in each plan: m, m/s, m/s²."""
+
+    mechanism: float
+    velocities: float
+    accelerations: float
+
+    def millimetre(self, plane: Plane) -> float:
+        """What a millimetre stands for in a plane; numbers are drawn nowhere."""
+        match plane:
+            case Plane.VELOCITIES:
+                return self.velocities / 1000
+            case Plane.ACCELERATIONS:
+                return self.accelerations / 1000
+        return self.mechanism / 1000
+
+
+def marked(
+    mark: PencilMark, value: Any, start: Point, errors: Any, pencil: Pencil, mm: float
+) -> Any:
+    """A value as the pencil leaves it: ``errors`` are columns in standard deviations.
+
+    ``start`` is the point from which an arrow is laid off, ``mm`` what a millimetre stands for.
+    """
+    if mark is PencilMark.LINE:
+        return Line(value.point, value.along * turn_by(pencil.turn * errors[:, 0]))
+    if mark is PencilMark.WAY:
+        return value * turn_by(pencil.turn * errors[:, 0])
+    if mark is PencilMark.ARC:
+        radius = value.radius + pencil.mark * mm * errors[:, 0]
+        return Circle(value.centre, rounded(radius, pencil, mm))
+    shift = pencil.mark * mm * (errors[:, 0] + 1j * errors[:, 1])
+    if isinstance(value, Ratio):
+        return Ratio(value.start + shift, value.shift, value.size)
+    if mark is PencilMark.ARROW:
+        shift = shift + (value - start) * (turn_by(pencil.turn * errors[:, 2]) - 1)
+    return on_grid(value + shift, pencil, mm)
+
+
+def rounded(value: Real, pencil: Pencil, mm: float) -> Real:
+    """A length as a pencil with a grid leaves it."""
+    if not pencil.grid:
+        return value
+    import numpy as np
+
+    step = pencil.grid * mm
+    return np.rint(value / step) * step
+
+
+def on_grid(point: Point, pencil: Pencil, mm: float) -> Point:
+    """A point as a pencil with a grid leaves it."""
+    if not pencil.grid:
+        return point
+    return rounded(point.real, pencil, mm) + 1j * rounded(point.imag, pencil, mm)

@@ -1,0 +1,1 @@
+"""A class: labs, class lists, variants, printed sheets, answers and marks."""

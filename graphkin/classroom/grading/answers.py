@@ -1,0 +1,226 @@
+"""Answer tables: one row for each student, or one file each, by the fields of the form.
+
+A cell that cannot be read is no error of the table: it is told, and does not count as wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
+from graphkin.classroom.roster.read_roster import NAMES
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.spreadsheets import (
+    SheetRow,
+    Spreadsheet,
+    TableProblems,
+    columns,
+    folded,
+    read_sheet,
+)
+from graphkin.scene.findings import nearest, visible
+from graphkin.text.errors import Problem
+
+KINDS = (".csv", ".txt", ".tsv", ".xlsx")
+"""Files of a folder that are read."""
+ABSENT = (
+    "leave that row out; or put the student into the class list, run graphkin variants with"
+    " --force into the same folder, and grade again"
+)
+FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "valoare", "valore")
+"""The heads of a file that holds one student's answers line by line."""
+LEAST, SHOWN = 1 / 3, 12
+"""The share of the form below which a table may be another lab's; columns that are named then."""
+NO_CODES: Mapping[str, str] = {}
+HEADS = {"id": NAMES["id"]}
+BESIDE = {what: NAMES[what] for what in NAMES if what != "id"} | {"language": LANGUAGE}
+"""Columns that a class list has as well, and that are none of the form's."""
+IDS = {folded(name) for name in ("id", *HEADS["id"])}
+OTHERS = {folded(name) for what, every in BESIDE.items() for name in (what, *every)}
+"""The same as they are compared."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """A cell that cannot be read: its file and row, whose it is, its field, what it says and why.
+
+    ``problem`` is that of its answer; ``unit`` that of its field.
+    """
+
+    file: str
+    row: int
+    who: str
+    field: str
+    text: str
+    problem: str
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Stranger:
+    """A column, or a row of one student's file, that is no field; ``near`` is the one meant."""
+
+    file: str
+    name: str
+    near: str = ""
+
+
+@dataclass
+class Answers:
+    """The answers of each student by id, the notes about cells, and columns that are no fields."""
+
+    of: dict[str, dict[str, Answer]] = field(default_factory=dict)
+    places: dict[str, str] = field(default_factory=dict)
+    unread: list[Unread] = field(default_factory=list)
+    strangers: list[Stranger] = field(default_factory=list)
+    missing: list[str] = field(default_factory=list)
+
+
+def read_answers(
+    path: Path, items: Sequence[Item], ids: Iterable[str], codes: Mapping[str, str] = NO_CODES
+) -> Answers:
+    """The answers in a table, or in each file of a folder. Raises RosterError, all at once.
+
+    ``codes`` are opaque names of sheets by which a student may sign as well, each with the id.
+    """
+    known = {item.field: item for item in items}
+    heads = ["id", *HEADS["id"], *known, *FIELD, *VALUE]
+    files = sorted(p for p in path.iterdir() if p.suffix.lower() in KINDS) if path.is_dir() else []
+    if path.is_dir() and not files:
+        found = "a folder without any table"
+        raise RosterError(Problem(str(path), found, f"files {', '.join(KINDS)}"))
+    reading = AnswerReading(known, {**codes, **{who: who for who in ids}}, TableProblems(path.name))
+    for file in files or [path]:
+        try:
+            sheet = read_sheet(file, heads, None if files else reading.told)
+        except RosterError as error:
+            reading.told.extend(error.problems)
+            continue
+        reading.form(sheet, file.stem) if is_form(sheet) else reading.rows(sheet)
+    reading.told.stop()
+    refuse_other_lab(path.name, reading)
+    reading.answers.missing = [name for name in known if name not in reading.seen]
+    return reading.answers
+
+
+def refuse_other_lab(name: str, reading: AnswerReading) -> None:
+    """Raise RosterError where most that was handed in are no fields, and few are: another lab's."""
+    others = list(dict.fromkeys(each.name for each in reading.answers.strangers))
+    if len(reading.seen) >= LEAST * len(reading.known) or len(others) <= len(reading.seen):
+        return
+    fields, named = list(reading.known), ", ".join(others[:SHOWN])
+    more = ", …" if len(others) > SHOWN else ""
+    found = (
+        f"only {len(reading.seen)} of the form's {len(fields)} fields are there, and no field of it"
+        f" is called {named}{more}"
+    )
+    expected = f"fields such as {', '.join(fields[:4])}"
+    raise RosterError(Problem(name, found, expected, "are these the answers to another lab?"))
+
+
+def is_form(sheet: Spreadsheet) -> bool:
+    """Whether a table holds one student's answers, a field in each row."""
+    heads = [folded(cell) for cell in sheet.head]
+    return len(heads) >= 2 and heads[0] in map(folded, FIELD) and heads[1] in map(folded, VALUE)
+
+
+@dataclass
+class AnswerReading:
+    """Tables being read: the fields that are ``known``, the ids by all that students sign with,
+    what was found, and which fields were ``seen``.
+    """
+
+    known: Mapping[str, Item]
+    ids: Mapping[str, str]
+    told: TableProblems
+    answers: Answers = field(default_factory=Answers)
+    seen: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        """The fields by their names as they are compared."""
+        self.fields = {folded(name): name for name in self.known}
+
+    def rows(self, sheet: Spreadsheet) -> None:
+        """A table with a row for each student."""
+        where = columns(sheet, HEADS | BESIDE)
+        named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
+        own = {i: name for i, name in named if name is not None}
+        if "id" not in where:
+            head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
+            found = f"no column id; the head is {head}"
+            self.told.add(sheet.name, found, 'a column named "id"')
+            return
+        if not own:
+            expected = f"columns such as {', '.join(list(self.known)[:4])}"
+            head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:SHOWN])
+            found = f"no column is a field of the form; the head is {head}"
+            self.told.add(sheet.name, found, expected, "are these the answers to another lab?")
+            return
+        self.seen |= set(own.values())
+        for i, cell in enumerate(sheet.head):
+            if i not in own and i not in where.values() and cell:
+                self.stranger(sheet, cell)
+        for row in sheet.rows:
+            who = self.signed(sheet, row, sheet.head[where["id"]], row.cells[where["id"]])
+            if who is not None:
+                cells = {name: self.cell(sheet, row, i, who, name) for i, name in own.items()}
+                self.answers.of[who] = cells
+
+    def form(self, sheet: Spreadsheet, stem: str) -> None:
+        """One student's answers, a field in each row; the id is in a row of its own, or the name
+        of the file.
+        """
+        stated = [row for row in sheet.rows if folded(row.cells[0]) in IDS]
+        sign = stated[0].cells[1] if stated else stem
+        who = self.signed(sheet, stated[0] if stated else SheetRow(1, ()), "id", sign)
+        if who is None:
+            return
+        self.answers.of[who] = {}
+        for row in sheet.rows:
+            name = self.fields.get(folded(row.cells[0]))
+            if name is None:
+                if folded(row.cells[0]) not in IDS | OTHERS:
+                    self.stranger(sheet, row.cells[0])
+                continue
+            if name in self.answers.of[who]:
+                self.told.add(sheet.place(row), f"{name} is answered twice", "once")
+            self.seen.add(name)
+            self.answers.of[who][name] = self.cell(sheet, row, 1, who, name)
+
+    def signed(self, sheet: Spreadsheet, row: SheetRow, head: str, sign: str) -> str | None:
+        """The student of the class who signs a row and has no answers yet; None, noted, if none."""
+        place = sheet.place(row, head)
+        who = self.ids.get(sign)
+        if not sign:
+            self.told.add(place, "is missing", "the student's id")
+        elif who is None:
+            found = f'"{visible(sign)}" is no student of this class'
+            near = nearest(sign, sorted(set(self.ids.values())))
+            self.told.add(place, found, "", near or ABSENT)
+        elif who in self.answers.of:
+            found = f'"{visible(sign)}" has answers already, in {self.answers.places[who]}'
+            self.told.add(place, found, "one")
+        else:
+            self.answers.places[who] = sheet.place(row)
+            return who
+        return None
+
+    def stranger(self, sheet: Spreadsheet, cell: str) -> None:
+        """Note what is no field, with the field that may be meant."""
+        near = get_close_matches(cell[:60], list(self.known), n=1)
+        self.answers.strangers.append(Stranger(sheet.name, visible(cell), near[0] if near else ""))
+
+    def cell(self, sheet: Spreadsheet, row: SheetRow, column: int, who: str, name: str) -> Answer:
+        """One cell; one that cannot be read is noted."""
+        item = self.known[name]
+        answer = read_answer(row.cells[column], item)
+        if answer.problem:
+            why = (answer.text, answer.problem, item.unit)
+            self.answers.unread.append(Unread(sheet.name, row.line, who, name, *why))
+        return answer

@@ -1,0 +1,205 @@
+"""A whole class: each student marked against the own variant, then all looked at together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property, partial
+
+from graphkin.classroom.grading.class_standards import standards
+from graphkin.classroom.grading.copied_answers import wrong_variants
+from graphkin.classroom.grading.graded import Answer, EarnedMark, Graded, Result, Status, Taker
+from graphkin.classroom.grading.marking import Marker
+from graphkin.classroom.grading.same_digits import copies
+from graphkin.classroom.grading.standard import Expectation, standard
+from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.lab_model import Item, Lab
+from graphkin.classroom.printing.workers import chunks, engine
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+
+Variant = tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
+Given = Mapping[str, Answer]
+KEPT = 64
+"""Variants whose constructions are held at once; in a class by a formula there are few."""
+
+
+@dataclass
+class Book:
+    """The variants of a lab, each constructed once while it is asked for again."""
+
+    lab: Lab
+    scene: str
+    markers: dict[Variant, Marker] = field(default_factory=dict)
+    expected: dict[Variant, Expectation] = field(default_factory=dict)
+
+    @cached_property
+    def form(self) -> tuple[Item, ...]:
+        """The fields of the form, the same for all."""
+        return items(self.usual, self.lab)
+
+    def mechanism(self, settings: Mapping[str, str]) -> Mechanism:
+        """The mechanism of a variant."""
+        return Mechanism(read_text(self.scene, self.lab.name, settings=dict(settings)))
+
+    @cached_property
+    def usual(self) -> Mechanism:
+        """The mechanism as the scene says, without settings."""
+        return self.mechanism({})
+
+    def prepare(self, takers: Iterable[Taker]) -> None:
+        """Work out together what marks some students, at most as many variants as are held."""
+        wanted = {variant(t.settings, t.compute): (t.settings, t.compute) for t in takers}
+        new = {name: each for name, each in wanted.items() if name not in self.markers}
+        if len(new) < 2:
+            return
+        for name in list(self.markers)[: max(0, len(self.markers) + len(new) - KEPT)]:
+            del self.markers[name]
+        many = list(new.values())
+        found = standards(self.usual, self.scene, self.form, self.lab.rubric, many)
+        self.markers |= {name: Marker(each) for name, each in zip(new, found, strict=True)}
+
+    def marker(self, settings: Mapping[str, str], computed: tuple[str, ...] = ()) -> Marker:
+        """What marks the answers to a variant, some of whose fields are computed."""
+        name = variant(settings, computed)
+        if name not in self.markers:
+            if len(self.markers) >= KEPT:
+                del self.markers[next(iter(self.markers))]
+            found = standard(self.mechanism(settings), self.form, self.lab.rubric, computed)
+            self.markers[name] = Marker(found)
+        return self.markers[name]
+
+    def expectation(self, taker: Taker) -> Expectation:
+        """What is expected of a student's variant; one record for all who have it."""
+        name = variant(taker.settings, taker.compute)
+        if name not in self.expected:
+            marker = self.marker(taker.settings, taker.compute)
+            self.expected[name] = marker.standard.expectation
+        return self.expected[name]
+
+    def mark(self, taker: Taker, answers: Given | None) -> tuple[Graded, Expectation]:
+        """The marks of one student, without answers none, and what was expected."""
+        marker = self.marker(taker.settings, taker.compute)
+        graded = marker.mark(taker, answers or {}, answers is not None)
+        return graded, self.expectation(taker)
+
+
+def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
+    """What all students share who have the same data, and the same fields to be computed."""
+    return tuple(sorted(settings.items())), computed
+
+
+@dataclass(frozen=True)
+class Class:
+    """A class that is marked: its result, and what was expected of each student."""
+
+    result: Result
+    expected: tuple[Expectation, ...]
+
+
+def graded_class(
+    book: Book,
+    takers: Iterable[Taker],
+    answers: Mapping[str, Given],
+    jobs: int = 1,
+    released: Collection[str] = (),
+) -> Class:
+    """The marks of a whole class, by the ids of its students, with what only a class can tell.
+
+    Where the rubric holds marks, those of ``released`` are not held.
+    """
+    every = [(taker, handed_in(answers.get(taker.student.id))) for taker in takers]
+    order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
+    marked = spread(book, [every[i] for i in order], jobs)
+    found = [each for _, each in sorted(zip(order, marked, strict=True), key=lambda pair: pair[0])]
+    graded = [each for each, _ in found]
+    expected = shared(found)
+    others = wrong_variants(graded, expected)
+    twice = copies(graded, expected)
+    fits = {each.students[0]: each.fields for each in others}
+    flagged = {*fits, *(who for each in twice for who in each.students)}
+    held = flagged.difference(released) if book.lab.rubric.hold else set()
+    graded = [
+        replace(
+            unguessed(each, fits[who]) if (who := each.taker.student.id) in fits else each,
+            held=who in held,
+        )
+        for each in graded
+    ]
+    result = Result(tuple(graded), others, twice, unsure(graded, expected))
+    return Class(result, tuple(expected))
+
+
+def unguessed(graded: Graded, fits: Sequence[str]) -> Graded:
+    """A student whose answers fit other data in some fields: there nothing follows from own values;
+    slips that explain an answer by chance and earned nothing go.
+    """
+    return replace(graded, marks=tuple(unfollowed(without_slip(m), fits) for m in graded.marks))
+
+
+def unfollowed(mark: EarnedMark, fits: Sequence[str]) -> EarnedMark:
+    """A mark without what follows from own values, where the answer fits another's data."""
+    if mark.status is not Status.FOLLOWS or mark.item.field.removesuffix("_sense") not in fits:
+        return mark
+    return replace(mark, status=Status.WRONG, earned=Fraction(), source="")
+
+
+def without_slip(mark: EarnedMark) -> EarnedMark:
+    """A mark without the name of a slip by which it earned nothing."""
+    if not mark.slip or (mark.status is Status.SLIP and mark.earned):
+        return mark
+    status = Status.WRONG if mark.status is Status.SLIP else mark.status
+    return replace(mark, slip="", odds=0.0, status=status)
+
+
+def handed_in(answers: Given | None) -> Given | None:
+    """The answers of a student; none where every field is blank, for then nothing was handed in."""
+    if answers is None or all(answer.is_blank for answer in answers.values()):
+        return None
+    return answers
+
+
+def spread(
+    book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int
+) -> list[tuple[Graded, Expectation]]:
+    """The marks of students, those of one variant beside one another, by some processes."""
+    if jobs == 1:
+        return mark_all(book, every)
+    work = partial(mark_all, replace(book, markers={}, expected={}))
+    found: list[tuple[Graded, Expectation]] = []
+    with engine(jobs) as (pool, workers):
+        parts = chunks(every, workers, KEPT)
+        for part in pool.map(work, parts) if pool is not None else map(work, parts):
+            found += part
+    return found
+
+
+def mark_all(
+    book: Book, every: Sequence[tuple[Taker, Given | None]]
+) -> list[tuple[Graded, Expectation]]:
+    """The marks of some students, as many at a time as their variants are held together."""
+    found: list[tuple[Graded, Expectation]] = []
+    for start in range(0, len(every), KEPT):
+        part = every[start : start + KEPT]
+        book.prepare(taker for taker, _ in part)
+        found += [book.mark(*each) for each in part]
+    return found
+
+
+def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:
+    """What is expected of each student; one record for all of the same variant."""
+    known: dict[Variant, Expectation] = {}
+    return [
+        known.setdefault(variant(graded.taker.settings, graded.taker.compute), expected)
+        for graded, expected in found
+    ]
+
+
+def unsure(graded: Sequence[Graded], expected: Sequence[Expectation]) -> dict[str, tuple[str, ...]]:
+    """The fields of each student's variant that hardly any drawing tells."""
+    found = {
+        each.taker.student.id: tuple(f for f, t in form.tolerance.items() if t.unsure)
+        for each, form in zip(graded, expected, strict=True)
+    }
+    return {who: fields for who, fields in found.items() if fields}

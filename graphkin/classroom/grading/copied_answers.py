@@ -1,0 +1,130 @@
+"""Evidence for the lecturer: answers that fit another student's data better than the own.
+
+Both are told by how closely the answers agree with either key, all of them together: by as much as
+one pencil explains, or to the very digits. Whoever else is in the class matters only by number.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import log
+from typing import Any
+
+from graphkin.classroom.grading.graded import Graded, Suspicion
+from graphkin.classroom.grading.keys import Keys, distinct, read_of
+from graphkin.classroom.grading.likelihood import FAR, drawn, fit, told_odds
+from graphkin.classroom.grading.slip_diagnosis import SHARE
+from graphkin.classroom.grading.standard import Expectation
+
+FEW = 3
+"""Fewer fields tell nothing."""
+STRONG = 100.0
+"""Odds from which a wrong variant is reported, all that was looked through counted."""
+EXPLAINED = 1000.0
+"""Odds of a slip from which an answer is its own, and no evidence but where digits agree."""
+ODD = 1.25
+"""A scale of one's own is at least so many times too large or too small."""
+TRIED = 3
+"""Variants that are looked at closely: those nearest to the answers, each answer by itself."""
+
+
+def wrong_variants(
+    graded: Sequence[Graded], standards: Sequence[Expectation]
+) -> tuple[Suspicion, ...]:
+    """Students whose answers fit another's data: (student, owners), the fields, the odds.
+
+    ``standards`` holds what each was marked against, in the same order; those who handed in
+    nothing have data, too.
+    """
+    if not standards or len(standards[0].tolerance) < FEW:
+        return ()
+    own, mine = distinct(standards)
+    keys = Keys.of(own)
+    theirs: dict[int, list[str]] = defaultdict(list)
+    for each, standard in zip(graded, standards, strict=True):
+        theirs[mine[id(standard)]].append(each.taker.student.id)
+    choices = log(max(1, len(own) - 1) * max(1, sum(each.present for each in graded)))
+    found = []
+    for each, standard in zip(graded, standards, strict=True):
+        tells = each.present and len(own) > 1
+        enough = choices + log(STRONG)
+        best = best_other(each, keys, mine[id(standard)], enough) if tells else None
+        if best is not None:
+            ids = (each.taker.student.id, *theirs[best.other])
+            found.append(Suspicion(ids, best.fields, told_odds(best.odds - choices), best.of))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Best:
+    """The other variant that some answers fit, in which fields of how many, and how much likelier
+    than the own, as a logarithm."""
+
+    other: int
+    fields: tuple[str, ...]
+    of: int
+    odds: float
+
+
+def best_other(graded: Graded, keys: Keys, mine: int, enough: float) -> Best | None:
+    """The other variant that a student's answers fit best; None where none fits so much better than
+    the own as is ``enough``, a logarithm.
+    """
+    import numpy as np
+
+    answers, digits = read_of(graded, keys)
+    marks = {mark.item.field: mark for mark in graded.marks}
+    slipped = np.array([marks[field].odds >= EXPLAINED for field in keys.fields])
+    found = None
+    for other in nearest(answers, digits, keys, mine):
+        agree = abs(answers - keys.sizes[other]) <= 1.01 * digits
+        known = keys.known(mine) & keys.known(other)
+        read = ~np.isnan(answers) & known & (~slipped | agree)
+        if read.sum() < FEW:
+            continue
+        given, rounded = answers[read], digits[read]
+        theirs = fit(given, rounded, keys.key(other, read))
+        plain = drawn(given, rounded, keys.key(mine, read), theirs.fits)
+        if theirs.likelihood - plain < enough:
+            continue
+        odds = theirs.likelihood - by_own(answers, digits, keys, mine, read, theirs.fits)
+        fitting = theirs.fits.sum() >= FEW and odds >= enough
+        if fitting and (found is None or odds > found.odds):
+            fits = np.flatnonzero(read)[theirs.fits]
+            fields = tuple(keys.fields[place] for place in fits)
+            found = Best(int(other), fields, int((~np.isnan(answers)).sum()), odds)
+    return found
+
+
+def by_own(answers: Any, digits: Any, keys: Keys, mine: int, read: Any, theirs: Any) -> float:
+    """How likely answers are by the own data, as a logarithm: as they stand, or with the values of
+    both plans computed by scales of one's own.
+    """
+    import numpy as np
+
+    key = keys.key(mine, read)
+    given, rounded = answers[read], digits[read]
+    found = fit(given, rounded, key, theirs).likelihood
+    times = np.ones(len(given))
+    for plan in (1, 2):
+        values = keys.plans[read] == plan
+        ratio = np.median(given[values] / key.sizes[values]) if values.sum() >= FEW else 1.0
+        if ratio > 0 and abs(log(ratio)) >= log(ODD):
+            times[values] = ratio
+    if (times == 1).all():
+        return found
+    scaled = fit(given / times, rounded / times, key, theirs).likelihood
+    return max(found, scaled - float(np.log(times).sum()) + log(SHARE))
+
+
+def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
+    """The few variants nearer to the answers than the own, each answer taken by itself."""
+    import numpy as np
+
+    with np.errstate(invalid="ignore", divide="ignore"):
+        apart = (answers - keys.sizes) ** 2 / (keys.deviations**2 + digits**2 / 3)
+    far = np.nansum(np.minimum(apart, FAR**2), axis=1)
+    nearer = np.flatnonzero(far < far[mine])
+    return [int(i) for i in nearer[np.argsort(far[nearer], kind="stable")[:TRIED]]]

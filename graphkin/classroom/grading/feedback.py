@@ -1,0 +1,253 @@
+"""A feedback page for each student, for the browser and on paper, in the language of the lab."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from html import escape as escaped
+
+from graphkin.classroom.grading.feedback_html import feedback_table, page
+from graphkin.classroom.grading.feedback_rows import (
+    COLUMNS,
+    HEADS,
+    FeedbackRow,
+    is_decided,
+    known_sign,
+    points_words,
+    rows,
+    safe,
+)
+from graphkin.classroom.grading.graded import Graded, Status
+from graphkin.classroom.lab.lab_model import Rubric
+from graphkin.drawing.areas import A4_AREA, A4_SIZE
+from graphkin.drawing.frame import page_frame
+from graphkin.drawing.marks import LineMark, Mark, Page, Text
+from graphkin.drawing.richtext import escape, extent, flowed, plain, words_of
+from graphkin.text import Words
+from graphkin.writers.html_markup import marked_up
+
+LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
+TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
+WIDTHS = (28.0, 34.0, 29.0, 32.0, 24.0, 25.0)
+"""Widths of the columns, in mm."""
+LETTER, SMALL = 2.5, 1.8
+LEADING, ROOM = 4.2, 2.6
+"""Distance of lines, and the room below a field, in mm."""
+INDENT = 4.0
+
+
+def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> str:
+    """The page of one student for a browser; who handed in nothing is not told what was right."""
+    student = graded.taker.student
+    body = [f"<h1>{escaped(words('feedback.title'))}</h1>", f"<p>{escaped(title)}<br>"]
+    body.append(f"{escaped(' – '.join(filter(None, (student.name or student.id, student.group))))}")
+    body.append(f"<br>{escaped(settings_words(graded, words))}</p>")
+    if is_shown(graded):
+        body.append(f'<p class="total">{marked_up(total(graded, words))}</p>')
+    body += [f"<p>{marked_up(note)}</p>" for note in notes(graded, words)]
+    if is_shown(graded):
+        body += feedback_table(rows(graded, words), words)
+        body.append(f'<p class="small">{marked_up(how(rubric, words))}</p>')
+    return page(f"{title} – {student.name or student.id}", words.language, body)
+
+
+def is_shown(graded: Graded) -> bool:
+    """Whether a student sees marks: something was handed in, and nothing is held."""
+    return graded.present and not graded.held
+
+
+def total(graded: Graded, words: Words) -> str:
+    """The sum of the points in words; what still waits is left out of both."""
+    earned, points = (points_words(each, words) for each in (graded.earned, graded.decided))
+    text = words("feedback.total", earned=earned, points=points)
+    if not graded.pending:
+        return text
+    waiting, every = (points_words(each, words) for each in (graded.pending, graded.points))
+    return f"{text}, {words('feedback.waiting', pending=waiting, all=every)}"
+
+
+def notes(graded: Graded, words: Words) -> list[str]:
+    """What is said of the whole form: that there is none, or what waits for a decision."""
+    if not graded.present:
+        return [words("feedback.absent")]
+    if graded.held:
+        return [words("feedback.held")]
+    waiting = [mark.item for mark in graded.marks if mark.points and not is_decided(mark)]
+    if not waiting:
+        return []
+    fields = ", ".join(
+        f"{item.symbol} ({words('table.sense')})" if item.what == "sense" else item.symbol
+        for item in waiting
+    )
+    return [words("feedback.pending", pending=points_words(graded.pending, words), fields=fields)]
+
+
+def settings_words(graded: Graded, words: Words) -> str:
+    """The data of a student's variant."""
+    settings = graded.taker.settings.items()
+    return "; ".join(f"{name} = {words.decimal(value)}" for name, value in settings)
+
+
+def how(rubric: Rubric, words: Words) -> str:
+    """What a tolerance is."""
+    amounts = {"point": rubric.point, "line": rubric.line, "ruler": rubric.ruler}
+    return words(
+        "feedback.how", **{name: words.decimal(f"{value:g}") for name, value in amounts.items()}
+    )
+
+
+# --- on paper -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Spacing:
+    """Distances of a page, in mm: from a field's cells to its reason, and the room below it.
+
+    ``is_brief`` leaves out the reason of what is right, which its points tell.
+    """
+
+    line: float
+    room: float
+    is_brief: bool = False
+
+
+SPACINGS = (
+    Spacing(3.4, 2.6),
+    Spacing(3.1, 1.9),
+    Spacing(3.4, 2.6, is_brief=True),
+    Spacing(3.1, 1.7, is_brief=True),
+)
+"""From wide to narrow: the first that fits one page is taken, else the first."""
+
+
+def feedback_pages(graded: Graded, title: str, rubric: Rubric, words: Words) -> tuple[Page, ...]:
+    """The pages of one student on A4, one wherever that can be."""
+    tried = (list(paged(blocks(graded, rubric, words, spacing))) for spacing in SPACINGS)
+    bodies = next((found for found in tried if len(found) == 1), None)
+    bodies = bodies or list(paged(blocks(graded, rubric, words, SPACINGS[0])))
+    name = name_of(graded)
+    return tuple(
+        Page(
+            *A4_SIZE,
+            (
+                *page_frame(
+                    (fitting(escape(safe(title))), words("feedback.title")),
+                    (fitting(name), f"{number}/{len(bodies)}"),
+                ),
+                *marks,
+            ),
+            f"{title} – {graded.taker.student.name or graded.taker.student.id}",
+            words.language,
+        )
+        for number, marks in enumerate(bodies, 1)
+    )
+
+
+def name_of(graded: Graded) -> str:
+    """A student's name and group, or the id, as markup with only signs that the lettering has."""
+    student = graded.taker.student
+    text = ", ".join(filter(None, (student.name or student.id, student.group)))
+    return escape("".join(sign if known_sign(sign) else "?" for sign in text))
+
+
+def fitting(markup: str) -> str:
+    """A markup of a head or foot, cut where it is too long."""
+    return markup if extent(markup, LETTER)[0] <= 105 else markup[:60].rstrip("\\") + "…"
+
+
+Block = tuple[float, list[Mark]]
+"""The height of something that stays together, and its marks from a height of nought."""
+
+
+def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> Iterator[Block]:
+    """What stands on the pages, from top to bottom."""
+    yield text_block(name_of(graded), 3.5)
+    settings = escape(settings_words(graded, words))
+    if settings:
+        yield text_block(settings, LETTER)
+    if is_shown(graded):
+        yield text_block(total(graded, words), 3.5)
+    for note in notes(graded, words):
+        yield text_block(note, LETTER)
+    if not is_shown(graded):
+        return
+    yield head_block(words)
+    for row in rows(graded, words):
+        yield row_block(row, spacing)
+    yield text_block(how(rubric, words), SMALL)
+
+
+def text_block(markup: str, height: float) -> Block:
+    """A paragraph."""
+    lines = flowed(words_of(markup), " ", RIGHT - LEFT, height)
+    leading = LEADING * max(height / LETTER, 0.85)
+    marks: list[Mark] = [
+        Text(LEFT, (i + 1) * leading, line, "caption", height) for i, line in enumerate(lines)
+    ]
+    return len(lines) * leading + ROOM, marks
+
+
+def head_block(words: Words) -> Block:
+    """The heads of the columns, over a line."""
+    marks: list[Mark] = columns([words(HEADS[name]) for name in COLUMNS], LEADING)
+    marks.append(LineMark(LEFT, LEADING + 1.6, RIGHT, LEADING + 1.6, "border"))
+    return LEADING + ROOM + 0.8, marks
+
+
+def row_block(row: FeedbackRow, spacing: Spacing) -> Block:
+    """A field: its cells, and below them why."""
+    marks: list[Mark] = columns(row.cells, LEADING)
+    tells = not (spacing.is_brief and row.status is Status.RIGHT)
+    why = flowed(words_of(row.why), " ", RIGHT - LEFT - INDENT, SMALL) if tells else []
+    y = LEADING
+    for line in why:
+        y += spacing.line
+        marks.append(Text(LEFT + INDENT, y, line, "caption", SMALL))
+    below = min(1.6, spacing.room - 0.6)
+    marks.append(LineMark(LEFT, y + below, RIGHT, y + below, "panel"))
+    return y + spacing.room, marks
+
+
+def columns(texts: Sequence[str], y: float) -> list[Mark]:
+    """Texts in their columns, the first from the left, the others to the right edge of theirs."""
+    marks: list[Mark] = []
+    x = LEFT
+    for i, (text, width) in enumerate(zip(texts, WIDTHS, strict=True)):
+        if text:
+            height = LETTER if extent(text, LETTER)[0] <= width - 1 else SMALL
+            shown = text if extent(text, height)[0] <= width - 1 else shortened(text, width - 1)
+            if i == 0:
+                marks.append(Text(x, y, shown, "table", height))
+            else:
+                marks.append(Text(x + width - 1, y, shown, "table", height, "end"))
+        x += width
+    return marks
+
+
+def shortened(markup: str, width: float) -> str:
+    """A plain markup cut to a width in small lettering."""
+    text = plain(markup)
+    while text and extent(escape(text) + "…", SMALL)[0] > width:
+        text = text[:-1]
+    return escape(text) + "…"
+
+
+def paged(blocks: Iterator[Block]) -> Iterator[list[Mark]]:
+    """The marks of each page."""
+    page: list[Mark] = []
+    y = TOP
+    for height, marks in blocks:
+        if page and y + height > BOTTOM:
+            yield page
+            page, y = [], TOP
+        page += [lowered(mark, y) for mark in marks]
+        y += height
+    yield page
+
+
+def lowered(mark: Mark, by: float) -> Mark:
+    """A mark moved down the page."""
+    if isinstance(mark, Text):
+        return replace(mark, y=mark.y + by)
+    assert isinstance(mark, LineMark)
+    return replace(mark, y1=mark.y1 + by, y2=mark.y2 + by)

@@ -1,0 +1,198 @@
+"""The relations of a form: what a student computes from own values, without the drawing.
+
+A value is the own segment times the scale, a rate the own relative vector over the bar; components
+of accelerations follow as their constructions say; a block slides as fast as its relative vector
+says. What is computed is laid off as long as it came out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import hypot, inf
+from typing import NamedTuple
+
+from graphkin.classroom.grading.probes import Probe
+from graphkin.classroom.grading.standard import Standard
+from graphkin.construction.core.component import Component, component_of
+from graphkin.construction.core.program import Plane
+
+ROUNDED = 0.005
+"""Share by which a value that is only computed may be rounded."""
+COARSE = 0.05
+"""Numbers as they are written are rounded by no more than this share: two digits."""
+
+
+@dataclass(frozen=True, slots=True)
+class Own:
+    """A student's own size in SI, the share by which it is rounded, and the field that states it;
+    the key's where no field does.
+    """
+
+    size: float
+    rounded: float = 0.0
+    field: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Following:
+    """A value that a field would have, after the own values of others, and how near it must be;
+    ``drawn`` where the construction tells it.
+    """
+
+    field: str
+    sources: tuple[str, ...]
+    value: float
+    tolerance: float
+    drawn: bool = False
+
+
+class FormRelation(NamedTuple):
+    """Own values as factors, what comes of them in SI, and the bar that is in it, in metres."""
+
+    factors: tuple[Own, ...]
+    size: float
+    bar: float = inf
+
+
+Values = Mapping[str, Own]
+
+
+def si(standard: Standard, field: str, value: float) -> float:
+    """A number of a field in SI: a segment by the scale of its drawing."""
+    return abs(value) * unit(standard, standard.by_field[field])
+
+
+def unit(standard: Standard, probe: Probe) -> float:
+    """The unit of a field in SI."""
+    return standard.paper.millimetre(probe.plane) if probe.item.unit == "mm" else 1.0
+
+
+def computed(standard: Standard, own: Values, field: str, rounded: float) -> Iterator[Following]:
+    """What a field would be by each relation to own values, itself ``rounded`` by a share."""
+    probe = standard.by_field[field]
+    rubric, mm = standard.rubric, unit(standard, probe)
+    error = hypot(rubric.point, rubric.ruler)
+    for factors, size, bar in relations(standard, own, probe):
+        sources = tuple(dict.fromkeys(each.field for each in factors if each.field))
+        if not sources or field in sources:
+            continue
+        written = min(rounded + sum(each.rounded for each in factors), COARSE)
+        measured = error * standard.paper.millimetre(Plane.MECHANISM) / bar
+        allowed = (max(rubric.floor, ROUNDED) + written + measured) * size / mm
+        laid_off = error if probe.item.unit == "mm" else 0.0
+        yield Following(field, sources, size / mm, allowed + laid_off)
+
+
+def relations(standard: Standard, own: Values, probe: Probe) -> Iterator[FormRelation]:
+    """Each relation in which a field is what comes out."""
+    step = standard.mechanism.program.steps[probe.step]
+    if probe.vector:
+        component = computed_first(standard, probe)
+        if probe.item.what == "value":
+            yield from (FormRelation((v,), v.size) for v in vectors(standard, own, *probe.steps))
+        if component is not None:
+            sizes = component.sizes(OwnLengths(standard, own))
+            yield from (FormRelation(*size) for size in sizes)
+    elif len(step.args) == 4:
+        yield from rates(standard, own, probe)
+    elif probe.item.quantity == "slide speed":
+        _, tail, tip = step.args
+        yield from (FormRelation((v,), v.size) for v in vectors(standard, own, tail, tip))
+
+
+def vectors(standard: Standard, own: Values, tail: int, tip: int) -> Iterator[Own]:
+    """The own sizes of the vector between two images."""
+    for field, value in own.items():
+        probe = standard.by_field[field]
+        if probe.vector and {*probe.steps} == {tail, tip}:
+            yield value
+
+
+def rates(standard: Standard, own: Values, probe: Probe) -> Iterator[FormRelation]:
+    """A rate from the own relative vector over the bar: of an acceleration its tangential part."""
+    step = standard.mechanism.program.steps[probe.step]
+    p, q, tail, tip = step.args
+    bar = length(standard, p, q)
+    tails = {tail, standard.exact.tails.get(probe.step, tail)}
+    if probe.item.quantity == "epsilon" and len(tails) > 1:
+        tails -= {tail}
+    for start in sorted(tails):
+        yield from (
+            FormRelation((v,), v.size / bar, bar) for v in vectors(standard, own, start, tip)
+        )
+
+
+def length(standard: Standard, p: int, q: int) -> float:
+    """The length of a bar."""
+    values = standard.exact.trace.values
+    return float(abs(values[q] - values[p]))
+
+
+def computed_first(standard: Standard, probe: Probe) -> Component | None:
+    """The component that is computed before the vector of a field is laid off; None for others."""
+    program = standard.mechanism.program
+    for end in probe.steps:
+        start, *rest = program.steps[end].args or (end,)
+        for arg in rest if start in probe.steps else ():
+            component = component_of(program, arg)
+            if component is not None:
+                return component
+    return None
+
+
+@dataclass(frozen=True)
+class OwnLengths:
+    """What components are computed from: own sizes, or the key's where no field states them."""
+
+    standard: Standard
+    own: Values
+
+    def length(self, p: int, q: int) -> float:
+        """The length of a bar."""
+        return length(self.standard, p, q)
+
+    def vectors(self, tail: int, tip: int) -> Iterator[Own]:
+        """Own sizes of the vector between two images."""
+        return vectors(self.standard, self.own, tail, tip)
+
+    def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Own]:
+        """Own angular velocities that are read off the same places and images."""
+        steps = self.standard.mechanism.program.steps
+        for field, omega in self.own.items():
+            probe = self.standard.by_field[field]
+            if probe.item.quantity == "omega" and steps[probe.step].args == ends:
+                yield omega
+
+    def turnings(self, rate: int) -> Iterator[Own]:
+        """Own angular velocities by the step that finds them; then the key's."""
+        return turnings(self.standard, self.own, rate)
+
+    def slidings(self, tail: int, tip: int) -> Iterator[Own]:
+        """Own velocities along a guide; then the key's."""
+        return slidings(self.standard, self.own, tail, tip)
+
+
+def turnings(standard: Standard, own: Values, rate: int) -> Iterator[Own]:
+    """The own angular velocities of what guides, from own velocities too; then the key's."""
+    for field, value in own.items():
+        probe = standard.by_field[field]
+        if probe.item.quantity == "omega" and probe.step == rate:
+            yield value
+    args = standard.mechanism.program.steps[rate].args
+    if len(args) == 4:
+        bar = length(standard, *args[:2])
+        for v in vectors(standard, own, *args[2:]):
+            yield Own(v.size / bar, v.rounded, v.field)
+    yield Own(abs(standard.exact.trace.values[rate]))
+
+
+def slidings(standard: Standard, own: Values, tail: int, tip: int) -> Iterator[Own]:
+    """The own velocities of what slides along its guide; then the key's."""
+    steps = standard.mechanism.program.steps
+    for field, value in own.items():
+        probe = standard.by_field[field]
+        if probe.item.quantity == "slide speed" and steps[probe.step].args[1:] == (tail, tip):
+            yield value
+    yield from vectors(standard, own, tail, tip)
+    yield Own(length(standard, tail, tip))

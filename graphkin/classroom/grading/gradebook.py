@@ -1,0 +1,273 @@
+"""The lecturer's own gradebook export, filled in: Moodle's, Canvas's, or any other table.
+
+Nothing is written anew: every cell but those of the marks keeps its very characters, quotes,
+separators and ends of lines included, so that order, language, ids and unknown columns stay.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Protocol
+
+from graphkin.classroom.roster.read_roster import NAMES
+from graphkin.classroom.roster.spreadsheets import folded
+from graphkin.text.errors import GraphkinError, Problem
+
+POSSIBLE = "Points Possible"
+"""What Canvas writes, after four blanks, in the row below its head."""
+COMMA = re.compile(r"[0-9]+,[0-9]+")
+POINT = re.compile(r"[0-9]+\.[0-9]+")
+NUMERIC = re.compile(r"[-+]?[0-9]")
+"""How points, dates and ids begin, and names do not."""
+EMPTY = ("", "-")
+"""Cells without a mark."""
+EMAIL = ("email", "emailaddress", "adresadeemail", "indirizzoemail", "username", "sisloginid")
+PERSONS = {*EMAIL, *(folded(h) for what, every in NAMES.items() for h in (what, *every))}
+"""Heads of columns that say who somebody is."""
+DECIMAL = re.compile(r"[0-9]+(?:\.[0-9]+)?", re.ASCII)
+
+
+class GradebookError(GraphkinError):
+    """A gradebook that cannot be filled in."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """The characters of a cell as they stand in the file, and the text that they mean."""
+
+    raw: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Gradebook:
+    """An export: its rows of cells, each with the end of its line."""
+
+    name: str
+    rows: tuple[tuple[Cell, ...], ...]
+    ends: tuple[str, ...]
+    separator: str
+    coding: str
+    bom: bytes
+
+
+class GradebookTable(Protocol):
+    """What any gradebook has, however it is written: the name of its file, and its cells."""
+
+    @property
+    def name(self) -> str:
+        """The name of its file."""
+
+    @property
+    def rows(self) -> tuple[tuple[Cell, ...], ...]:
+        """Its cells, row by row, the head first."""
+
+
+@dataclass(frozen=True)
+class MarkPlaces:
+    """Where marks go: a column and its head, the student of each line, who of the class is not in.
+
+    Lines count from nought, the head's. ``worth`` is what the gradebook holds the column worth.
+    """
+
+    column: int
+    head: str
+    lines: Mapping[int, str]
+    absent: tuple[str, ...]
+    worth: Fraction | None = None
+    replaced: int = 0
+
+
+@dataclass(frozen=True)
+class Filled:
+    """A gradebook with marks in it: its bytes, how many, and who of the class is not in it.
+
+    ``worth`` is what it holds the column worth, where it says so, as Canvas does; ``replaced`` how
+    many marks took the place of something else.
+    """
+
+    data: bytes
+    column: str
+    count: int
+    absent: tuple[str, ...]
+    worth: Fraction | None = None
+    replaced: int = 0
+
+
+def filled(
+    book: Gradebook,
+    marks: Mapping[str, Fraction],
+    column: str | None = None,
+    ids: Collection[str] = (),
+) -> Filled:
+    """The gradebook with the marks in a column, students found by whatever column has their ids.
+
+    ``ids`` are those of the class who get no mark. Raises GradebookError where that cannot be told.
+    """
+    found = places(book, marks, column, ids)
+    comma = writes_comma(book, found.column)
+    rows = list(book.rows)
+    for line, who in found.lines.items():
+        text = mark_text(marks[who], comma)
+        rows[line] = with_mark(rows[line], found.column, text, book.separator)
+    text = "".join(
+        book.separator.join(each.raw for each in row) + end
+        for row, end in zip(rows, book.ends, strict=True)
+    )
+    data = book.bom + text.encode(
+        book.coding, "surrogateescape" if book.coding == "cp1250" else "strict"
+    )
+    return Filled(data, found.head, len(found.lines), found.absent, found.worth, found.replaced)
+
+
+def places(
+    book: GradebookTable,
+    marks: Mapping[str, Fraction],
+    column: str | None,
+    ids: Collection[str] = (),
+) -> MarkPlaces:
+    """Where the marks go. Raises GradebookError where that cannot be told."""
+    where = id_column(book, {*marks, *ids})
+    target = mark_column(book, [each.text for each in book.rows[0]], column, where)
+    refuse_names(book, target, where)
+    lines: dict[int, str] = {}
+    met: set[str] = set()
+    twice: list[Problem] = []
+    for line, row in enumerate(book.rows[1:], 1):
+        who = key_of(row, where, marks)
+        if who is None or is_possible(row):
+            continue
+        if who in met:
+            twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
+        lines[line] = who
+        met.add(who)
+    if twice:
+        raise GradebookError(twice)
+    absent = tuple(who for who in marks if who not in met)
+    before = {line: text_at(book.rows[line], target) for line in lines}
+    replaced = sum(is_other(text, marks[lines[line]]) for line, text in before.items())
+    head = book.rows[0][target].text
+    return MarkPlaces(target, head, lines, absent, worth_of(book, target), replaced)
+
+
+def refuse_names(book: GradebookTable, column: int, ids: int) -> None:
+    """Raise GradebookError for a column that says who somebody is: no mark goes there."""
+    head = book.rows[0][column].text
+    texts = [text_at(row, column) for row in of_students(book, ids)]
+    filled_in = [text for text in texts if text not in EMPTY]
+    words = [text for text in filled_in if not NUMERIC.match(text)]
+    if column == ids or folded(head) in PERSONS or 2 * len(words) > max(len(filled_in), 1):
+        what = "the ids" if column == ids else "names or texts"
+        found = f'"{head}" holds {what}, no points'
+        hint = "name another one with --column"
+        raise GradebookError(Problem(book.name, found, "one for points", hint))
+
+
+def text_at(row: Sequence[Cell], column: int) -> str:
+    """The text of a cell; empty where the row ends before it."""
+    return row[column].text if column < len(row) else ""
+
+
+def is_other(text: str, mark: Fraction) -> bool:
+    """Whether a cell holds something else than the mark that is put there."""
+    return text not in EMPTY and text.replace(",", ".") not in (
+        mark_text(mark, comma=False),
+        f"{float(mark):.2f}",
+        f"{float(mark):.1f}",
+    )
+
+
+def worth_of(book: GradebookTable, column: int) -> Fraction | None:
+    """The points that Canvas holds a column worth; None where nothing says so."""
+    row = next((row for row in book.rows[1:4] if is_possible(row)), ())
+    text = row[column].text.replace(",", ".") if column < len(row) else ""
+    return Fraction(text) if DECIMAL.fullmatch(text) else None
+
+
+def key_of(row: Sequence[Cell], where: int, marks: Collection[str]) -> str | None:
+    """The student of a row; None for one of another class."""
+    text = row[where].text if where < len(row) else ""
+    return text if text in marks else None
+
+
+def is_possible(row: Sequence[Cell]) -> bool:
+    """Whether a row is the one in which Canvas holds the points of each assignment."""
+    return any(each.text == POSSIBLE for each in row[:1])
+
+
+def id_column(book: GradebookTable, marks: Collection[str]) -> int:
+    """The column in which most cells are ids of the class, in whatever language it is named."""
+    counts = Counter(i for row in book.rows[1:] for i, each in enumerate(row) if each.text in marks)
+    best = max(range(len(book.rows[0])), key=lambda i: counts[i])
+    if not counts[best]:
+        hint = "the ids of the class list must be those of one of its columns"
+        raise GradebookError(Problem(book.name, "no column holds ids of this class", "", hint))
+    return best
+
+
+def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, ids: int) -> int:
+    """The column for the marks: the one that is named, else the only empty one but feedback."""
+    if column is not None:
+        found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
+        found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
+        found = [i for i in found if not is_comment(head[i])] or found
+    else:
+        full = marked_columns(book, ids)
+        found = [
+            i for i, name in enumerate(head) if name and i not in full and not is_comment(name)
+        ]
+    if len(found) != 1:
+        words = (
+            f'"{column}" is {"several columns" if found else "no column"}'
+            if column
+            else (f"{len(found)} columns are empty")
+        )
+        meant = [head[i] for i in found] or [text for text in head if text]
+        names = ", ".join(f'"{text}"' for text in meant)
+        raise GradebookError(
+            Problem(book.name, words, f"one of {names}", "name the column with --column")
+        )
+    return found[0]
+
+
+def of_students(book: GradebookTable, ids: int) -> list[Sequence[Cell]]:
+    """The rows of students, who have something in the column of ids; not those of averages."""
+    return [row for row in book.rows[1:] if text_at(row, ids) and not is_possible(row)]
+
+
+def marked_columns(book: GradebookTable, ids: int) -> set[int]:
+    """The columns in which some student has something."""
+    return {
+        i for row in of_students(book, ids) for i, each in enumerate(row) if each.text not in EMPTY
+    }
+
+
+def is_comment(head: str) -> bool:
+    """Whether a column is one for comments."""
+    return head.casefold().startswith(("feedback", "comment", "commenti", "comentarii"))
+
+
+def writes_comma(book: Gradebook, target: int) -> bool:
+    """Whether a gradebook writes decimals with a comma: as its other numbers do."""
+    texts = [each.text for row in book.rows[1:] for i, each in enumerate(row) if i != target]
+    commas = sum(COMMA.fullmatch(text) is not None for text in texts)
+    points = sum(POINT.fullmatch(text) is not None for text in texts)
+    return commas > points or (commas == points and book.separator == ";")
+
+
+def mark_text(mark: Fraction, comma: bool) -> str:
+    """A mark with two places at most."""
+    text = f"{float(mark):.2f}".rstrip("0").rstrip(".")
+    return text.replace(".", ",") if comma else text
+
+
+def with_mark(row: tuple[Cell, ...], column: int, text: str, separator: str) -> tuple[Cell, ...]:
+    """A row with a mark in a column, quoted where its neighbours of that column are or must be."""
+    cells = list(row) + [Cell("", "")] * (column + 1 - len(row))
+    quoted = cells[column].raw.strip().startswith('"') or separator in text
+    cells[column] = Cell(f'"{text}"' if quoted else text, text)
+    return tuple(cells)

@@ -1,0 +1,139 @@
+"""The lecturer's own gradebook as XLSX, filled in: only the cells of the marks change.
+
+They are written as numbers into the XML of their sheet. All else stays as it is, macros too; only
+the results that the file kept of formulas are left out, to be computed anew. The same marks give
+the same bytes: the times in the file stay those of the export.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Collection, Mapping
+from copy import copy
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from xml.parsers.expat import ExpatError
+
+from graphkin.classroom.grading.gradebook import (
+    Cell,
+    Filled,
+    GradebookError,
+    MarkPlaces,
+    filled,
+    mark_text,
+    places,
+)
+from graphkin.classroom.grading.gradebook_csv import read_gradebook
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.spreadsheets import bytes_of
+from graphkin.classroom.roster.xlsx import cell_text, full_rows, open_sheet, opened, unreadable
+from graphkin.text.errors import Problem
+
+START = b"PK\x03\x04"
+"""The first bytes of an XLSX, which is a ZIP file."""
+WORKBOOK = re.compile(r"xl/workbook[0-9]*\.xml")
+"""The part of the file that says how formulas are computed."""
+
+
+def filled_gradebook(
+    path: Path,
+    marks: Mapping[str, Fraction],
+    column: str | None = None,
+    ids: Collection[str] = (),
+) -> Filled:
+    """An export, CSV or XLSX, with the marks in a column. Raises GradebookError."""
+    data = bytes_of(path)
+    if data.startswith(START):
+        return filled_workbook(read_workbook(data, path.name), marks, column, ids)
+    return filled(read_gradebook(path), marks, column, ids)
+
+
+@dataclass(frozen=True)
+class Workbook:
+    """An export as XLSX: its file, and the cells of the sheet that was open last.
+
+    A row that holds nothing has no cells. ``formulas`` are the places of formulas, by line and
+    column from 0; ``sheet`` and ``sheets`` the parts of the file that hold this and all sheets.
+    """
+
+    name: str
+    data: bytes
+    rows: tuple[tuple[Cell, ...], ...]
+    formulas: frozenset[tuple[int, int]]
+    sheet: str
+    sheets: tuple[str, ...]
+
+
+def read_workbook(data: bytes, name: str) -> Workbook:
+    """An export as it stands. Raises GradebookError where it is no table."""
+    rows: list[tuple[Cell, ...]] = []
+    formulas: set[tuple[int, int]] = set()
+    try:
+        with opened(data, name, data_only=False) as book:
+            sheet = open_sheet(book)
+            for number, cells in full_rows(sheet, name):
+                rows += [()] * (number - 1 - len(rows))
+                formulas |= {(len(rows), i) for i, c in enumerate(cells) if c.data_type == "f"}
+                rows.append(tuple(Cell(text, text.strip()) for text in map(cell_text, cells)))
+            parts = tuple(each._worksheet_path for each in book.worksheets)
+            part = sheet._worksheet_path
+    except RosterError as error:
+        raise GradebookError(error.problems) from error
+    if not rows or not rows[0]:
+        raise GradebookError(Problem(name, "has nothing in its first row", "the names of columns"))
+    if len(rows) < 2:
+        raise GradebookError(Problem(name, "has no row below its head", "a gradebook"))
+    return Workbook(name, data, tuple(rows), frozenset(formulas), part, parts)
+
+
+def filled_workbook(
+    book: Workbook,
+    marks: Mapping[str, Fraction],
+    column: str | None = None,
+    ids: Collection[str] = (),
+) -> Filled:
+    """The workbook with the marks in a column. Raises GradebookError where that cannot be told."""
+    found = places(book, marks, column, ids)
+    refuse_formulas(book, found)
+    numbers = {
+        (line + 1, found.column + 1): mark_text(marks[who], comma=False)
+        for line, who in found.lines.items()
+    }
+    try:
+        data = with_cells(book, numbers)
+    except (ExpatError, ValueError) as error:
+        raise GradebookError(unreadable(book.name).problems) from error
+    return Filled(data, found.head, len(found.lines), found.absent, found.worth, found.replaced)
+
+
+def refuse_formulas(book: Workbook, found: MarkPlaces) -> None:
+    """Raise GradebookError where marks would take the place of formulas."""
+    wrong = [line for line in found.lines if (line, found.column) in book.formulas]
+    if wrong:
+        where = f"{book.name}, row {wrong[0] + 1}"
+        text = f'"{found.head}" holds a formula'
+        hint = "name another one with --column"
+        raise GradebookError(Problem(where, text, "a column for points", hint))
+
+
+def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:
+    """The file with numbers in cells of its sheet; all parts that need not change are copied."""
+    from graphkin.classroom.grading.sheet_xml import computed_anew, with_numbers
+
+    found = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(book.data)) as packed, zipfile.ZipFile(found, "w") as again:
+        changed: dict[str, bytes] = {}
+        for name in book.sheets if numbers else ():
+            xml = packed.read(name)
+            new = with_numbers(xml, numbers if name == book.sheet else {})
+            changed |= {name: new} if new != xml else {}
+        if changed.keys() - {book.sheet} or (changed and book.formulas):
+            main = filter(WORKBOOK.fullmatch, packed.namelist())
+            changed |= {name: computed_anew(packed.read(name)) for name in main}
+        for part in packed.infolist():
+            content = packed.read(part)
+            again.writestr(copy(part), changed.get(part.filename, content), part.compress_type)
+    return found.getvalue()

@@ -1,0 +1,175 @@
+"""What marking is about, as plain records: answers as they were read, and what they earned."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.roster.student import Student
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """One cell of an answer table: its ``text`` and the number that it states, in the field's unit.
+
+    A sense is +1 or -1, counter-clockwise or along the guide positive. ``signed`` tells that a
+    sign was written; ``problem`` why a cell cannot be read (number, unit, large, turning, sliding),
+    which is not the same as wrong.
+    """
+
+    text: str
+    value: float | None = None
+    signed: bool = False
+    problem: str = ""
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing was answered."""
+        return not self.text.strip()
+
+    @property
+    def is_read(self) -> bool:
+        """Whether there is a value."""
+        return self.value is not None
+
+
+BLANK = Answer("")
+
+
+class Status(Enum):
+    """What an answer was found to be."""
+
+    RIGHT = "right"
+    FOLLOWS = "follows"
+    SLIP = "slip"
+    WRONG = "wrong"
+    BLANK = "blank"
+    UNREADABLE = "unreadable"
+
+
+@dataclass(frozen=True, slots=True)
+class EarnedMark:
+    """What one field earned, of ``points``, and why.
+
+    ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
+    field's unit; ``source`` is the field from whose own value the answer follows, rightly where it
+    is right but not by the key, or at which its slip was paid for; ``slip`` the name of the mistake
+    that gives it, ``odds`` how much better that explains it than chance;
+    ``torn`` tells of a sense that the sign of its own value contradicts.
+    """
+
+    item: Item
+    answer: Answer
+    status: Status
+    points: Fraction
+    earned: Fraction
+    expected: float
+    tolerance: float
+    source: str = ""
+    slip: str = ""
+    odds: float = 0.0
+    torn: bool = False
+
+    @property
+    def off(self) -> float | None:
+        """How far the answer lies from the key's; None where there is none."""
+        if self.answer.value is None:
+            return None
+        if self.item.what in ("segment", "value"):
+            return abs(self.answer.value) - abs(self.expected)
+        return self.answer.value - self.expected
+
+
+@dataclass(frozen=True, slots=True)
+class Taker:
+    """A student who takes part: the parameters of the own variant, exact and as written.
+
+    ``compute`` are fields too small to be measured, which were to be computed; ``code`` is the
+    opaque name on the sheets, ``language`` what the class list says of the student's.
+    """
+
+    student: Student
+    settings: Mapping[str, str]
+    code: str = ""
+    compute: tuple[str, ...] = ()
+    language: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Graded:
+    """A student with the mark of each field, in the order of the form.
+
+    ``held`` tells that they are kept back until the lecturer has decided whose answers these are.
+    """
+
+    taker: Taker
+    marks: tuple[EarnedMark, ...]
+    present: bool = True
+    held: bool = False
+
+    @property
+    def earned(self) -> Fraction:
+        """The sum of what was earned."""
+        return sum((mark.earned for mark in self.marks), Fraction())
+
+    @property
+    def points(self) -> Fraction:
+        """The most that could be earned."""
+        return sum((mark.points for mark in self.marks), Fraction())
+
+    @property
+    def pending(self) -> Fraction:
+        """The points of answers that cannot be read, which a person has still to decide."""
+        waiting = (mark.points for mark in self.marks if mark.status is Status.UNREADABLE)
+        return sum(waiting, Fraction())
+
+    @property
+    def decided(self) -> Fraction:
+        """The points that do not wait."""
+        return self.points - self.pending
+
+    @property
+    def spared(self) -> Fraction:
+        """What wrong answers earned all the same, by what follows or by slips."""
+        known = (Status.FOLLOWS, Status.SLIP)
+        return sum((mark.earned for mark in self.marks if mark.status in known), Fraction())
+
+    @property
+    def share(self) -> Fraction | None:
+        """What was earned, in parts of the points that are decided; None without any."""
+        return self.earned / self.decided if self.present and self.decided else None
+
+    def mark(self, name: str) -> EarnedMark:
+        """The mark of a field."""
+        return next(mark for mark in self.marks if mark.item.field == name)
+
+
+SURE = 10_000.0
+"""The largest odds that are reported: no model of hands and pencils is surer than that."""
+
+
+@dataclass(frozen=True, slots=True)
+class Suspicion:
+    """Evidence for the lecturer: answers that fit another's data, or were handed in twice.
+
+    ``students`` are ids; ``fields`` what fits, ``odds`` how much better than chance, ``SURE`` at
+    most.
+    """
+
+    students: tuple[str, ...]
+    fields: tuple[str, ...]
+    odds: float
+    of: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A whole class, marked; ``unsure`` are fields that no drawing of a student's variant tells."""
+
+    graded: tuple[Graded, ...]
+    wrong_variants: tuple[Suspicion, ...] = ()
+    copies: tuple[Suspicion, ...] = ()
+    unsure: Mapping[str, tuple[str, ...]] = field(default_factory=dict)

@@ -1,0 +1,104 @@
+"""What grading writes: marks, tolerances, feedback for each student, the report on the class."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+
+from graphkin.classroom.grading.answers import Unread
+from graphkin.classroom.grading.class_marking import Class
+from graphkin.classroom.grading.class_report import class_report
+from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
+from graphkin.classroom.grading.graded import Graded
+from graphkin.classroom.grading.marks_tables import (
+    differences,
+    differences_table,
+    marks_table,
+    tolerances_table,
+)
+from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.printing.file_names import stems
+from graphkin.classroom.roster.language_names import language_in
+from graphkin.text import Words, words
+from graphkin.writers.pdf import write_pdf
+
+MARKS, TOLERANCES, REPORT, CHANGES = (
+    "marks.csv",
+    "tolerances.csv",
+    "class.html",
+    "differences.csv",
+)
+FEEDBACK = "feedback"
+"""The folder with a page for each student."""
+
+
+@dataclass(frozen=True)
+class ReportSettings:
+    """What is told with the marks: the lab's title, the language of the report and of whoever has
+    none of the own, cells that cannot be read; the title in other languages.
+    """
+
+    title: str
+    words: Words
+    unread: Sequence[Unread] = ()
+    titles: Mapping[str, str] = field(default_factory=dict)
+
+    def words_for(self, graded: Graded) -> Words:
+        """The words of a student's own language."""
+        own = language_in(graded.taker.language)
+        return words(own) if own else self.words
+
+    def title_in(self, language: str) -> str:
+        """The lab's title in a language."""
+        return self.titles.get(language, self.title)
+
+
+def report_files(
+    found: Class, lab: Lab, told: ReportSettings, formats: Sequence[str], before: bytes = b""
+) -> dict[str, bytes]:
+    """The files of a report by their names; with an earlier marks.csv also what changed."""
+    graded = found.result.graded
+    marks = marks_table(found.result)
+    files = {
+        MARKS: marks,
+        TOLERANCES: tolerances_table(graded, found.expected),
+        REPORT: class_report(found.result, told.title, told.unread, told.words).encode("utf-8"),
+    }
+    if before:
+        files[CHANGES] = differences_table(differences(before, marks))
+    return files | feedback_files(graded, lab, told, formats)
+
+
+def feedback_files(
+    graded: Sequence[Graded], lab: Lab, told: ReportSettings, formats: Sequence[str]
+) -> dict[str, bytes]:
+    """A page for each student, named by the id as far as that is plain letters."""
+    students = [each.taker.student.id for each in graded]
+    names = stems(students, [each.taker.code for each in graded])
+    files: dict[str, bytes] = {}
+    for each, name in zip(graded, names, strict=True):
+        spoken = told.words_for(each)
+        title = told.title_in(spoken.language)
+        if "html" in formats:
+            text = feedback_html(each, title, lab.rubric, spoken)
+            files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
+        if "pdf" in formats:
+            pages = feedback_pages(each, title, lab.rubric, spoken)
+            files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
+    return files
+
+
+def gradebook_name(path: Path) -> str:
+    """The name of a filled gradebook: that of the export."""
+    return f"gradebook-{path.name}"
+
+
+def points_by_id(found: Class) -> dict[str, Fraction]:
+    """The points of those who handed in and for whom nothing waits or is held, for a gradebook."""
+    return {
+        each.taker.student.id: each.earned
+        for each in found.result.graded
+        if each.present and not each.pending and not each.held
+    }

@@ -1,0 +1,118 @@
+"""The keys of a class's variants side by side, and answers as they are held against them.
+
+The covariance of a variant's answers is that of the pencil in its construction, and of the ruler:
+a value beside its own segment is computed from that very reading, so that both are off together.
+Cranks that are laid off badly are left out of the pencil and kept apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.accuracy.pencil.pencil import STRAIGHT
+from graphkin.classroom.grading.answer_numbers import NUMBER, rounding
+from graphkin.classroom.grading.graded import Answer, Graded
+from graphkin.classroom.grading.likelihood import Key
+from graphkin.classroom.grading.standard import Expectation
+
+COMPUTED = 0.005
+"""Share by which a value may be off that is computed from a length as it was read."""
+
+
+@dataclass(frozen=True)
+class Keys:
+    """The keys of all variants, a row for each: sizes, deviations of a drawing, covariances.
+
+    ``rulers`` are the deviations of a reading; ``beside`` the place of each field's own segment,
+    else of itself; ``plans`` tell of which plan's scale a value is computed: 1 of velocities, 2 of
+    accelerations, 0 for what is measured.
+    """
+
+    fields: tuple[str, ...]
+    plans: Any
+    places: Any
+    beside: Any
+    sizes: Any
+    deviations: Any
+    rulers: Any
+    standards: Sequence[Expectation]
+
+    @classmethod
+    def of(cls, standards: Sequence[Expectation]) -> Keys:
+        """Those of some variants."""
+        import numpy as np
+
+        fields = tuple(standards[0].tolerance)
+        places = np.array([standards[0].item[f].what == "place" for f in fields])
+        at = {field: place for place, field in enumerate(fields)}
+        beside = np.array([at.get(f"{f}_mm", place) for f, place in at.items()])
+        units = [standards[0].item[f].unit for f in fields]
+        plans = np.array([0 if unit == "mm" else 1 + ("²" in unit) for unit in units])
+        keys = np.array([[each.key[f] for f in fields] for each in standards])
+        allowed = [[each.tolerance[f] for f in fields] for each in standards]
+        deviations = np.array([[np.hypot(t.pencil, t.ruler) for t in row] for row in allowed])
+        rulers = np.array([[t.ruler for t in row] for row in allowed])
+        sizes = np.where(places, keys, abs(keys))
+        deviations, rulers = deviations / STRAIGHT, rulers / STRAIGHT
+        return cls(fields, plans, places, beside, sizes, deviations, rulers, standards)
+
+    def key(self, variant: int, read: Any) -> Key:
+        """The key of a variant in the fields that are read, with the errors of pencil and ruler."""
+        import numpy as np
+
+        standard, rulers = self.standards[variant], self.rulers[variant][read]
+        beside, sizes = self.beside[read], self.sizes[variant][read]
+        shared = np.where(beside[:, None] == beside, np.outer(rulers, rulers), 0.0)
+        spread = standard.spread[np.ix_(read, read)] + shared
+        computed = np.where(beside != np.flatnonzero(read), COMPUTED * sizes, 0.0)
+        return Key(sizes, spread, computed, standard.cranks[:, read], self.places[read])
+
+    def reading(self, variant: int) -> Any:
+        """How far readings may be rounded: lengths to half a millimetre, as fine as a ruler is held
+        to tell, and to whole ones where a value is computed.
+        """
+        import numpy as np
+
+        items = self.standards[variant].item
+        lengths = [items[f].what in ("segment", "place") for f in self.fields]
+        return self.rulers[variant] * STRAIGHT * np.where(lengths, 1.0, 2.0)
+
+    def known(self, variant: int) -> Any:
+        """The fields whose error in a drawing of a variant is known."""
+        import numpy as np
+
+        return np.isfinite(self.deviations[variant]) & np.isfinite(self.sizes[variant])
+
+
+def distinct(standards: Sequence[Expectation]) -> tuple[list[Expectation], Mapping[int, int]]:
+    """The standards without doubles, and the place of each among them."""
+    places: dict[int, int] = {}
+    own: list[Expectation] = []
+    for each in standards:
+        if id(each) not in places:
+            places[id(each)] = len(own)
+            own.append(each)
+    return own, places
+
+
+def read_of(graded: Graded, keys: Keys) -> tuple[Any, Any]:
+    """A student's answers as sizes, places with their sign, and how far each may be rounded."""
+    import numpy as np
+
+    marks = {mark.item.field: mark for mark in graded.marks}
+    given = [marks[field].answer for field in keys.fields]
+    values = np.array([float("nan") if a.value is None else a.value for a in given])
+    digits = np.array([0.0 if a.value is None else coarseness(a) * abs(a.value) for a in given])
+    return np.where(keys.places, values, abs(values)), digits
+
+
+def coarseness(answer: Answer) -> float:
+    """How far a number may be rounded, in parts of it; zeros at the end of a whole one may be no
+    digits of it: 50 may be 48.
+    """
+    found = NUMBER.match(answer.text.strip())
+    digits = found["digits"] if found is not None else ""
+    zeros = len(digits) - len(digits.rstrip("0")) if digits.isdigit() else 0
+    return float(rounding(answer) * 10**zeros)

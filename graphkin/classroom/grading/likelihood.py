@@ -1,0 +1,141 @@
+"""How likely answers are that somebody read off the drawing of given data.
+
+The errors of a drawing go together as its construction says, and a crank that is laid off badly
+moves every answer. Nobody's pencil is known: fine ones and coarse ones are held equally likely.
+What no drawing of these data makes is a mistake, of any size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, log, pi
+from typing import Any
+
+from graphkin.classroom.grading.graded import SURE
+from graphkin.classroom.grading.slip_diagnosis import ASTRAY, HALF
+
+MISTAKES = 0.1
+"""The share of answers that are mistakes."""
+FAR = 5.0
+"""An answer so many deviations from the key is one where it is judged by itself."""
+PENCILS = tuple(0.1 * 2.0**i for i in range(8))
+"""How much coarser pencils are than the one that is forgiven."""
+SURELY = 1e-24
+"""No answer is surer than that, as a variance, however it is drawn and read."""
+LAID_OFF = 5.0
+"""The deviation, in degrees, of cranks that are laid off badly."""
+
+
+@dataclass(frozen=True)
+class Key:
+    """Right answers as sizes, places with their sign, and how drawings of them are off.
+
+    ``spread`` is the covariance of the errors of the forgiven pencil and ruler, ``computed`` the
+    deviation of what is computed from a reading; ``cranks`` how far each crank moves them by a
+    degree.
+    """
+
+    sizes: Any
+    spread: Any
+    computed: Any
+    cranks: Any
+    places: Any
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How likely answers are by a key, as a logarithm, which of them are no mistakes, and the
+    likeliest pencil, in times of the forgiven one.
+    """
+
+    likelihood: float
+    fits: Any
+    pencil: float
+
+
+def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
+    """The likeliest reading of some answers, each rounded by so much: which of them are mistakes.
+
+    The answer that is least like the others is taken for a mistake as long as that is likelier:
+    from all of them on, from those near the key, and from each of some ``starts``.
+    """
+    import numpy as np
+
+    noise = noise_of(rounding, key)
+    off = answers - key.sizes
+    astray = log(MISTAKES) + scattered(answers, key)
+    near = abs(off) <= FAR * np.sqrt(np.diag(key.spread + noise))
+    tried = {tuple(each): each for each in (np.ones_like(near), near, *starts)}
+    found = [cleared(off, key.spread, noise, astray, each) for each in tried.values()]
+    return max(found, key=lambda each: each.likelihood)
+
+
+def noise_of(rounding: Any, key: Key) -> Any:
+    """The covariance of what is no pencil's error: digits, computing, and badly laid-off cranks."""
+    import numpy as np
+
+    return np.diag(key.computed**2 + rounding**2 / 3) + LAID_OFF**2 * key.cranks.T @ key.cranks
+
+
+def drawn(answers: Any, rounding: Any, key: Key, fits: Any) -> float:
+    """How likely answers are where just some of them are no mistakes, as a logarithm."""
+    astray = log(MISTAKES) + scattered(answers, key)
+    noise = noise_of(rounding, key)
+    return judged(answers - key.sizes, key.spread, noise, astray, fits)[0].likelihood
+
+
+def cleared(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> Fit:
+    """The fit without mistakes, which are taken out one by one."""
+    best, worst = judged(off, spread, noise, astray, fits)
+    while worst is not None:
+        fewer = best.fits.copy()
+        fewer[worst] = False
+        found, worst = judged(off, spread, noise, astray, fewer)
+        if found.likelihood <= best.likelihood:
+            break
+        best = found
+    return best
+
+
+def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[Fit, int | None]:
+    """The fit where just these answers are drawn, and which of them is least like the others."""
+    import numpy as np
+
+    places = np.flatnonzero(fits)
+    lost = float(astray[~fits].sum())
+    if not len(places):
+        return Fit(lost, fits, PENCILS[0]), None
+    own = np.ix_(places, places)
+    scale = np.sqrt(np.maximum(np.diag(spread + noise)[places], SURELY))
+    square = np.outer(scale, scale)
+    lower = np.linalg.cholesky(noise[own] / square + 1e-9 * np.eye(len(places)))
+    inverse = np.linalg.inv(lower)
+    wide, axes = np.linalg.eigh(inverse @ (spread[own] / square) @ inverse.T)
+    apart = axes.T @ inverse @ (off[places] / scale)
+    variances = 1 + np.multiply.outer(np.square(PENCILS), np.maximum(wide, 0.0))
+    size = np.log(variances).sum(axis=1) + 2 * np.log(np.diag(lower) * scale).sum()
+    each = -0.5 * ((apart**2 / variances).sum(axis=1) + len(places) * log(2 * pi) + size)
+    likely = int(each.argmax())
+    drawn = each[likely] + log(np.exp(each - each[likely]).mean())
+    back = (axes.T @ inverse).T
+    pulled = back @ (apart / variances[likely])
+    alone = (back**2 / variances[likely]).sum(axis=1)
+    worst = int(places[(pulled**2 / alone).argmax()])
+    whole = float(drawn) + len(places) * log(1 - MISTAKES) + lost
+    return Fit(whole, fits, PENCILS[likely]), worst
+
+
+def scattered(answers: Any, key: Key) -> Any:
+    """How densely mistakes lie, as a logarithm: half of them within a factor of two."""
+    import numpy as np
+
+    sizes = np.maximum(abs(answers), 1e-12 + 1e-6 * abs(key.sizes))
+    apart = np.log(sizes / np.maximum(abs(key.sizes), 1e-12)) / HALF
+    size = -np.log(pi * HALF * sizes * (1 + apart**2))
+    away = (answers - key.sizes) / ASTRAY
+    return np.where(key.places, -np.log(pi * ASTRAY * (1 + away**2)), size)
+
+
+def told_odds(logarithm: float) -> float:
+    """Odds as they are reported: no surer than any model of hands and pencils is."""
+    return min(exp(min(logarithm, log(SURE))), SURE)

@@ -1,0 +1,211 @@
+"""The marks of one student: by the key, by what follows from own values, by slips with a share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+from math import hypot, isnan
+
+from graphkin.classroom.grading.construction_slips import constructions
+from graphkin.classroom.grading.field_slips import of_fields
+from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
+from graphkin.classroom.grading.form_relations import Following
+from graphkin.classroom.grading.graded import BLANK, Answer, EarnedMark, Graded, Status, Taker
+from graphkin.classroom.grading.slip_diagnosis import Found, diagnosed
+from graphkin.classroom.grading.slips import Slip
+from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.lab.asking import worth
+from graphkin.classroom.lab.lab_model import Item
+
+NONE = Fraction()
+SENSE = "_sense"
+
+
+class Marker:
+    """Marks answer sets against one variant; its slips are worked out once, when one is wrong."""
+
+    def __init__(self, standard: Standard) -> None:
+        self.standard = standard
+        self.known: tuple[Slip, ...] | None = None
+
+    @property
+    def slips(self) -> tuple[Slip, ...]:
+        """Every slip that changes a field."""
+        if self.known is None:
+            self.known = (*constructions(self.standard), *of_fields(self.standard))
+        return self.known
+
+    def mark(self, taker: Taker, answers: Mapping[str, Answer], present: bool = True) -> Graded:
+        """The mark of each field of a student's form."""
+        given = with_senses(self.standard, answers)
+        torn = {field for field in self.standard.key if is_torn(self.standard, field, given)}
+        read = [f for f in self.standard.key if given[f].is_read and f not in torn]
+        by_key = tuple(field for field in read if is_right(self.standard, field, given))
+        off = tuple(field for field in read if field not in by_key)
+        computed = rightly(self.standard, given, off, by_key)
+        right = (*by_key, *computed)
+        wrong = tuple(field for field in off if field not in computed)
+        followed = self.followed(given, wrong, right)
+        slipped = self.slipped(given, wrong, right, followed)
+        marks: dict[str, EarnedMark] = {}
+        paid: dict[str, str] = {}
+        for item in self.standard.items:
+            points = self.worth(item.field, taker.compute)
+            mark = self.first_mark(item, given[item.field], right, points)
+            if item.field in computed:
+                mark = replace(mark, source=computed[item.field].sources[0])
+            elif item.field in wrong:
+                mark = self.lesser(mark, followed.get(item.field), slipped, paid, taker.compute)
+            marks[item.field] = replace(mark, torn=item.field in torn)
+        return Graded(taker, tuple(marks.values()), present)
+
+    def followed(
+        self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
+    ) -> dict[str, Following]:
+        """For each wrong field that follows from own values, from which; nothing in a circle.
+
+        A sense follows only where the size of the same rate does, from the same values.
+        """
+        if not wrong or not self.standard.rubric.follow:
+            return {}
+        told = followings(self.standard, answers, wrong, right)
+        hits = [following for following in told if is_hit(self.standard, following, answers)]
+        sized = {(following.field, following.sources) for following in hits}
+        found: dict[str, Following] = {}
+        for following in hits:
+            field, sources = following.field, following.sources
+            rate = field.removesuffix(SENSE)
+            if rate != field and (rate, sources) not in sized:
+                continue
+            if field in wrong and field not in found and not is_circular(found, following):
+                found[field] = following
+        return found
+
+    def slipped(
+        self,
+        answers: Mapping[str, Answer],
+        wrong: tuple[str, ...],
+        right: tuple[str, ...],
+        followed: Mapping[str, Following],
+    ) -> dict[str, Found]:
+        """For each wrong field the slip that explains it."""
+        if not wrong:
+            return {}
+        sources = {field: each.sources for field, each in followed.items() if not each.drawn}
+        return diagnosed(self.standard, self.slips, answers, wrong, right, sources)
+
+    def worth(self, field: str, computed: tuple[str, ...]) -> Fraction:
+        """What a field is worth: a segment too short to be measured leaves its points to the value
+        that is computed."""
+        item = self.standard.by_field[field].item
+        return worth(item, self.standard.rubric.points, computed) or NONE
+
+    def first_mark(
+        self, item: Item, answer: Answer, right: tuple[str, ...], points: Fraction
+    ) -> EarnedMark:
+        """The mark by the key alone."""
+        status = Status.WRONG
+        if answer.is_blank:
+            status = Status.BLANK
+        elif not answer.is_read:
+            status = Status.UNREADABLE
+        elif item.field in right:
+            status = Status.RIGHT
+        allowed = self.standard.tolerance.get(item.field)
+        return EarnedMark(
+            item,
+            answer,
+            status,
+            points,
+            points if status is Status.RIGHT else NONE,
+            self.standard.key[item.field],
+            allowed.value if allowed is not None else 0.0,
+        )
+
+    def lesser(
+        self,
+        mark: EarnedMark,
+        follows: Following | None,
+        slipped: Mapping[str, Found],
+        paid: dict[str, str],
+        compute: tuple[str, ...],
+    ) -> EarnedMark:
+        """The share of a wrong answer: that of its slip, or of what follows, the larger.
+
+        A slip is paid for once, at the first field with points that it explains; whatever else it
+        explains follows from it. A slip for which the rubric has no share earns nothing. ``paid``
+        gathers the field at which each was paid for.
+        """
+        rubric, field = self.standard.rubric, mark.item.field
+        found = slipped.get(field)
+        name = found.slip.name if found is not None else ""
+        share, paid_at = rubric.slips.get(name, 0.0), paid.get(name, "")
+        if follows is not None and name and not paid_at and mark.points:
+            same = [f for f in follows.sources if f in slipped and slipped[f].slip.name == name]
+            if same and (share or not any(self.worth(f, compute) for f in same)):
+                follows = None
+        if share and paid_at:
+            share = max(share, rubric.follow)
+        if follows is not None and rubric.follow >= share:
+            earned = mark.points * Fraction(str(rubric.follow))
+            mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=follows.sources[0])
+        elif found is not None:
+            if mark.points:
+                paid.setdefault(name, field)
+            earned, source = mark.points * Fraction(str(share)), paid_at if share else ""
+            mark = replace(mark, status=Status.SLIP, earned=earned, source=source)
+        return mark if found is None else replace(mark, slip=name, odds=found.odds)
+
+
+def is_circular(found: Mapping[str, Following], following: Following) -> bool:
+    """Whether a value from which one would follow follows from that one itself."""
+    sources = list(following.sources)
+    for source in sources:
+        if source in found:
+            sources += [each for each in found[source].sources if each not in sources]
+    return following.field in sources
+
+
+def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, Answer]:
+    """An answer for each field; a sense that is left blank is told by the sign of its value."""
+    given = {item.field: answers.get(item.field, BLANK) for item in standard.items}
+    for field, answer in given.items():
+        value = given.get(field.removesuffix(SENSE), BLANK)
+        if field.endswith(SENSE) and answer.is_blank and value.signed and value.value:
+            sign = 1.0 if value.value > 0 else -1.0
+            given[field] = Answer("+" if sign > 0 else "-", sign, signed=True)
+    return given
+
+
+def is_torn(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:
+    """Whether a sense says the contrary of the sign that is written before its own value.
+
+    Nobody can tell which of the two is meant, so the sense earns nothing; the value counts by its
+    size. Where no drawing tells the sense, none is asked.
+    """
+    if not field.endswith(SENSE) or sense_is_open(standard, field):
+        return False
+    sense, value = answers[field].value, answers.get(field.removesuffix(SENSE), BLANK)
+    return bool(sense and value.signed and value.value and sense * value.value < 0)
+
+
+def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:
+    """Whether an answer is right by the key: a size within its tolerance, a sense as it is."""
+    item, right = standard.by_field[field].item, standard.key[field]
+    value = float(answers[field].value or 0.0)
+    if item.what == "sense":
+        return value == right or sense_is_open(standard, field)
+    allowed = standard.tolerance[field].value
+    if item.what == "place":
+        return abs(value - right) <= allowed or isnan(right)
+    return abs(abs(value) - abs(right)) <= allowed
+
+
+def sense_is_open(standard: Standard, field: str) -> bool:
+    """Whether no drawing tells a sense: the value is nought within what a pencil makes of it."""
+    sized = field.removesuffix(SENSE)
+    if sized not in standard.tolerance:
+        return standard.key[field] == 0
+    allowed = standard.tolerance[sized]
+    return abs(standard.key[sized]) <= max(allowed.value, hypot(allowed.pencil, allowed.ruler))

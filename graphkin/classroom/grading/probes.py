@@ -1,0 +1,147 @@
+"""How a field of the form is read off a construction: a length, a rate, a sense, a coordinate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.accuracy.pencil.pencil_marks import Paper
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.construction.core.program import Plane, Program, Target
+from graphkin.mechanism import Mechanism, point_of
+from graphkin.numbers.plane import Ratio
+from graphkin.text.errors import Problem, SceneError
+
+VECTORS = {"velocity": Plane.VELOCITIES, "acceleration": Plane.ACCELERATIONS}
+ARROW = "arrow"
+"""The quantity of a field that is an arrow of a plan, known by its symbol."""
+RATES = {"omega": Plane.VELOCITIES, "epsilon": Plane.ACCELERATIONS}
+SLIDES = ("slide", "slide speed", "slide acceleration")
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """Reads one field: ``steps`` are the tail and tip of a vector, or the one step of a number.
+
+    A place is read from the first fixed pivot, ``steps`` being that and its own. ``plane`` is the
+    drawing whose scale turns a length into millimetres.
+    """
+
+    item: Item
+    steps: tuple[int, ...]
+    plane: Plane
+    vector: bool = False
+
+    @property
+    def step(self) -> int:
+        """The step that carries the value."""
+        return self.steps[-1]
+
+    def read(self, found: Mapping[int, Any], paper: Paper) -> Any:
+        """The value in the field's unit; the size of a vector, the rest with its sign.
+
+        An array where the construction holds arrays; nothing found gives NaN.
+        """
+        if any(step not in found for step in self.steps):
+            return float("nan")
+        mm = paper.millimetre(self.plane)
+        if self.item.what == "place":
+            way = (placed(found[self.steps[1]]) - found[self.steps[0]]) / mm
+            return way.imag if self.item.field.endswith("_y_mm") else way.real
+        size = found[self.step]
+        size = abs(size - found[self.steps[0]]) if self.vector else size
+        return size / mm if self.item.what == "segment" else size
+
+    def error(self, found: Mapping[int, Any], paper: Paper, exact: Any) -> Any:
+        """How far the value lies from the exact one in some drawings; a size has no sign."""
+        read = self.read(found, paper)
+        return read - exact if self.item.what == "place" else abs(read) - abs(exact)
+
+
+def placed(value: Any) -> Any:
+    """A centre as a point; not a number where it is at infinity."""
+    if not isinstance(value, Ratio):
+        return value
+    if not hasattr(value.size, "shape") and value.size == 0:
+        return complex("nan")
+    return value.start + value.shift / value.size
+
+
+def probes(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Probe, ...]:
+    """The probe of each item. Raises SceneError for all that the construction does not give."""
+    found: list[Probe] = []
+    problems: list[Problem] = []
+    for item in items:
+        probe = probe_of(mechanism, item)
+        if probe is None:
+            hint = "graphkin solve shows what the construction has"
+            problems.append(Problem(f"marks.{item.field}", "is not constructed", "", hint))
+        else:
+            found.append(probe)
+    if problems:
+        raise SceneError(problems)
+    return tuple(found)
+
+
+def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
+    """The probe of one item; None where the construction does not give it."""
+    program = mechanism.program
+    if item.what == "place":
+        number = program.targets.get((item.quantity, item.of))
+        pivot = program.targets[("position", mechanism.scene.frame.points[0])]
+        return None if number is None else Probe(item, (pivot, number), Plane.MECHANISM)
+    plane = plane_of(item)
+    if plane is not None:
+        ends = vector_ends(mechanism, item)
+        return None if ends is None else Probe(item, ends, plane, vector=True)
+    number = program.targets.get((item.quantity, item.of))
+    planes = RATES | {"slide": Plane.MECHANISM, "slide speed": Plane.VELOCITIES}
+    way = planes.get(item.quantity, Plane.ACCELERATIONS)
+    return None if number is None else Probe(item, (number,), way)
+
+
+def plane_of(item: Item) -> Plane | None:
+    """The plan in which a field's vector lies; None where it is no vector."""
+    if item.quantity == ARROW:
+        return Plane.VELOCITIES if item.field.startswith("v") else Plane.ACCELERATIONS
+    return VECTORS.get(item.quantity)
+
+
+def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, int] | None:
+    """Tail and tip of a vector: of a point's own from the pole, else of the arrow of its symbol."""
+    program = mechanism.program
+    if item.quantity == ARROW:
+        return arrow_ends(program, item.of)
+    target = (item.quantity, point_of(mechanism.scene, item.of))
+    if target not in program.targets:
+        return None
+    steps = enumerate(program.steps)
+    pole = next(n for n, step in steps if is_pole(step, VECTORS[item.quantity]))
+    return pole, program.targets[target]
+
+
+def is_pole(step: Any, plane: Plane) -> bool:
+    """Whether a step is the pole of a plan."""
+    return step.action is not None and step.action.key == "pole" and step.plane is plane
+
+
+def arrow_ends(program: Program, symbol: str) -> tuple[int, int] | None:
+    """The ends of the arrow of a symbol."""
+    for step in program.steps:
+        plans = step.arrow and step.plane in VECTORS.values()
+        if plans and step.says.get("symbol") == symbol:
+            return step.args[0], step.args[1]
+    return None
+
+
+def targets_of(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Target, ...]:
+    """What a construction must hold for its items to be read: all that is asked, and theirs."""
+    wanted = dict.fromkeys(mechanism.asked())
+    program = mechanism.program
+    at_step = {number: target for target, number in program.targets.items()}
+    for probe in probes(mechanism, items):
+        for step in probe.steps:
+            if step in at_step:
+                wanted[at_step[step]] = None
+    return tuple(wanted)

@@ -1,0 +1,300 @@
+"""How fair variants are to their students: a class as one batch, at the scales of its sheets.
+
+A variant is fair that closes, fits its page, and asks of the hand no crossing flatter, no segment
+shorter and no right triangle narrower or longer than the lab allows. A centre or pole that its
+sheet does not hold, or whose rays cross flatter than that, spoils nothing else: it is computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from itertools import product
+from typing import Any
+
+from graphkin.classroom.lab.demands import (
+    crossing_angles,
+    ray_angles,
+    segment_lengths,
+    triangle_ratios,
+)
+from graphkin.classroom.lab.drawing_extents import PLANES, VariantSheet, sketches
+from graphkin.classroom.lab.held_centres import held
+from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.lab_model import Fair, Item, Lab
+from graphkin.classroom.lab.rules import Settings
+from graphkin.classroom.lab.variant_scales import Loader, Scaling, scaling, taken
+from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_scene
+
+Array = Any
+BLOCK = 4096
+"""Variants judged at once, so that memory stays small."""
+WORDS = {
+    "closes": "does not close",
+    "page": "does not fit the page",
+    "crossing": "crosses flatter than the limit",
+    "segment": "is shorter than the limit",
+    "triangle": "has a right triangle outside its limits",
+}
+"""The limits by name, in words."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A limit that a variant does not keep: which, where, its value and the bound, in its unit."""
+
+    limit: str
+    where: str = ""
+    value: float = float("nan")
+    bound: float = float("nan")
+
+    def __str__(self) -> str:
+        """Read as ``segment a_D 0.4 mm, at least 3``."""
+        match self.limit:
+            case "crossing":
+                return f"crossing {self.where} {self.value:.1f}°, at least {self.bound:g}°"
+            case "segment":
+                return f"segment {self.where} {self.value:.1f} mm, at least {self.bound:g} mm"
+            case "triangle":
+                side = "at least" if self.value < self.bound else "at most"
+                return f"triangle {self.where} v/l {self.value:.3g}, {side} {self.bound:g}"
+        return WORDS[self.limit]
+
+
+@dataclass
+class Fairness:
+    """What the drawings of many variants demand of a hand, an array for each thing drawn.
+
+    ``form`` names the fields; ``crossings`` are in degrees by the letter of the point, ``lengths``
+    in mm and ``rays`` in degrees by the field, ``triangles`` as v/l by the relative velocity,
+    ``on_page`` for fields of places; ``kL`` is the sheets' own scale, NaN where nothing fits.
+    """
+
+    limits: Fair
+    form: tuple[str, ...]
+    closes: Array
+    fits: Array
+    kL: Array  # noqa: N815
+    crossings: dict[str, Array] = field(default_factory=dict)
+    lengths: dict[str, Array] = field(default_factory=dict)
+    triangles: dict[str, Array] = field(default_factory=dict)
+    rays: dict[str, Array] = field(default_factory=dict)
+    on_page: dict[str, Array] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        """How many variants there are."""
+        return len(self.closes)
+
+    @cached_property
+    def flattest(self) -> Array:
+        """The smallest angle of a crossing in degrees, 90 where nothing crosses; rays to centres
+        and poles are told by themselves.
+        """
+        return least_of(self.crossings, len(self), 90.0)
+
+    @cached_property
+    def flattest_rays(self) -> Array:
+        """The smallest angle in degrees of rays to a centre or pole; infinite where none is."""
+        return least_of(self.rays, len(self), float("inf"))
+
+    @cached_property
+    def shortest(self) -> Array:
+        """The shortest segment to be measured in mm; infinite where none is."""
+        return least_of(self.lengths, len(self), float("inf"))
+
+    @cached_property
+    def fair(self) -> Array:
+        """Which variants keep all limits."""
+        import numpy as np
+
+        low, high = self.limits.triangle
+        good = self.closes & self.fits
+        good &= (self.flattest >= self.limits.crossing) & (self.shortest >= self.limits.segment)
+        for ratio in self.triangles.values():
+            good &= np.isfinite(ratio) & (ratio >= low) & (ratio <= high)
+        return good
+
+    def faults(self, index: int) -> tuple[Fault, ...]:
+        """The limits that one variant does not keep, each thing drawn by itself."""
+        return () if self.fair[index] else tuple(self.all_faults(index))
+
+    def all_faults(self, index: int) -> Iterator[Fault]:
+        """As faults; what does not close or fit has no other."""
+        if not self.closes[index]:
+            yield Fault("closes")
+            return
+        if not self.fits[index]:
+            yield Fault("page")
+            return
+        limits = self.limits
+        for name, angles in self.crossings.items():
+            if not angles[index] >= limits.crossing:
+                yield Fault("crossing", name, float(angles[index]), limits.crossing)
+        for name, lengths in self.lengths.items():
+            if not lengths[index] >= limits.segment:
+                yield Fault("segment", name, float(lengths[index]), limits.segment)
+        low, high = limits.triangle
+        for name, ratios in self.triangles.items():
+            if not low <= ratios[index] <= high:
+                bound = low if ratios[index] < low else high
+                yield Fault("triangle", name, float(ratios[index]), bound)
+
+    def computed(self, index: int) -> tuple[str, ...]:
+        """The fields that one variant cannot measure, and so computes."""
+        if not (self.closes[index] and self.fits[index]):
+            return ()
+        small = [n for n, mm in self.lengths.items() if not mm[index] >= self.limits.segment]
+        flat = [n for n, angle in self.rays.items() if not angle[index] >= self.limits.crossing]
+        off = [name for name, on in self.on_page.items() if not on[index]]
+        wanting = {*small, *(name.removesuffix("_mm") for name in small), *flat, *off}
+        return tuple(name for name in self.form if name in wanting)
+
+
+def judged(mechanism: Mechanism, lab: Lab, many: Sequence[Settings]) -> Fairness:
+    """The fairness of variants by their exact data, within what the scene allows."""
+    import numpy as np
+
+    form = items(mechanism, lab)
+    names = dict.fromkeys(name for settings in many for name in settings)
+    parts = []
+    for start in range(0, max(len(many), 1), BLOCK):
+        block = many[start : start + BLOCK]
+        given = {n: np.array([float(settings[n]) for settings in block]) for n in names}
+        values = {**mechanism.scene.values, **given}
+        load = loader(lab, block)
+        parts.append(judged_block(mechanism, lab.fair, form, values, len(block), load))
+    return parts[0] if len(parts) == 1 else joined(parts)
+
+
+def loader(lab: Lab, many: Sequence[Settings]) -> Loader:
+    """What makes the mechanism of one of many variants from its exact data."""
+
+    def load(index: int) -> Mechanism:
+        return Mechanism(read_scene(lab.scene, many[index]))
+
+    return load
+
+
+def judged_block(
+    mechanism: Mechanism,
+    limits: Fair,
+    form: Sequence[Item],
+    values: Mapping[str, Any],
+    count: int,
+    load: Loader,
+) -> Fairness:
+    """The fairness of as many variants as go into one block."""
+    import numpy as np
+
+    closes = closing(mechanism, values, count)
+    scales = scaling(mechanism, values, count, load, closes)
+    names = tuple(item.field for item in form)
+    found = Fairness(limits, names, closes, np.isfinite(scales.kL), scales.kL)
+    for triangles, apart in product((True, False), repeat=2):
+        alike = (scales.triangles == triangles) & ((scales.apart > 0) == apart)
+        which = np.flatnonzero(closes & found.fits & alike)
+        if len(which):
+            drawn = drawn_at(mechanism, taken(values, which), scales.taken(which))
+            put_drawn(found, drawn, form, scales.taken(which), which)
+    return found
+
+
+def drawn_at(
+    mechanism: Mechanism, values: Mapping[str, Any], scales: Scaling
+) -> list[VariantSheet]:
+    """The sheets of variants that draw the same steps, each at its own scales."""
+    return sketches(
+        mechanism,
+        values,
+        {kind: scales.pace(kind) for kind in PLANES},
+        triangles=bool(scales.triangles[0]),
+        apart=bool(scales.apart[0] > 0),
+        rates=scales.rates,
+        margins=True,
+    )
+
+
+def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
+    """Which variants can be constructed: all that is asked is finite, no crossing is singular."""
+    import numpy as np
+
+    given = {name: value for name, value in values.items() if hasattr(value, "shape")}
+    asked = mechanism.run_many(given, asked=True, kind="float64")
+    motions: list[PointMotion | LinkMotion | SlideMotion] = [*asked.points.values()]
+    motions += [*asked.links.values(), *asked.slides.values()]
+    sound = np.broadcast_to(np.asarray(asked.margin) >= FAIR, count).copy()
+    for motion in motions:
+        for part in fields(motion):
+            value = getattr(motion, part.name)
+            if value is not None and not isinstance(value, tuple):
+                sound &= np.isfinite(value)
+    return sound
+
+
+def put_drawn(
+    found: Fairness,
+    drawn: Sequence[VariantSheet],
+    form: Sequence[Item],
+    scales: Scaling,
+    which: Array,
+) -> None:
+    """What is drawn on the sheets of some variants, put at their places."""
+    for sheet in drawn:
+        put(found.crossings, crossing_angles(sheet), which, len(found))
+        put(
+            found.lengths,
+            segment_lengths(sheet, form, scales.stands(sheet.kind)),
+            which,
+            len(found),
+        )
+        put(found.triangles, triangle_ratios(sheet), which, len(found))
+        put(found.rays, ray_angles(sheet, form), which, len(found))
+        put(found.on_page, held(sheet, form, scales.kL), which, len(found))
+
+
+def put(
+    room: dict[str, Array], found: Iterator[tuple[str, Array]], which: Array, size: int
+) -> None:
+    """Put arrays of some variants at their places; of two under one name the smaller stays."""
+    import numpy as np
+
+    for name, value in found:
+        empty = np.zeros(size, dtype=bool) if np.asarray(value).dtype == bool else None
+        array = room.setdefault(name, np.full(size, np.nan) if empty is None else empty)
+        array[which] = value if empty is not None else np.fmin(array[which], value)
+
+
+def least_of(room: Mapping[str, Array], size: int, default: float) -> Array:
+    """The least of several arrays for each variant; NaN, where something is not drawn, as none."""
+    import numpy as np
+
+    least = np.full(size, np.nan)
+    for array in room.values():
+        least = np.fmin(least, array)
+    return np.where(np.isnan(least), default, least)
+
+
+def joined(parts: Sequence[Fairness]) -> Fairness:
+    """Blocks of variants as one."""
+    import numpy as np
+
+    whole: dict[str, Any] = {"limits": parts[0].limits, "form": parts[0].form}
+    for name in ("closes", "fits", "kL"):
+        whole[name] = np.concatenate([getattr(part, name) for part in parts])
+    for name in ("crossings", "lengths", "triangles", "rays", "on_page"):
+        keys = dict.fromkeys(key for part in parts for key in getattr(part, name))
+        whole[name] = {
+            key: np.concatenate([row(part, name, key) for part in parts]) for key in keys
+        }
+    return Fairness(**whole)
+
+
+def row(part: Fairness, name: str, key: str) -> Array:
+    """One array of a block; NaN, or false, where the block has none of it."""
+    import numpy as np
+
+    empty = np.zeros(len(part), dtype=bool) if name == "on_page" else np.full(len(part), np.nan)
+    return getattr(part, name).get(key, empty)

@@ -1,0 +1,134 @@
+"""What is said of the fairness of variants: which limits are broken, by whom, and the spread."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+
+from graphkin.classroom.lab.fairness import WORDS, Fault
+from graphkin.classroom.lab.lab_model import Fair, Formula, Lab
+from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.text.plain_table import labelled, listed, table
+
+SHOWN = 6
+"""Names that are told of one limit."""
+SPREAD = ("", "least", "quarter", "half", "three quarters", "most")
+
+
+def trial_lines(trial: LabTrial) -> Iterator[str]:
+    """The whole report on a lab that was tried."""
+    lab, fairness = trial.lab, trial.fairness
+    count = len(trial.many)
+    yield from labelled("rule", [rule_words(lab)])
+    alike = f", {trial.different} of them different" if trial.different < count else ""
+    yield from labelled("tried", [f"{tried_words(trial)}{alike}"])
+    yield from labelled("limits", [limit_words(lab.fair)])
+    good = count - trial.unfair
+    yield from labelled("fair", [f"{good} of {count} variants"])
+    faults = [fairness.faults(i) for i in range(count)]
+    named = list(zip(trial.names, faults, strict=True))
+    who = "number" if isinstance(lab.rule, Formula) else "id"
+    yield from labelled("unfair", list(broken_lines(named, who)))
+    computed = [(name, fairness.computed(i)) for i, name in enumerate(trial.names)]
+    yield from labelled("compute", list(computed_lines(computed, who)))
+    drawn = fairness.closes & fairness.fits
+    spread = spread_lines(
+        fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
+    )
+    yield from labelled("spread", spread)
+    yield from labelled("marks", list(mark_lines(trial)))
+
+
+def rule_words(lab: Lab) -> str:
+    """The rule in words."""
+    rule = lab.rule
+    if isinstance(rule, Formula):
+        return ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
+    draws = (
+        f"{name} from {exact_text(r.least)} to {exact_text(r.most)} by {exact_text(r.step)}"
+        for name, r in rule.draws.items()
+    )
+    return f"{', '.join(draws)}, drawn for {rule.course}"
+
+
+def tried_words(trial: LabTrial) -> str:
+    """On whom a lab was tried."""
+    if isinstance(trial.lab.rule, Formula):
+        return f"numbers 1 to {trial.names[-1]}"
+    return f"{len(trial.names)} drawn variants"
+
+
+def limit_words(fair: Fair) -> str:
+    """The limits in words."""
+    low, high = fair.triangle
+    return (
+        f"crossings at least {fair.crossing:g}°, segments at least {fair.segment:g} mm, "
+        f"right triangles v/l from {low:g} to {high:g}"
+    )
+
+
+def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") -> Iterator[str]:
+    """For each limit that is broken somewhere: where, how often, by whom, and the worst."""
+    found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
+    for name, faults in named:
+        for fault in faults:
+            found.setdefault((fault.limit, fault.where), []).append((name, fault))
+    rows = []
+    for (limit, where), broken in found.items():
+        worst = max(broken, key=lambda one: abs(one[1].value - one[1].bound))
+        names = [name for name, _ in broken]
+        what = f"{limit} {where}".strip() if where else WORDS[limit]
+        rows.append((what, str(len(names)), f"{who} {some(names)}".strip(), worst_words(worst)))
+    yield from table(("limit", "times", "whose", "worst"), rows) if rows else ["none"]
+
+
+def worst_words(worst: tuple[str, Fault]) -> str:
+    """The value farthest from its bound, with the bound."""
+    fault = worst[1]
+    unit = {"crossing": "°", "segment": " mm", "triangle": ""}.get(fault.limit)
+    return "" if unit is None else f"{fault.value:.3g}{unit} against {fault.bound:g}{unit}"
+
+
+def computed_lines(computed: Iterable[tuple[str, Sequence[str]]], who: str) -> Iterator[str]:
+    """The fields that are computed for want of something to measure, and by whom."""
+    found: dict[str, list[str]] = {}
+    for name, fields in computed:
+        for field in fields:
+            found.setdefault(field, []).append(name)
+    rows = [(field, str(len(names)), f"{who} {some(names)}") for field, names in found.items()]
+    yield from table(("field", "times", "whose"), rows) if rows else ["none"]
+
+
+def some(names: Sequence[str]) -> str:
+    """The first of many names."""
+    return ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
+
+
+def spread_lines(
+    flattest: Sequence[float], shortest: Sequence[float], rays: Sequence[float]
+) -> list[str]:
+    """How much the difficulty differs from variant to variant; crossings on which answers hang,
+    and those of the rays to centres and poles, which cross flatter and spoil nothing else.
+    """
+    rows = [
+        (words, *(f"{value:.1f}" for value in found))
+        for words, values in (
+            ("flattest crossing, °", flattest),
+            ("flattest rays to a centre or pole, °", rays),
+            ("shortest segment, mm", shortest),
+        )
+        if (found := quantiles(values))
+    ]
+    return table(SPREAD, rows) if rows else ["nothing is drawn"]
+
+
+def mark_lines(trial: LabTrial) -> Iterator[str]:
+    """The points in all, what earns none, and what no sheet draws."""
+    points = trial.lab.rubric.points
+    total = exact_text(sum(points.values(), Fraction(0)))
+    yield f"{total} points for {len(points)} fields"
+    if trial.unmarked:
+        yield f"asked, and earns none: {listed(trial.unmarked, 12)}"
+    if trial.unasked:
+        yield f"earns marks, and is drawn on no sheet: {listed(trial.unasked, 12)}"

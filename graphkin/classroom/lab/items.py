@@ -1,0 +1,178 @@
+"""The fields of a lab's form: what a student reads off the drawing, reckons, and says the sense of.
+
+Every field of a scene has a name in plain letters, by which files and rubrics call it: v_D_mm is
+the segment that is measured in the plan, v_D the velocity in m/s, omega_3 in rad/s, omega_3_sense
+a sense, J_3_x_mm a place on paper from the first fixed pivot, to the right and up. The components
+ν, τ and c are written nu, tau and cor.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+
+from graphkin.classroom.lab.lab_model import Item, Lab
+from graphkin.construction.core.program import Plane, Program
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism, point_of
+
+VECTORS = {"velocity": ("v", "m/s"), "acceleration": ("a", "m/s²")}
+RATES = {"omega": ("ω", "rad/s"), "epsilon": ("ε", "rad/s²")}
+SLIDES = {"slide speed": ("v", "m/s"), "slide acceleration": ("a", "m/s²")}
+PLACES = {"centre": "I", "pole": "J", "inflection": "W"}
+"""Quantities of places, and the letter that the sheets give them."""
+GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
+ARROW = "arrow"
+"""The quantity of a field that is an arrow of a plan, known by its symbol (Item.of)."""
+UNITS = {Plane.VELOCITIES: "m/s", Plane.ACCELERATIONS: "m/s²"}
+ARROW_SYMBOL = re.compile(r"([av])_([^¹²]+?)(?:\^([^¹²]))?")
+"""The symbols that vectors of the plans bear: v_BA, a_BA^ν."""
+
+
+def items(mechanism: Mechanism, lab: Lab) -> tuple[Item, ...]:
+    """The fields of a lab's form: what the scene asks, then what the rubric names beside it."""
+    asked = asked_fields(mechanism)
+    more = {name: item for name, item in all_fields(mechanism).items() if name not in asked}
+    return (*asked.values(), *(more[name] for name in more if name in lab.rubric.points))
+
+
+def asked_fields(mechanism: Mechanism) -> dict[str, Item]:
+    """The fields that the scene asks for, in the order of its [ask]."""
+    return named(asked(mechanism))
+
+
+def all_fields(mechanism: Mechanism) -> dict[str, Item]:
+    """Every field that a rubric may name: what is asked, all motions, and each arrow of a plan."""
+    return named([*asked(mechanism), *moving(mechanism), *arrows(mechanism.program)])
+
+
+def named(found: Iterable[Item]) -> dict[str, Item]:
+    """Items by their fields; the same field twice is one, another of the same name gets a tail."""
+    fields: dict[str, Item] = {}
+    for item in found:
+        name, tail = item.field, 1
+        while name in fields and (fields[name].quantity, fields[name].of) != meant(item):
+            if item.quantity == ARROW:
+                break  # the arrow of a vector that is there already
+            tail += 1
+            name = f"{item.field}_{tail}"
+        fields.setdefault(name, replace(item, field=name))
+    return fields
+
+
+def meant(item: Item) -> tuple[str, str]:
+    """What an item is of."""
+    return item.quantity, item.of
+
+
+def asked(mechanism: Mechanism) -> Iterator[Item]:
+    """The items that the scene asks for; everything that it can ask where it asks nothing."""
+    ask, scene = mechanism.scene.ask, mechanism.scene
+    nothing = not any(ask)
+    for quantity in VECTORS:
+        points = [point_of(scene, name) for name in getattr(ask, quantity)]
+        for point in moving_points(mechanism) if nothing else points:
+            yield from vector_items(quantity, point)
+    for quantity in RATES:
+        for link in scene.links if nothing else getattr(ask, quantity):
+            yield from rate_items(quantity, link)
+    for block in ask.slides:
+        yield from slide_items(block, scene.links[block].slides[0].on)
+    centres = (*ask.centres, *ask.pairs)
+    for quantity, links in zip(PLACES, (centres, ask.poles, ask.inflection), strict=True):
+        for link in links:
+            if mechanism.gives((quantity, link)):
+                yield from place_items(quantity, link)
+
+
+def moving(mechanism: Mechanism) -> Iterator[Item]:
+    """The motions of every point and link of a scene."""
+    for quantity in VECTORS:
+        for point in moving_points(mechanism):
+            if mechanism.gives((quantity, point)):
+                yield from vector_items(quantity, point)
+    for quantity in RATES:
+        for link in mechanism.scene.links:
+            if mechanism.gives((quantity, link)):
+                yield from rate_items(quantity, link)
+
+
+def moving_points(mechanism: Mechanism) -> list[str]:
+    """The points that move, as the scene names them."""
+    links = mechanism.scene.links.values()
+    fixed = mechanism.scene.frame.points
+    return list(dict.fromkeys(p for link in links for p in link.points if p not in fixed))
+
+
+def arrows(program: Program) -> Iterator[Item]:
+    """The vectors of the plans, components too, by their symbols."""
+    for step in program.steps:
+        sign = step.says.get("symbol", "")
+        found = ARROW_SYMBOL.fullmatch(sign)
+        if step.arrow and step.plane in UNITS and found:
+            letter, index, kind = found.groups()
+            tail = f"_{GREEK.get(kind, plain(kind))}" if kind else ""
+            name = f"{letter}_{plain(index)}{tail}"
+            yield Item(f"{name}_mm", "segment", symbol(sign), "mm", ARROW, sign)
+            yield Item(name, "value", symbol(sign), UNITS[step.plane], ARROW, sign)
+
+
+def arrow_steps(program: Program) -> Mapping[str, int]:
+    """The number of the arrow that bears each symbol; the first where several do."""
+    found: dict[str, int] = {}
+    for number, step in enumerate(program.steps):
+        if step.arrow and step.plane in UNITS and "symbol" in step.says:
+            found.setdefault(step.says["symbol"], number)
+    return found
+
+
+def vector_items(quantity: str, point: str) -> Iterator[Item]:
+    """The segment of a vector in its plan, and its true size."""
+    letter, unit = VECTORS[quantity]
+    name, sign = f"{letter}_{plain(point)}", symbol(f"{letter}_{lettered(point)}")
+    yield Item(f"{name}_mm", "segment", sign, "mm", quantity, point)
+    yield Item(name, "value", sign, unit, quantity, point)
+
+
+def rate_items(quantity: str, link: str) -> Iterator[Item]:
+    """An angular velocity or acceleration, and its sense."""
+    letter, unit = RATES[quantity]
+    name = f"{quantity}_{plain(link)}"
+    yield from with_sense(name, symbol(f"{letter}_{link}"), unit, quantity, link)
+
+
+def slide_items(block: str, guide: str) -> Iterator[Item]:
+    """The speed and the acceleration of a block along its guide, each with its sense."""
+    for quantity, (letter, unit) in SLIDES.items():
+        sign = f"*{letter}*_{{{escape(block)}/{escape(guide)}}}"
+        yield from with_sense(f"{letter}_slide_{plain(block)}", sign, unit, quantity, block)
+
+
+def with_sense(name: str, sign: str, unit: str, quantity: str, of: str) -> Iterator[Item]:
+    """A magnitude and its sense."""
+    yield Item(name, "value", sign, unit, quantity, of)
+    yield Item(f"{name}_sense", "sense", sign, "", quantity, of)
+
+
+def place_items(quantity: str, link: str) -> Iterator[Item]:
+    """The coordinates of a centre or a pole on paper, from the first fixed pivot."""
+    letter = PLACES[quantity]
+    for axis in ("x", "y"):
+        name = f"{letter}_{plain(link)}_{axis}_mm"
+        sign = f"*{axis}*({symbol(f'{letter}_{link}')})"
+        yield Item(name, "place", sign, "mm", quantity, link)
+
+
+def plain(name: str) -> str:
+    """A name as part of a field: A@3 is A3 where the two cannot be mistaken, else A_3."""
+    joined = lettered(name)
+    return re.sub(r"\W+", "_", joined, flags=re.ASCII).strip("_") or "x"
+
+
+def lettered(point: str) -> str:
+    """The letters of a point on the drawing: A3 for A@3, the point of link 3 under A."""
+    name, _, link = point.partition("@")
+    apart = "," if link and not (link.isdigit() and name[-1:].isalpha()) else ""
+    return name + apart + link

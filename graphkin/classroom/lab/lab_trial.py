@@ -1,0 +1,102 @@
+"""A lab tried on a thousand variants: how many are fair, what spoils the others, the spread."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from graphkin.classroom.lab.fairness import Fairness, judged
+from graphkin.classroom.lab.items import asked_fields, items
+from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
+from graphkin.classroom.lab.rules import Settings, outside, settings
+from graphkin.classroom.roster.student import Student
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_scene
+from graphkin.text.errors import Problem, SceneError
+
+TRIED = 1000
+"""Variants that are tried."""
+SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
+"""The quantiles by which a spread is told."""
+
+
+@dataclass(frozen=True)
+class LabTrial:
+    """A lab with the variants on which it was tried: who they are, their data, how fair they are.
+
+    ``names`` are numbers of students, or ids. ``unasked`` are fields of the rubric that no sheet
+    draws, ``unmarked`` fields that are asked and earn nothing.
+    """
+
+    lab: Lab
+    names: tuple[str, ...]
+    many: tuple[Settings, ...]
+    fairness: Fairness
+    unasked: tuple[str, ...] = ()
+    unmarked: tuple[str, ...] = ()
+
+    @property
+    def unfair(self) -> int:
+        """How many variants break a limit."""
+        return int((~self.fairness.fair).sum())
+
+    @property
+    def spoilt(self) -> bool:
+        """Whether students would get unfair data: some by a formula, all that ranges can give."""
+        ranges = isinstance(self.lab.rule, Ranges)
+        return bool(self.unasked) or (self.unfair == len(self.many) if ranges else self.unfair > 0)
+
+    @property
+    def different(self) -> int:
+        """How many of the variants differ."""
+        return len({tuple(sorted(given.items())) for given in self.many})
+
+
+def tried(lab: Lab, count: int = TRIED) -> LabTrial:
+    """A lab tried on the numbers from 1 that its scene allows, or on as many drawn variants.
+
+    Raises SceneError where the formula suits no number.
+    """
+    mechanism = Mechanism(read_scene(lab.scene))
+    rule = lab.rule
+    if isinstance(rule, Formula):
+        found = list(by_numbers(lab, mechanism, count))
+    else:
+        ids = [f"{i:04d}" for i in range(1, count + 1)]
+        found = [(name, settings(lab, Student(i, name))) for i, name in enumerate(ids, 1)]
+    names, many = zip(*found, strict=True)
+    fairness = judged(mechanism, lab, many)
+    form = items(mechanism, lab)
+    drawn = {*fairness.lengths, *fairness.rays, *fairness.on_page}
+    unasked = [item.field for item in form if item.what == "segment" and item.field not in drawn]
+    unmarked = [name for name in asked_fields(mechanism) if name not in lab.rubric.points]
+    sound = bool(fairness.fits.any())
+    return LabTrial(lab, names, many, fairness, tuple(unasked if sound else ()), tuple(unmarked))
+
+
+def by_numbers(lab: Lab, mechanism: Mechanism, count: int) -> Iterable[tuple[str, Settings]]:
+    """The numbers from 1 up to the last that the scene allows, with their data."""
+    problems: list[Problem] = []
+    for number in range(1, count + 1):
+        try:
+            given = settings(lab, Student(number, str(number), number))
+            problems = outside(mechanism.scene.parameters, given)
+        except SceneError as error:
+            problems = list(error.problems)
+        if problems and number == 1:
+            place = "lab.toml: variants.set"
+            raise SceneError(
+                Problem(place, f"number 1 gives {p.found}", p.expected) for p in problems
+            )
+        if problems:
+            return
+        yield str(number), given
+
+
+def quantiles(values: Sequence[float]) -> list[float]:
+    """The least, the quartiles and the most of some values that are finite."""
+    import numpy as np
+
+    finite = np.asarray(values, dtype=float)
+    finite = finite[np.isfinite(finite)]
+    return [float(q) for q in np.quantile(finite, SHARES)] if len(finite) else []

@@ -1,0 +1,27 @@
+"""A lab to start from: a folder whose scene and rule are sound, with a word beside each key."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from graphkin.text.errors import Problem, SceneError
+from graphkin.writers.files import RESERVED, write_all
+
+START = Path(__file__).parent / "start"
+FILES = ("scene.toml", "lab.toml")
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
+
+
+def new_lab(name: str, folder: Path, *, force: bool = False) -> list[Path]:
+    """Make the folder of a new lab within another, and tell which files it has.
+
+    Raises SceneError for a name that makes no folder everywhere, PageError for files in the way.
+    """
+    if not NAME.fullmatch(name) or name.upper() in RESERVED:
+        expected = "letters, digits, - and _, at most 60, such as crank-lab"
+        hint = "-o DIR says in which folder it is made"
+        raise SceneError(Problem(f'"{name}"', "is no name for a lab", expected, hint))
+    texts = {file: (START / file).read_text(encoding="utf-8") for file in FILES}
+    files = {file: text.replace("NAME", name).encode("utf-8") for file, text in texts.items()}
+    return write_all(folder / name, files, force)

@@ -1,0 +1,288 @@
+"""A lab from its folder: scene.toml and lab.toml, with every mistake in the latter told at once."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from fractions import Fraction
+from pathlib import Path
+
+from graphkin.classroom.lab.items import all_fields
+from graphkin.classroom.lab.lab_model import NUMBER, Fair, Formula, Lab, Range, Ranges, Rubric
+from graphkin.classroom.lab.slip_names import NAMES as SLIPS
+from graphkin.mechanism import Mechanism
+from graphkin.scene import scene_files
+from graphkin.scene.expression import UnreadableError
+from graphkin.scene.file_limits import decoded, read_bytes, tables_of
+from graphkin.scene.findings import Findings, Table, listed, nearest, shown
+from graphkin.scene.measures import quantity
+from graphkin.scene.model import Parameter, Scene
+from graphkin.scene.parameters import optional, out_of_range, plain, rational
+from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.read_scene import check_version, read_scene
+from graphkin.text.errors import Problem, SceneError
+
+LAB, SCENE = scene_files.LAB, "scene.toml"
+USUAL, LIMITS = Rubric(), Fair()
+MOST_TRIES = 10_000
+MOST_VALUES = 10**9
+"""Values of a range."""
+
+
+def read_lab(name: str | Path, called: str = "") -> Lab:
+    """The lab of a shipped lab's name, a folder with lab.toml, or that file itself.
+
+    It is named after its folder unless ``called`` says how, as for the copy beside a class. Raises
+    SceneError with every problem of lab.toml, and those of its scene before them.
+    """
+    folder = find(name)
+    scene = read_scene_of(folder)
+    try:
+        text = decoded(read_bytes(folder / LAB))
+        return lab_of(text, folder, scene, called or folder.absolute().name)
+    except SceneError as error:
+        places = (placed(problem) for problem in error.problems)
+        raise SceneError(places) from error
+
+
+def read_scene_of(folder: Path) -> Mechanism:
+    """The mechanism of a lab's scene, whose mistakes name its file."""
+    try:
+        return Mechanism(read_scene(folder / SCENE))
+    except SceneError as error:
+        raise SceneError(placed(problem, SCENE) for problem in error.problems) from error
+
+
+def find(name: str | Path) -> Path:
+    """The folder of a lab. Raises SceneError, with the nearest name, where there is none."""
+    folder = scene_files.folder(name)
+    if folder is not None:
+        return folder
+    path, known = Path(name), with_rules()
+    if path.exists():
+        beside = path if path.is_dir() else path.parent
+        found = f"is a scene without {LAB}" if (beside / "scene.toml").is_file() else "is no lab"
+        hint = "graphkin new lab NAME makes a lab to start from"
+        raise SceneError(Problem(str(name), found, f"a folder with scene.toml and {LAB}", hint))
+    near = get_close_matches(str(name), known, n=1)
+    hint = f"did you mean {near[0]}?" if near else ""
+    expected = f"a folder with scene.toml and {LAB}, or one of {', '.join(known)}"
+    raise SceneError(Problem(str(name), "is neither a folder nor a shipped lab", expected, hint))
+
+
+def with_rules() -> list[str]:
+    """The shipped labs that have a lab.toml."""
+    return [name for name in scene_files.names() if (scene_files.shelf() / name / LAB).is_file()]
+
+
+def placed(problem: Problem, file: str = LAB) -> Problem:
+    """A problem with its file before its place."""
+    place = f"{file}: {problem.place}" if problem.place else file
+    return Problem(place, problem.found, problem.expected, problem.hint)
+
+
+def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
+    """The lab that a text states beside a scene; SceneError with every problem found."""
+    findings = Findings()
+    top = Table("", tables_of(text), findings)
+    if not top.raw:
+        raise SceneError(Problem("", "the file is empty", "graphkin = 1, then [variants]"))
+    check_version(top, findings)
+    rule = read_rule(top.table("variants"), mechanism.scene)
+    fair = read_fair(top.table("fair"))
+    rubric = read_rubric(top.table("marks"), top.table("marking"), mechanism)
+    top.finish()
+    findings.stop()
+    assert rule is not None
+    return Lab(name, folder, folder / "scene.toml", rule, fair, rubric, text)
+
+
+def read_rule(table: Table, scene: Scene) -> Formula | Ranges | None:
+    """The rule that gives each student other data; None, with a problem noted, where it is none."""
+    both = "set = { … } with formulas of the number, or course = … and draw = { … } with ranges"
+    if "set" in table and "draw" in table:
+        table.findings.add(table.place, "set and draw", f"one of them: {both}")
+    elif "set" not in table and "draw" not in table:
+        table.findings.add(table.place, "no rule", both)
+    of_number = "draw" not in table
+    rule = read_formula(table, scene) if of_number else read_ranges(table, scene)
+    for key in ("course", "tries") if of_number else ():
+        if key in table:
+            table.take(key)
+            table.findings.add(table.at(key), "belongs to ranges", "draw = { … }, or leave it out")
+    table.known += ["set", "draw"]
+    table.finish()
+    return rule
+
+
+def read_formula(table: Table, scene: Scene) -> Formula:
+    """Each parameter as an expression in the student's number."""
+    inner = table.table("set")
+    settings: dict[str, Quantity] = {}
+    for name in known_parameters(inner, scene):
+        read = formula(inner.at(name), inner.raw[name], inner.findings)
+        if read is not None:
+            settings[name] = read
+    uses = any(NUMBER in read.uses() for read in settings.values())
+    if settings and not uses and not inner.findings.inside(inner.place):
+        found = f"no formula uses {NUMBER}, so all students get the same"
+        inner.findings.add(inner.place, found, f'such as n = "{NUMBER}"')
+    return Formula(settings)
+
+
+def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
+    """A number or an expression in the student's number; None, with a problem, for another."""
+    try:
+        read = quantity(raw, "", place)
+    except UnreadableError as error:
+        findings.add(place, error.found, f'an expression in quotes, such as "{NUMBER}"', error.hint)
+        return None
+    strangers = sorted(read.uses() - {NUMBER})
+    for name in strangers:
+        hint = f"did you mean {NUMBER}?"
+        findings.add(place, f"{shown(read.text)} uses {name}", f"only {NUMBER}", hint)
+    return None if strangers else read
+
+
+def read_ranges(table: Table, scene: Scene) -> Ranges:
+    """Each parameter from a range, and the course whose name goes into the hash."""
+    course = table.text("course").strip()
+    if not course and not table.findings.inside(table.at("course")):
+        expected = 'a text, such as course = "mechanics 2026", to draw anew each year'
+        table.findings.add(table.at("course"), "is missing", expected)
+    tries = whole(table, "tries", 100, 1, MOST_TRIES)
+    inner = table.table("draw")
+    draws: dict[str, Range] = {}
+    for name in known_parameters(inner, scene):
+        found = read_range(inner.table(name), scene.parameters[name])
+        if found is not None:
+            draws[name] = found
+    return Ranges(course, draws, tries)
+
+
+def known_parameters(table: Table, scene: Scene) -> list[str]:
+    """The keys that are parameters of the scene; the others are noted, and so is none at all."""
+    for name in table.raw:
+        if name not in scene.parameters:
+            expected = listed(scene.parameters) or "a parameter, and the scene has none"
+            table.findings.add(
+                table.at(name), "is no parameter", expected, nearest(name, scene.parameters)
+            )
+    if not table.raw and not table.findings.inside(table.place.partition(".")[0]):
+        table.findings.add(table.place, "sets no parameter", listed(scene.parameters))
+    return [name for name in table.raw if name in scene.parameters]
+
+
+def read_range(table: Table, parameter: Parameter) -> Range | None:
+    """From a least to a most in steps, within what the scene allows."""
+    ends = {key: optional(table, key) for key in ("min", "max", "step")}
+    missing = [key for key in ends if key not in table]
+    for key in missing:
+        table.findings.add(table.at(key), "is missing", "{ min = …, max = …, step = … }")
+    table.finish()
+    if any(end is None for end in ends.values()):
+        return None
+    least, most, step = (plain(end) for end in ends.values() if end is not None)
+    if step <= 0:
+        table.findings.add(table.at("step"), shortest(step), "a number above 0")
+    elif least > most:
+        table.findings.add(table.at("min"), f"{shortest(least)} is above max", "at most max")
+    elif (most - least) / step >= MOST_VALUES:
+        table.findings.add(table.at("step"), "makes too many values", f"at most {MOST_VALUES}")
+    else:
+        found = Range(least, most, step)
+        second = found.value(1) if len(found) > 1 else least
+        for key, value in (("min", least), ("max", found.value(len(found) - 1)), ("step", second)):
+            wrong = out_of_range(parameter, value, table.at(key))
+            if wrong:
+                table.findings.extend(wrong)
+                return None
+        return found
+    return None
+
+
+def read_fair(table: Table) -> Fair:
+    """The limits of fairness."""
+    crossing = number(table, "crossing", LIMITS.crossing, 0, 89)
+    segment = number(table, "segment", LIMITS.segment, 0, 1000)
+    raw = table.take("triangle")
+    triangle = LIMITS.triangle
+    if raw is not None:
+        ends = (
+            [
+                rational(f"{table.at('triangle')}[{i}]", end, table.findings)
+                for i, end in enumerate(raw)
+            ]
+            if isinstance(raw, list) and len(raw) == 2
+            else []
+        )
+        if not ends:
+            table.findings.add(table.at("triangle"), shown(raw), "two numbers [least, most] of v/l")
+        elif None not in ends:
+            low, high = (float(plain(end)) for end in ends if end is not None)
+            triangle = (low, high)
+            if not 0 <= low < high:
+                table.findings.add(table.at("triangle"), f"[{low:g}, {high:g}]", "0 ≤ least < most")
+    table.finish()
+    return Fair(crossing, segment, triangle)
+
+
+def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
+    """What earns marks, by the fields of the form, and how marks are given."""
+    points: dict[str, Fraction] = {}
+    known = all_fields(mechanism) if marks.raw else {}
+    for name, raw in marks.raw.items():
+        if name not in known:
+            expected = f"a field of the form: {listed(known)}"
+            marks.findings.add(
+                marks.at(name), "no field of this scene", expected, nearest(name, known)
+            )
+            continue
+        read = rational(marks.at(name), raw, marks.findings)
+        if read is not None and plain(read) < 0:
+            marks.findings.add(marks.at(name), read.text, "points, not less than 0")
+        elif read is not None:
+            points[name] = plain(read)
+    slips: dict[str, float] = {}
+    inner = marking.table("slips")
+    for name in inner.raw:
+        if name in SLIPS:
+            slips[name] = number(inner, name, 0, 0, 1)
+        else:
+            hint = nearest(name, SLIPS)
+            inner.findings.add(inner.at(name), "no slip has this name", ", ".join(SLIPS), hint)
+    given = {
+        "follow": number(marking, "follow", USUAL.follow, 0, 1),
+        "point": number(marking, "point", USUAL.point, 0, 10),
+        "line": number(marking, "line", USUAL.line, 0, 10),
+        "ruler": number(marking, "ruler", USUAL.ruler, 0, 10),
+        "floor": number(marking, "floor", USUAL.floor, 0, 1),
+        "cap": number(marking, "cap", USUAL.cap, 0, 1),
+    }
+    if given["floor"] > given["cap"]:
+        marking.findings.add(marking.at("floor"), f"{given['floor']:g} is above cap", "at most cap")
+    hold = marking.flag("hold")
+    marking.finish()
+    return Rubric(points=points, slips=slips, hold=hold, **given)
+
+
+def number(table: Table, key: str, default: float, least: float, most: float) -> float:
+    """A number between two bounds; the default where it is not written or wrong."""
+    raw = table.take(key)
+    if raw is None:
+        return default
+    read = rational(table.at(key), raw, table.findings)
+    if read is None:
+        return default
+    value = float(plain(read))
+    if not least <= value <= most:
+        table.findings.add(table.at(key), read.text, f"a number from {least:g} to {most:g}")
+        return default
+    return value
+
+
+def whole(table: Table, key: str, default: int, least: int, most: int) -> int:
+    """A whole number between two bounds; the default where it is not written or wrong."""
+    value = number(table, key, default, least, most)
+    if value != int(value):
+        table.findings.add(table.at(key), f"{value:g}", "a whole number")
+    return int(value)

@@ -1,0 +1,90 @@
+"""The data of each student by the rule of a lab, so that anyone can derive them again.
+
+A formula is reckoned exactly in the student's number. A range is drawn by one hash for each
+parameter, so that another parameter changes none of the others: SHA-256 over the UTF-8 bytes of
+the JSON list [course, lab, id, attempt, parameter], written without blanks and with letters as
+they are; the hash as a whole number, divided by the number of values of the range, leaves the index
+of the value, counted from the least. Attempt 0 is the first; what is unfair is drawn again with 1,
+2, … In a shell::
+
+    printf '%s' '["mechanics 2026","pump","0042",0,"n"]' | sha256sum
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+
+from graphkin.classroom.lab.lab_model import NUMBER, Formula, Lab, Range, Ranges
+from graphkin.classroom.roster.student import Student
+from graphkin.scene.model import Parameter
+from graphkin.scene.parameters import out_of_range
+from graphkin.scene.quantity import shortest
+from graphkin.text.errors import Problem, SceneError
+
+Settings = dict[str, Fraction]
+"""Exact values of parameters by their names."""
+
+
+def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
+    """The exact data of one student; ``attempt`` counts what was drawn before.
+
+    Raises SceneError where a formula has no number to reckon with, or gives none.
+    """
+    if isinstance(lab.rule, Formula):
+        return by_formula(lab.rule, student)
+    return by_ranges(lab.rule, lab.name, student.id, attempt)
+
+
+def by_formula(rule: Formula, student: Student) -> Settings:
+    """The value of each formula at the student's number."""
+    if student.number is None:
+        raise SceneError(Problem("", "has no number, and the lab's formula needs one"))
+    found: Settings = {}
+    for name, formula in rule.settings.items():
+        value = formula.number({NUMBER: Fraction(student.number)})
+        if not isinstance(value, Fraction):
+            what = f"{formula.text} gives {shortest(value)} for number {student.number}"
+            raise SceneError(Problem(f"set.{name}", f"{what}, which is not rational"))
+        found[name] = value
+    return found
+
+
+def by_ranges(rule: Ranges, lab: str, student: str, attempt: int) -> Settings:
+    """The value drawn for each parameter, by the student's id."""
+    return {
+        name: drawn(values, rule.course, lab, student, attempt, name)
+        for name, values in rule.draws.items()
+    }
+
+
+def drawn(
+    values: Range, course: str, lab: str, student: str, attempt: int, parameter: str
+) -> Fraction:
+    """The value of a range that a hash of all the rest picks."""
+    return values.value(picked(course, lab, student, attempt, parameter) % len(values))
+
+
+def picked(course: str, lab: str, student: str, attempt: int, parameter: str) -> int:
+    """The hash that picks a value, as a whole number of 256 bits."""
+    words = json.dumps(
+        [course, lab, student, attempt, parameter], ensure_ascii=False, separators=(",", ":")
+    )
+    return int.from_bytes(hashlib.sha256(words.encode("utf-8")).digest(), "big")
+
+
+def outside(parameters: Mapping[str, Parameter], given: Settings) -> list[Problem]:
+    """What of some data the scene does not allow: out of its range, or off its steps."""
+    return [
+        problem
+        for name, value in given.items()
+        for problem in out_of_range(parameters[name], value, name)
+    ]
+
+
+def exact_text(value: Fraction) -> str:
+    """An exact number as text that a scene reads back as the same: 44, 0.25, 1/3."""
+    text = shortest(value)
+    return text if Fraction(text) == value else f"{value.numerator}/{value.denominator}"

@@ -1,0 +1,1 @@
+"""Printing a class: every student's sheets and forms, and the files for the printer."""

@@ -1,0 +1,138 @@
+"""The A4 form for answers: a row for every field of a lab, with room to write its value."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from fractions import Fraction
+
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.printing.qr_code import SIDE, square
+from graphkin.drawing.areas import A4_AREA, A4_SIZE
+from graphkin.drawing.frame import page_frame
+from graphkin.drawing.marks import LineMark, Mark, Page, Text, box
+from graphkin.drawing.richtext import escape, extent
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.text import Words
+
+LEFT, RIGHT, TOP, BOTTOM = A4_AREA[0] + 4, A4_AREA[2] - 4, A4_AREA[1] + 4, A4_AREA[3] - 4
+ROW = 7.0
+"""Height of a row, for a hand to write in, in mm."""
+HEAD = SIDE + 8.0
+"""Room for the square and the words beside it, in mm."""
+BESIDE = RIGHT - LEFT - SIDE - 8.0
+"""Room for the name beside the square, in mm."""
+WIDTHS = (34.0, 40.0, 58.0, 22.0, 18.0)
+"""Columns: quantity, name of the field, answer, unit, points."""
+LETTER, SMALL = 2.5, 1.8
+
+
+def form(
+    items: Sequence[Item],
+    points: Mapping[str, Fraction],
+    compute: Collection[str],
+    words: Words,
+    header: tuple[str, str],
+    owner: tuple[str, str],
+    pivot: str = "",
+) -> tuple[Page, ...]:
+    """The pages of a form: its fields in order, those in ``compute`` marked as to be reckoned.
+
+    ``header`` is markup for the left and right of the head; ``owner`` the student's name and
+    opaque code; ``pivot`` the first fixed one, from which places are measured. Points are shown
+    where the rubric gives any.
+    """
+    if not items:
+        return ()
+    said = advice(items, words, pivot)
+    rows = [row(item, points, compute, words) for item in items]
+    room = int((BOTTOM - TOP - HEAD) / ROW) - 1
+    parts = [rows[i : i + room] for i in range(0, len(rows), room)]
+    return tuple(
+        page_of(part, words, header, owner, f"{i}/{len(parts)}", said)
+        for i, part in enumerate(parts, 1)
+    )
+
+
+def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
+    """How numbers, senses and places are to be written, as far as the form has them, as markup."""
+    kinds = {item.what for item in items}
+    slides = {item.quantity.startswith("slide") for item in items if item.what == "sense"}
+    said = [words("form.numbers")]
+    if False in slides:
+        said.append(words("form.senses"))
+    if True in slides:
+        said.append(words("form.slides"))
+    if "place" in kinds:
+        said.append(words("form.places", pivot=symbol(pivot)))
+    return tuple(said)
+
+
+def row(
+    item: Item, points: Mapping[str, Fraction], compute: Collection[str], words: Words
+) -> tuple[str, ...]:
+    """The cells of a field: its symbol, its name, a hint where it is reckoned, unit and points."""
+    what = f"{item.symbol}, {words('table.sense')}" if item.what == "sense" else item.symbol
+    hint = why(item, words) if item.field in compute else ""
+    worth = points.get(item.field)
+    written = words.decimal(f"{float(worth):.4g}") if worth is not None else ""
+    return what, escape(item.field), hint, item.unit, written
+
+
+def why(item: Item, words: Words) -> str:
+    """Why a field is computed instead of measured."""
+    return words("form.compute_place" if item.what == "place" else "form.compute")
+
+
+def quantity_of(item: Item) -> str:
+    """The symbol by which the calculation knows what a field is of: J₃ for its coordinates."""
+    if item.what != "place":
+        return item.symbol
+    return item.symbol.partition("(")[2].removesuffix(")")
+
+
+def page_of(
+    rows: Sequence[tuple[str, ...]],
+    words: Words,
+    header: tuple[str, str],
+    owner: tuple[str, str],
+    number: str,
+    said: Sequence[str],
+) -> Page:
+    """One A4 page."""
+    name, code = owner
+    marks: list[Mark] = [*page_frame(header, (escape(f"{name}   {code}"), number))]
+    marks += square(code, RIGHT - SIDE - 1, TOP + 1)
+    height = next((h for h in (3.5, 2.5) if extent(escape(name), h)[0] <= BESIDE), SMALL)
+    marks.append(Text(LEFT, TOP + 7, escape(name), "caption", height, name="owner"))
+    marks.append(Text(LEFT, TOP + 13.5, escape(code), "caption", 3.5, name="code"))
+    for i, line in enumerate(said):
+        marks.append(Text(LEFT, TOP + 18 + 3.2 * i, line, "caption", SMALL))
+    names = ("table.symbol", "form.field", "form.answer", "form.unit", "form.points")
+    marks += table(TOP + HEAD, [tuple(words(key) for key in names), *rows])
+    page = Page(*A4_SIZE, tuple(marks), f"{words('form.title')} – {code}", words.language)
+    page.check()
+    return page
+
+
+def table(top: float, rows: Sequence[tuple[str, ...]]) -> Iterator[Mark]:
+    """A ruled table across the page, its first row the head; a hint stands at a cell's right."""
+    width, low = sum(WIDTHS), top + len(rows) * ROW
+    yield box(LEFT, top, width, ROW, "shade")
+    for i in range(len(rows) + 1):
+        yield LineMark(LEFT, top + i * ROW, LEFT + width, top + i * ROW, "panel")
+    x = LEFT
+    for column, across in enumerate((*WIDTHS, 0.0)):
+        yield LineMark(x, top, x, low, "panel")
+        for i, cells in enumerate(rows):
+            if column < len(cells) and cells[column]:
+                yield cell(cells[column], x, across, top + i * ROW + 4.7, hint=i and column == 2)
+        x += across
+
+
+def cell(markup: str, x: float, width: float, base: float, *, hint: int | bool) -> Text:
+    """The text of a cell, in the lettering that fits it."""
+    wide = extent(markup, LETTER)[0] > width - 2
+    height = SMALL if wide or hint else LETTER
+    if hint:
+        return Text(x + width - 1.5, base, markup, "caption", height, "end", "hint")
+    return Text(x + 1.5, base, markup, "caption", height)

@@ -1,0 +1,156 @@
+"""What is printed: the manifest of a class folder, read and held against the lab beside it."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.roster.csv_text import safe
+from graphkin.classroom.roster.language_names import language_in
+from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE
+from graphkin.classroom.variants.student_languages import languages
+from graphkin.text.errors import Problem, SceneError
+
+FILES = ("scene.toml", "lab.toml")
+"""The files of the lab, whose hashes the manifest holds."""
+AGAIN = "make the folder again with graphkin variants"
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One student's sheet: who, the opaque code, and the scene's parameters as exact text.
+
+    ``compute``: the fields of the form that are reckoned, too small to be measured. ``language``
+    is what the class list says of it, by code or by name; nothing where it is silent.
+    """
+
+    id: str
+    code: str
+    settings: Mapping[str, str]
+    name: str = ""
+    group: str = ""
+    compute: tuple[str, ...] = ()
+    language: str = ""
+
+    @property
+    def spoken(self) -> str | None:
+        """The code of the student's language; None where it is that of the class."""
+        return language_in(self.language)
+
+
+@dataclass(frozen=True, slots=True)
+class Edition:
+    """A class folder: its lab, the text of its scene, and its students in roster order."""
+
+    folder: Path
+    lab: Lab
+    scene: str
+    variants: tuple[Variant, ...] = ()
+
+
+def read_edition(folder: Path) -> Edition:
+    """The class folder that ``graphkin variants`` wrote.
+
+    Raises SceneError with what is wrong, RosterError where its table cannot be read.
+    """
+    from graphkin.classroom.lab.read_lab import read_lab
+
+    raw = tables(folder)
+    refuse_changed(folder, raw.get("sha256"))
+    problems: list[Problem] = []
+    variants = [
+        found
+        for place, student in enumerate(raw["students"], 1)
+        if (found := variant(student, place, problems)) is not None
+    ]
+    problems += twins(variants)
+    if problems:
+        raise SceneError(problems)
+    own = languages(folder)
+    variants = [replace(each, language=own.get(safe(each.id), "")) for each in variants]
+    lab = replace(read_lab(folder / COPY), name=str(raw.get("lab", COPY)))
+    scene = (folder / COPY / FILES[0]).read_text(encoding="utf-8-sig")
+    return Edition(folder, lab, scene, tuple(variants))
+
+
+def tables(folder: Path) -> dict[str, Any]:
+    """The tables of the manifest, of a format that is known, with its list of students."""
+    path = folder / MANIFEST
+    try:
+        raw = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        hint = "graphkin variants LAB ROSTER -o DIR makes one"
+        found = f"cannot be read: {reason}"
+        raise SceneError(Problem(str(path), found, "a class folder", hint)) from error
+    except (ValueError, RecursionError) as error:
+        raise SceneError(Problem(str(path), "is no JSON text", "a manifest", AGAIN)) from error
+    if not isinstance(raw, dict) or not isinstance(raw.get("students"), list):
+        raise SceneError(Problem(str(path), "has no list of students", "a manifest", AGAIN))
+    if raw.get("format") != FORMAT:
+        found = f"has format {raw.get('format')!r}"
+        raise SceneError(Problem(str(path), found, f"format {FORMAT}", "update graphkin"))
+    if not raw["students"]:
+        raise SceneError(Problem(str(path), "has no student", "one at least", AGAIN))
+    return raw
+
+
+def refuse_changed(folder: Path, hashes: object) -> None:
+    """Raise SceneError when the lab beside the manifest is not the one that was used, or the table
+    not the one that came with it: a run that was killed, or a hand, changed one and not the other.
+    """
+    problems = []
+    for name in FILES:
+        path = folder / COPY / name
+        try:
+            found = sha256(path.read_bytes()).hexdigest()
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            problems.append(Problem(str(path), f"cannot be read: {reason}", "", AGAIN))
+            continue
+        if not isinstance(hashes, dict) or hashes.get(name) != found:
+            expected = "the very text from which the variants were made"
+            problems.append(Problem(str(path), "was changed since", expected, AGAIN))
+    table = folder / TABLE
+    known = hashes.get(TABLE) if isinstance(hashes, dict) else None
+    if known and table.exists() and sha256(table.read_bytes()).hexdigest() != known:
+        expected = f"the table that was written with {MANIFEST}"
+        problems.append(Problem(str(table), "is another one", expected, f"{AGAIN} --force"))
+    if problems:
+        raise SceneError(problems)
+
+
+def variant(student: object, place: int, problems: list[Problem]) -> Variant | None:
+    """One student of the manifest; None, with a problem noted, where something is missing."""
+    where = f"{MANIFEST}, student {place}"
+    if not isinstance(student, dict):
+        problems.append(Problem(where, "is no table", "id, code and parameters", AGAIN))
+        return None
+    settings, compute = student.get("parameters"), student.get("compute", [])
+    texts = {key: student.get(key, "") for key in ("id", "code", "name", "group")}
+    wrong = [key for key, text in texts.items() if not isinstance(text, str)]
+    wrong += [key for key in ("id", "code") if not texts[key]]
+    if not isinstance(settings, dict) or not all(isinstance(v, str) for v in settings.values()):
+        wrong.append("parameters")
+    if not isinstance(compute, list) or not all(isinstance(name, str) for name in compute):
+        wrong.append("compute")
+    if wrong or not isinstance(settings, dict):
+        found = f"{', '.join(dict.fromkeys(wrong))}: missing or of the wrong kind"
+        problems.append(Problem(where, found, "text, and parameters as text", AGAIN))
+        return None
+    return Variant(settings=settings, compute=tuple(compute), **texts)
+
+
+def twins(variants: Sequence[Variant]) -> Iterator[Problem]:
+    """The problems of students whose ids or codes are the same."""
+    for what, texts in (("id", [v.id for v in variants]), ("code", [v.code for v in variants])):
+        for text, times in Counter(texts).items():
+            if times > 1:
+                found = f'{times} students have the {what} "{text}"'
+                yield Problem(MANIFEST, found, "one of each", AGAIN)

@@ -1,0 +1,113 @@
+"""What is finished: a line for each part of a student's sheets, with the hashes of its files.
+
+A line is written before its files are put in their places, so that what is found there is known
+to be ours; it counts as finished when all its files are there with just these hashes.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import file_digest, sha256
+from pathlib import Path
+
+from graphkin.writers.files import put_in_place
+
+JOURNAL = ".journal.jsonl"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A part of what is printed: its name, a hash of all that decides it, its files' hashes."""
+
+    part: str
+    key: str
+    files: Mapping[str, str]
+
+    def line(self) -> bytes:
+        """The entry as a line of JSON."""
+        entry = {"part": self.part, "key": self.key, "files": dict(self.files)}
+        return json.dumps(entry, ensure_ascii=True).encode() + b"\n"
+
+
+class Journal:
+    """The journal of a folder: read whole, then grown line by line."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.path = folder / JOURNAL
+        self.entries: dict[str, Entry] = {}
+        data = self.path.read_bytes() if self.path.exists() else b""
+        whole = data[: data.rfind(b"\n") + 1]
+        if whole != data:  # a line that was cut short
+            with self.path.open("r+b") as stream:
+                stream.truncate(len(whole))
+        for line in whole.splitlines():
+            entry = entry_of(line)
+            if entry is not None:
+                self.entries[entry.part] = entry
+
+    def finished(self, part: str, key: str) -> bool:
+        """Whether a part stands as this key has it: all its files, byte for byte."""
+        entry = self.entries.get(part)
+        if entry is None or entry.key != key:
+            return False
+        return all(hash_of(self.folder / name) == found for name, found in entry.files.items())
+
+    def otherwise(self, part: str, key: str) -> list[str]:
+        """The files of a part that stand there with other settings."""
+        entry = self.entries.get(part)
+        if entry is None or entry.key == key:
+            return []
+        return [name for name in entry.files if (self.folder / name).exists()]
+
+    def ours(self, part: str, key: str) -> frozenset[str]:
+        """The files that were begun for a part with this key."""
+        entry = self.entries.get(part)
+        return frozenset(entry.files) if entry is not None and entry.key == key else frozenset()
+
+    def write(self, entries: Sequence[Entry]) -> None:
+        """Add lines; of a line that finds no room nothing stays."""
+        start = self.path.stat().st_size if self.path.exists() else 0
+        try:
+            with self.path.open("ab") as stream:
+                stream.write(b"".join(entry.line() for entry in entries))
+        except OSError:
+            if self.path.exists():
+                os.truncate(self.path, start)
+            raise
+        self.entries |= {entry.part: entry for entry in entries}
+
+    def settle(self, order: Iterable[str]) -> None:
+        """Write the journal anew with each part once, in an order, the others behind them."""
+        parts = dict.fromkeys(part for part in order if part in self.entries)
+        parts |= dict.fromkeys(sorted(self.entries.keys() - parts))
+        data = b"".join(self.entries[part].line() for part in parts)
+        if not self.path.exists() or self.path.read_bytes() != data:
+            put_in_place({self.path: data})
+
+
+def entry_of(line: bytes) -> Entry | None:
+    """The entry that a line holds; None for a line that is none, as if it had not been written."""
+    try:
+        raw = json.loads(line)
+        files = {str(name): str(found) for name, found in raw["files"].items()}
+        return Entry(str(raw["part"]), str(raw["key"]), files)
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return None
+
+
+def hash_of(path: Path) -> str:
+    """The hash of a file; nothing where there is none."""
+    try:
+        with path.open("rb") as stream:
+            return file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return ""
+
+
+def key_of(*parts: object) -> str:
+    """A hash of all that decides the bytes of a part."""
+    return sha256(json.dumps(parts, ensure_ascii=True, sort_keys=True).encode()).hexdigest()[:32]

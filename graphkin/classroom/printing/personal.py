@@ -1,0 +1,109 @@
+"""A student's own sheets: the name and the opaque code on every page, the square where it fits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from unicodedata import category, normalize
+
+from graphkin.classroom.printing.edition import Variant
+from graphkin.classroom.printing.qr_code import stamped
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.documents.overlay import FOOT
+from graphkin.drawing.areas import A3_AREA
+from graphkin.drawing.frame import fitting
+from graphkin.drawing.glyphs import known, measures
+from graphkin.drawing.marks import Page, Text
+from graphkin.drawing.richtext import escape
+from graphkin.text.errors import PageError
+
+NAME_CELL = (47.0, 5.0, 3.5)
+"""Room for a name in the title block: width, depth and largest lettering, in mm."""
+UNKNOWN = "?"
+"""What stands for a sign that the sheet's font does not have."""
+OVERLAY_FOOT = (A3_AREA[0] + 12, A3_AREA[3] - FOOT + 4.6)
+"""Where an overlay says whose it is, in mm: below its caption."""
+
+
+@dataclass(frozen=True, slots=True)
+class Owner:
+    """Whose a sheet is: the name as it is printed, with the group, and the opaque code."""
+
+    name: str
+    code: str
+
+    @property
+    def line(self) -> str:
+        """Name and code on one line."""
+        return f"{self.name}   {self.code}"
+
+
+def owner(variant: Variant) -> Owner:
+    """Whose the sheets of a variant are; a student without a name is called by the id."""
+    name = writable(variant.name) or writable(variant.id) or UNKNOWN
+    group = writable(variant.group)
+    return Owner(shortened(f"{name}, {group}" if group else name), variant.code)
+
+
+def writable(text: str) -> str:
+    """A text in signs of the sheet's font: letters without their marks, ? for what is unknown."""
+    face = measures(italic=False)
+    found = []
+    for sign in known(normalize("NFC", " ".join(text.split()))):
+        bare = next((part for part in normalize("NFKD", sign) if part in face), UNKNOWN)
+        if category(sign)[0] != "C":
+            found.append(sign if sign in face else bare)
+    return "".join(found).strip()
+
+
+def lost(text: str) -> bool:
+    """Whether some signs of a text are printed as ?."""
+    return writable(text).count(UNKNOWN) > text.count(UNKNOWN)
+
+
+def shortened(text: str) -> str:
+    """A text that fits the title block, its end left out where it does not."""
+    kept = text
+    while kept and not fits(kept):
+        kept = kept.removesuffix("…")[:-1].rstrip()
+        kept += "…" if kept else ""
+    return kept
+
+
+def fits(text: str) -> bool:
+    """Whether a name fits the title block in the smallest lettering."""
+    try:
+        fitting("creator", text, *NAME_CELL)
+    except PageError:
+        return False
+    return True
+
+
+def owned(drawing: Drawing, whose: Owner) -> Drawing:
+    """A drawing whose title block names its student and bears the code."""
+    number = drawing.scene.sheet.number
+    both = f"{number} / {whose.code}" if number else whose.code
+    sheet = drawing.scene.sheet._replace(author=whose.name, number=both)
+    return replace(drawing, scene=replace(drawing.scene, sheet=sheet))
+
+
+def owned_pages(drawings: Sequence[Drawing], whose: Owner) -> list[Drawing]:
+    """Drawings whose calculation pages name their student and the code at the foot."""
+    sheets = [drawing.scene.sheet._replace(author=whose.line) for drawing in drawings]
+    return [
+        replace(drawing, scene=replace(drawing.scene, sheet=sheet))
+        for drawing, sheet in zip(drawings, sheets, strict=True)
+    ]
+
+
+def signed(pages: Sequence[Page], view: str, whose: Owner) -> Iterator[Page]:
+    """The pages with their student's square; overlays, which have no title block, with the name."""
+    for page in pages:
+        if view == "overlay":
+            x, y = OVERLAY_FOOT
+            foot = Text(x, y, escape(whose.line), "caption", 2.5, name="owner")
+            yield replace(page, marks=(*page.marks, foot))
+        elif view == "task":
+            yield stamped(page, whose.code)
+        else:
+            yield page

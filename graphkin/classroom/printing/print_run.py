@@ -1,0 +1,248 @@
+"""Printing a class folder: what is finished stays, the rest is made, put in its place and noted."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from hashlib import sha256
+from math import ceil
+from pathlib import Path
+
+from graphkin import __version__
+from graphkin.classroom.printing.edition import Edition, Variant
+from graphkin.classroom.printing.file_names import in_the_way, inside, stems
+from graphkin.classroom.printing.journal import Entry, Journal, hash_of, key_of
+from graphkin.classroom.printing.merge import merge
+from graphkin.classroom.printing.personal import lost
+from graphkin.classroom.printing.print_work import Made, PrintOrder, StudentSheets, make
+from graphkin.classroom.printing.workers import chunks, engine, results
+from graphkin.classroom.roster.language_names import unknown_lines
+from graphkin.documents.sheet_documents import language_of
+from graphkin.drawing.style import Ink
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import PageError, Problem
+from graphkin.writers.files import put_in_place, sweep
+from graphkin.writers.lock import locked
+
+FOLDER = "print"
+"""Where the files come, in the class folder."""
+FEWEST = 4
+"""Students that are worth a process of their own."""
+
+
+@dataclass(frozen=True, slots=True)
+class PrintRequest:
+    """What is to be printed of every student, and how."""
+
+    views: tuple[str, ...] = ("task", "key")
+    formats: tuple[str, ...] = ("pdf",)
+    language: str | None = None
+    ink: Ink = "colour"
+    force: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Means:
+    """With what it is done: processes (1: this one alone), or the address of a cluster."""
+
+    jobs: int = 1
+    cluster: str = ""
+
+
+@dataclass
+class Outcome:
+    """What came of a run: students, those made now and those that stood already, files, doubts.
+
+    ``files`` are those for the printer; ``refused`` the students who got none; ``strange`` tells
+    of languages that no page has.
+    """
+
+    folder: Path
+    students: int
+    made: int = 0
+    stood: int = 0
+    files: list[Path] = field(default_factory=list)
+    refused: list[tuple[Variant, tuple[Problem, ...]]] = field(default_factory=list)
+    left: str = ""
+    lost: list[Variant] = field(default_factory=list)
+    strange: list[str] = field(default_factory=list)
+
+
+Tell = Callable[[int, int], None]
+"""Called with how many students are done, and of how many."""
+
+
+def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell) -> Outcome:
+    """Print a class into its folder; the same edition and wishes give the same bytes again.
+
+    Raises PageError when another run holds the folder, when files are in the way or cannot be
+    written; what was finished by then stays, and the next run goes on from there.
+    """
+    folder = edition.folder / FOLDER
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with locked(folder) as left:
+            sweep((folder, *(path for path in folder.iterdir() if path.is_dir())))
+            run = PrintRun(edition, wishes, Journal(folder))
+            run.outcome.left = left
+            run.refuse_others()
+            run.make_all(means, tell)
+            for view in wishes.views if "pdf" in wishes.formats else ():
+                run.merge(view)
+            run.journal.settle(run.keys)
+            return run.outcome
+    except OSError as error:
+        raise stopped(folder, error) from error
+
+
+def stopped(folder: Path, error: OSError) -> PageError:
+    """The error of a run that the system did not let write: a full disk, a folder not ours."""
+    reason = error.strerror or str(error)
+    found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
+    hint = "what was finished is kept; when that is mended, the same command goes on"
+    return PageError(Problem(str(error.filename or folder), found, hint=hint))
+
+
+class PrintRun:
+    """One run over a class: its order, what each part of it is called, and what came of it."""
+
+    def __init__(self, edition: Edition, wishes: PrintRequest, journal: Journal) -> None:
+        self.edition, self.wishes, self.journal = edition, wishes, journal
+        self.order = PrintOrder(edition.lab, edition.scene, spoken(edition, wishes), wishes.ink)
+        variants = edition.variants
+        names = stems([one.id for one in variants], [one.code for one in variants])
+        self.stems = dict(zip((one.code for one in variants), names, strict=True))
+        self.keys = dict(self.all_keys())
+        self.outcome = Outcome(journal.folder, len(variants))
+        self.outcome.lost = [one for one in variants if lost(one.name) or lost(one.group)]
+        self.outcome.strange = list(unknown_lines(one.language for one in variants))
+
+    def all_keys(self) -> Iterator[tuple[str, str]]:
+        """Each part with a hash of all that decides its bytes."""
+        order = self.order
+        texts = [sha256(text.encode()).hexdigest() for text in (order.scene, order.lab.text)]
+        for one in self.edition.variants:
+            language = one.spoken or order.language
+            shared = (__version__, order.lab.name, language, order.ink)
+            own = (one.name, one.group, one.id, one.code, dict(one.settings), one.compute)
+            for view, kind in self.parts():
+                key = key_of(shared, texts, own, self.stems[one.code], view, kind)
+                yield part_of(one.code, view, kind), key
+
+    def parts(self) -> list[tuple[str, str]]:
+        """What is wished of each student: view and format."""
+        return [(view, kind) for view in self.wishes.views for kind in self.wishes.formats]
+
+    def refuse_others(self) -> None:
+        """Raise PageError when files of other settings would be replaced without force."""
+        if self.wishes.force:
+            return
+        ways = [self.journal.otherwise(part, key) for part, key in self.keys.items()]
+        names = [name for way in ways for name in way]
+        if names:
+            raise PageError(in_the_way(self.journal.folder, names))
+
+    def wanted(self) -> list[StudentSheets]:
+        """What is not finished, student by student."""
+        found = []
+        for one in self.edition.variants:
+            missing = tuple(
+                (view, kind)
+                for view, kind in self.parts()
+                if not self.finished(part_of(one.code, view, kind))
+            )
+            if missing:
+                found.append(StudentSheets(one, self.stems[one.code], missing))
+        return found
+
+    def finished(self, part: str) -> bool:
+        """Whether a part stands there as it should."""
+        return self.journal.finished(part, self.keys[part])
+
+    def make_all(self, means: Means, tell: Tell) -> None:
+        """Make what is missing; each chunk is put in its place as it comes."""
+        wanted = self.wanted()
+        total = self.outcome.students
+        self.outcome.stood = done = total - len(wanted)
+        tell(done, total)
+        if not wanted:
+            return
+        students = {one.variant.code: one.variant for one in wanted}
+        jobs = min(means.jobs, ceil(len(wanted) / FEWEST))
+        with engine(jobs, means.cluster) as (executor, workers):
+            work = partial(make, self.order)
+            for found in results(executor, workers, work, chunks(wanted, workers)):
+                self.put(found)
+                for one in found:
+                    if one.problems:
+                        self.outcome.refused.append((students[one.code], one.problems))
+                done += len(found)
+                tell(done, total)
+        places = {one.code: i for i, one in enumerate(self.edition.variants)}
+        self.outcome.refused.sort(key=lambda refused: places[refused[0].code])
+        self.outcome.made = len(wanted) - len(self.outcome.refused)
+
+    def put(self, found: Sequence[Made]) -> None:
+        """Note the files that came, then put them in their places, all of them or none."""
+        entries: list[Entry] = []
+        targets: dict[Path, bytes] = {}
+        for one in found:
+            for (view, kind), files in one.files.items():
+                part = part_of(one.code, view, kind)
+                targets |= self.targets(part, files)
+                hashes = {name: sha256(data).hexdigest() for name, data in files.items()}
+                entries.append(Entry(part, self.keys[part], hashes))
+        for folder in {path.parent for path in targets}:
+            folder.mkdir(exist_ok=True)
+        self.journal.write(entries)
+        put_in_place(targets)
+
+    def targets(self, part: str, files: Mapping[str, bytes]) -> dict[Path, bytes]:
+        """Where the files of a part go, but for those that stand there already.
+
+        Raises PageError for files in the way that are not ours, unless they may be replaced.
+        """
+        folder = self.journal.folder
+        ours = self.journal.ours(part, self.keys[part])
+        paths = {name: inside(folder, name) for name in files}
+        others = {
+            name: files[name]
+            for name, path in paths.items()
+            if hash_of(path) != sha256(files[name]).hexdigest()
+        }
+        wrong = [name for name in others if name not in ours and os.path.lexists(paths[name])]
+        if wrong and not self.wishes.force:
+            raise PageError(in_the_way(folder, wrong))
+        return {paths[name]: data for name, data in others.items()}
+
+    def merge(self, view: str) -> None:
+        """Write the file of a view for the printer."""
+        members, language = self.printed(view), self.order.language
+        path = merge(self.journal, self.order.lab.name, view, members, language, self.wishes.force)
+        self.outcome.files += [path] if path is not None else []
+
+    def printed(self, view: str) -> list[tuple[Variant, list[str]]]:
+        """The PDF files of a view that stand, student by student in the order of the roster."""
+        refused = {variant.code for variant, _ in self.outcome.refused}
+        return [
+            (one, list(self.journal.entries[part_of(one.code, view, "pdf")].files))
+            for one in self.edition.variants
+            if one.code not in refused
+        ]
+
+
+def part_of(code: str, view: str, kind: str) -> str:
+    """The name of a part in the journal."""
+    return f"{code} {view} {kind}"
+
+
+def spoken(edition: Edition, wishes: PrintRequest) -> str:
+    """The language of who has no own: the one wished, or the scene's.
+
+    Raises SceneError for one that is not there.
+    """
+    mechanism = Mechanism(read_text(edition.scene, edition.lab.name))
+    return language_of(mechanism, wishes.language).language

@@ -1,0 +1,193 @@
+"""What one worker does: the files of some students, as bytes; the same in every process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from threading import Lock
+
+from graphkin.classroom.lab.asking import asked_of
+from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.lab_model import Item, Lab
+from graphkin.classroom.printing.answer_form import form, quantity_of, why
+from graphkin.classroom.printing.edition import Variant
+from graphkin.classroom.printing.personal import Owner, owned, owned_pages, owner, signed
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.parameter_words import parameters
+from graphkin.documents.calculation import calculation
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet import title_of
+from graphkin.documents.sheet_documents import (
+    SheetDocument,
+    drawings_of,
+    drawn,
+    language_of,
+    proved,
+)
+from graphkin.drawing.marks import Page
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.style import Ink
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.text import Words
+from graphkin.text.errors import GraphkinError, Problem
+
+VIEWS = ("task", "key", "overlay", "steps")
+"""What can be printed of each student."""
+ALONE = Lock()
+"""Held while PDF files are made: their fonts are shared by the threads of a process (Dask's)."""
+FORM = "form"
+"""The A4 pages that go with a task."""
+
+
+@dataclass(frozen=True, slots=True)
+class PrintOrder:
+    """What the sheets of a class share: the lab, the text of its scene, ink; the language of those
+    who have none of their own."""
+
+    lab: Lab
+    scene: str
+    language: str
+    ink: Ink
+
+
+@dataclass(frozen=True, slots=True)
+class StudentSheets:
+    """A student's sheets that are to be made: (view, format) each, under a stem of file names."""
+
+    variant: Variant
+    stem: str
+    parts: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """What came of it: the files of each part by name, or why there are none."""
+
+    code: str
+    files: Mapping[tuple[str, str], Mapping[str, bytes]]
+    problems: tuple[Problem, ...] = ()
+
+
+def make(order: PrintOrder, wanted: Sequence[StudentSheets]) -> list[Made]:
+    """The files of some students; one who cannot be drawn is told and keeps nobody else back."""
+    with ALONE:
+        return [made(order, one) for one in wanted]
+
+
+def made(order: PrintOrder, wanted: StudentSheets) -> Made:
+    """The files of one student."""
+    try:
+        sheets = Sheets(order, wanted.variant)
+        files = {
+            part: dict(files_of(sheets, wanted.stem, *part, order.ink)) for part in wanted.parts
+        }
+    except GraphkinError as error:
+        return Made(wanted.variant.code, {}, error.problems)
+    return Made(wanted.variant.code, files)
+
+
+class Sheets:
+    """A student's pages of every view, drawn when they are asked for, from one construction.
+
+    Raises as handout does: a mechanism that does not close or is not proved, a page that does not
+    fit.
+    """
+
+    def __init__(self, order: PrintOrder, variant: Variant) -> None:
+        self.lab, self.variant = order.lab, variant
+        scene = read_text(order.scene, order.lab.name, settings=dict(variant.settings))
+        self.mechanism = Mechanism(scene)
+        self.whose: Owner = owner(variant)
+        self.words: Words = language_of(self.mechanism, variant.spoken or order.language)
+        verdict = proved(self.mechanism, shown(self.mechanism))
+        self.drawings = drawings_of(self.mechanism, verdict, self.words)
+        self.made: dict[str, list[SheetDocument]] = {}
+
+    def of(self, view: str) -> list[SheetDocument]:
+        """The sheets of a view: A3 drawings, then A4 pages where the view has some."""
+        if view not in self.made:
+            self.made[view] = list(self.draw(view))
+        return self.made[view]
+
+    def draw(self, view: str) -> Iterator[SheetDocument]:
+        """The sheets of a view, each page with its student's name and code."""
+        total = len(self.drawings)
+        for i, drawing in enumerate(self.drawings, 1):
+            own = replace(owned(drawing, self.whose), computed=self.computed)
+            pages = drawn(own, view, f"{i}/{total}")
+            yield SheetDocument(drawing.kind, tuple(signed(pages, view, self.whose)))
+        if view in ("task", "key"):
+            pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed)
+            pages = tuple(signed(pages, view, self.whose))
+            kind = FORM if view == "task" else "calculation"
+            yield SheetDocument(kind, (*pages, *self.answers()) if view == "task" else pages)
+
+    def page(self, view: str, stem: str, ink: Ink) -> str:
+        """The page for a browser: the task with the form to be filled in, or the key by steps."""
+        from graphkin.classroom import form_page
+        from graphkin.web.step_page import Form, step_page, task_page
+
+        variant, lab, language = self.variant, self.lab, self.words.language
+        if view != "task":
+            return step_page(self.mechanism, language, ink)
+        name = ", ".join(part for part in (variant.name, variant.group) if part)
+        whose = form_page.Identity(stem, f"{lab.name} {variant.code}", variant.id, name)
+        fields, points = self.asked()
+        pivot = form_page.first_pivot(self.mechanism)
+        body = form_page.form_fragment(fields, points, variant.compute, self.words, whose, pivot)
+        answers = Form(body, form_page.style(), form_page.script())
+        return task_page(self.mechanism, language, ink, answers)
+
+    def answers(self) -> tuple[Page, ...]:
+        """The form for answers."""
+        first: Drawing = self.drawings[0]
+        settings = parameters(first.scene, self.words)
+        title, name = "; ".join([escape(title_of(first)), *settings]), self.words("form.title")
+        fields, points = self.asked()
+        whose, pivot = (self.whose.name, self.whose.code), first.scene.frame.points[:1]
+        return form(fields, points, self.variant.compute, self.words, (title, name), whose, *pivot)
+
+    def asked(self) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
+        """The fields of the student's form, and what each is worth."""
+        form = items(self.mechanism, self.lab)
+        return asked_of(form, self.lab.rubric.points, self.variant.compute)
+
+    @cached_property
+    def computed(self) -> dict[str, str]:
+        """Why some quantities are computed instead of measured, by their symbols."""
+        if not self.variant.compute:
+            return {}
+        fields = items(self.mechanism, self.lab)
+        compute = self.variant.compute
+        return {quantity_of(i): why(i, self.words) for i in fields if i.field in compute}
+
+
+def files_of(
+    sheets: Sheets, stem: str, view: str, kind: str, ink: Ink
+) -> Iterator[tuple[str, bytes]]:
+    """The files of a view in a format: a PDF of its drawings and one of its form; SVG; a page."""
+    if kind == "html":
+        yield f"{view}/{stem}-{view}.html", sheets.page(view, stem, ink).encode("utf-8")
+        return
+    title = f"{sheets.whose.code}, {view}"
+    if kind == "pdf":
+        from graphkin.writers.pdf import write_pdf
+
+        found = sheets.of(view)
+        pages = [page for sheet in found if sheet.kind != FORM for page in sheet.pages]
+        yield f"{view}/{stem}-{view}.pdf", write_pdf(pages, ink, title=title)
+        for sheet in found:
+            if sheet.kind == FORM:
+                data = write_pdf(sheet.pages, ink, title=f"{sheets.whose.code}, {FORM}")
+                yield f"{view}/{stem}-{FORM}.pdf", data
+        return
+    from graphkin.writers.svg import write_svg
+
+    for sheet in sheets.of(view):
+        for number, page in enumerate(sheet.pages, 1):
+            tail = f"-{number:02d}" if len(sheet.pages) > 1 else ""
+            name = f"{view}/{stem}-{view}-{sheet.kind}{tail}.svg"
+            yield name, write_svg(page, ink).encode("utf-8")

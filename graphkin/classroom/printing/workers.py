@@ -1,0 +1,146 @@
+"""Who does the work: this process, all cores of this machine, or a cluster."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    wait,
+)
+from contextlib import contextmanager
+from itertools import islice
+from typing import TypeVar
+
+from graphkin.text.errors import PageError, Problem
+
+CHUNK = 25
+"""Students that a worker takes at once."""
+SHARES = 4
+"""Chunks that each worker gets at least, where there are students enough."""
+AHEAD = 2
+"""Chunks that wait for each worker."""
+CLUSTER = "dask://"
+PRELOADED = ("graphkin.classroom.printing.print_work", "graphkin.writers.pdf")
+"""What every worker process needs, imported once where the system lets processes share it."""
+
+Given = TypeVar("Given")
+Result = TypeVar("Result")
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def chunks(items: Sequence[Given], workers: int, most: int = CHUNK) -> list[Sequence[Given]]:
+    """The items in chunks for some workers, none larger than a worker takes at once."""
+    size = max(1, min(most, len(items) // (SHARES * workers)))
+    return [items[i : i + size] for i in range(0, len(items), size)]
+
+
+@contextmanager
+def engine(jobs: int, address: str = "") -> Iterator[tuple[Executor | None, int]]:
+    """What does the work, and how many workers it has; None where this process does it itself.
+
+    ``address``: dask://HOST:PORT for a cluster. Raises PageError when that does not answer.
+    """
+    if address:
+        with cluster(address) as found:
+            yield found
+    elif jobs == 1:
+        yield None, 1
+    else:
+        pool = processes(jobs)
+        try:
+            yield pool, jobs
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def processes(jobs: int) -> ProcessPoolExecutor:
+    """Worker processes that begin afresh, so that they share no threads, locks or files with us."""
+    from multiprocessing import get_all_start_methods, get_context
+
+    server = "forkserver" in get_all_start_methods()
+    context = get_context("forkserver" if server else "spawn")
+    if server:
+        context.set_forkserver_preload(list(PRELOADED))
+    return ProcessPoolExecutor(jobs, mp_context=context, initializer=begin)
+
+
+def begin() -> None:
+    """What a worker does first: it leaves Ctrl-C to its parent, and dies when that is gone."""
+    from threading import Thread
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=follow_parent, daemon=True).start()
+
+
+def follow_parent() -> None:
+    """Wait until the parent process ends, however it does, then end this one."""
+    from multiprocessing import parent_process
+    from multiprocessing.connection import wait as wait_for
+
+    parent = parent_process()
+    if parent is not None:
+        wait_for([parent.sentinel])
+        os._exit(1)
+
+
+@contextmanager
+def cluster(address: str) -> Iterator[tuple[Executor, int]]:
+    """The workers of a Dask cluster, through the interface of the standard library."""
+    try:
+        from distributed import Client
+    except ImportError as error:
+        found = "needs dask.distributed, which is not installed"
+        hint = "install graphkin[cluster]"
+        raise PageError(Problem(f"--engine {address}", found, hint=hint)) from error
+    try:
+        client = Client(f"tcp://{address.removeprefix(CLUSTER)}", timeout=10)
+    except (OSError, ValueError) as error:
+        found, expected = "does not answer", f"{CLUSTER}HOST:PORT of a Dask scheduler"
+        raise PageError(Problem(f"--engine {address}", found, expected)) from error
+    with client:
+        yield client.get_executor(), max(1, sum(client.nthreads().values()))
+
+
+def results(
+    executor: Executor | None,
+    workers: int,
+    work: Callable[[Sequence[Given]], Result],
+    parts: Iterable[Sequence[Given]],
+) -> Iterator[Result]:
+    """What comes of each part, as it comes; no more wait at once than workers need.
+
+    Raises PageError when a worker dies, or the way to it is cut.
+    """
+    if executor is None:
+        yield from map(work, parts)
+        return
+    waiting: set[Future[Result]] = set()
+    left = iter(parts)
+    try:
+        while True:
+            more = islice(left, (1 + AHEAD) * workers - len(waiting))
+            waiting |= {executor.submit(work, part) for part in more}
+            if not waiting:
+                return
+            done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+            for future in done:
+                yield future.result()
+    except (BrokenExecutor, CancelledError, OSError) as error:
+        hint = "for want of memory? --jobs 1 needs the least; the same command goes on"
+        raise PageError(Problem("print", "a worker ended suddenly", hint=hint)) from error
+    finally:
+        for future in waiting:
+            future.cancel()

@@ -1,0 +1,261 @@
+"""A class list: one student a row, the columns named in any of three languages.
+
+Demanded is a column of ids; a number where the lab's rule is a formula of it. Name and group are
+printed where they are given; every other column is kept as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+
+from graphkin.classroom.roster.spreadsheets import (
+    SheetRow,
+    Spreadsheet,
+    TableProblems,
+    columns,
+    read_sheet,
+)
+from graphkin.classroom.roster.student import Student
+from graphkin.scene.findings import nearest, shown, visible
+from graphkin.text.errors import Problem
+
+NAMES = {
+    "number": (
+        "no",
+        "nr",
+        "nr.",
+        "n",
+        "no.",
+        "n.",
+        "num",
+        "nr crt",
+        "nr. crt.",
+        "număr",
+        "număr de ordine",
+        "numero",
+        "numero d'ordine",
+        "student number",
+        "n°",
+        "nº",
+    ),
+    "id": (
+        "id number",
+        "student id",
+        "studentid",
+        "registration",
+        "registration number",
+        "sis user id",
+        "matricol",
+        "nr. matricol",
+        "număr matricol",
+        "cod",
+        "cod student",
+        "matricola",
+        "numero di matricola",
+        "n. matricola",
+        "codice",
+        "id student",
+        "id studente",
+        "identificator",
+        "identificativo",
+    ),
+    "name": (
+        "full name",
+        "student",
+        "student name",
+        "nume",
+        "numele",
+        "nume și prenume",
+        "nume prenume",
+        "numele și prenumele",
+        "nome",
+        "nome e cognome",
+        "cognome e nome",
+        "nominativo",
+        "studente",
+    ),
+    "first": ("first name", "given name", "prenume", "prenumele", "forename"),
+    "last": ("surname", "last name", "family name", "nume de familie", "cognome"),
+    "group": (
+        "class",
+        "section",
+        "grupă",
+        "grupa",
+        "grupa/semigrupa",
+        "semigrupa",
+        "semigrupă",
+        "gruppo",
+        "classe",
+        "sezione",
+        "seria",
+    ),
+}
+"""What each column may be called, in English, Romanian and Italian."""
+NAMED = {"name", "first", "last"}
+"""Columns that together are a name: in one list *nume* is all of it, in another the surname."""
+Check = Callable[[Student], Iterable[Problem]]
+"""Finds what is wrong with a student."""
+MOST_DIGITS = 9
+Tell = Callable[[str], object]
+"""Tells a note that is no mistake."""
+LONGEST_ID, LONGEST_NAME = 100, 200
+WHOLE = re.compile(r"[0-9]+")
+DECIMAL_ZERO = re.compile(r"([0-9]+)[.,]0+")
+
+
+def read_roster(
+    path: str | Path,
+    *,
+    numbered: bool = False,
+    check: Check | None = None,
+    tell: Tell | None = None,
+) -> list[Student]:
+    """The students of a class list, in its order; RosterError with every problem, row by row.
+
+    ``numbered`` demands a number of each; ``check`` says what else is wrong with one who has it;
+    ``tell`` gets a note where ids may have lost their leading zeros.
+    """
+    told = TableProblems(Path(path).name)
+    sheet = read_sheet(
+        Path(path), [name for what, every in NAMES.items() for name in (what, *every)], told
+    )
+    where = found_columns(sheet, told, numbered)
+    students: list[Student] = []
+    first: dict[str, Student] = {}
+    for row in sheet.rows:
+        one = student(sheet, row, where, told, numbered)
+        students.append(one)
+        refuse_twin(sheet, one, first, head_of(sheet, where, "id"), told)
+        for problem in check(one) if check is not None and one.number is not None else ():
+            told.add(sheet.place(row), problem.found, problem.expected, problem.hint)
+    if not sheet.rows and not told.problems:
+        told.add(sheet.name, "no student below the head", "a row for each student")
+    told.stop()
+    note = lost_zeros(sheet, where["id"])
+    if note and tell is not None:
+        tell(note)
+    return students
+
+
+def lost_zeros(sheet: Spreadsheet, column: int) -> str:
+    """A note where ids are numbers in a workbook, which keep no zeros before them; else nothing."""
+    bare = [row.cells[column] for row in sheet.rows if column in row.numbers]
+    if not bare:
+        return ""
+    others = [row.cells[column] for row in sheet.rows if column not in row.numbers]
+    padded = next((text for text in others if WHOLE.fullmatch(text) and text[0] == "0"), "")
+    why = f", and others such as {padded} have some" if padded else ""
+    return (
+        f"{sheet.name}: {len(bare)} ids are numbers in the file, such as {bare[0]}: leading zeros"
+        f" would be lost{why}; if the ids have any, format the column as text and type them again"
+    )
+
+
+def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> dict[str, int]:
+    """Which column holds what; a demanded one that is missing is noted."""
+    where = columns(sheet, NAMES)
+    wanted = (
+        {"id": "matricol or matricola", "number": "nr or numero"}
+        if numbered
+        else {"id": "matricol or matricola"}
+    )
+    for what, others in wanted.items():
+        if what not in where:
+            heads = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12]) or "nothing"
+            hint = next((meant(cell, what) for cell in sheet.head if meant(cell, what)), "")
+            why = "; the lab's formula needs the student's number" if what == "number" else ""
+            told.add(
+                sheet.name,
+                f"no column {what}{why}; the head is {heads}",
+                f'a column named "{what}", {others}',
+                hint or "the first row names the columns",
+            )
+    return where
+
+
+def meant(head: str, what: str) -> str:
+    """A hint where a head nearly is a name of some column; empty where it is far from all."""
+    near = nearest(head, [what, *NAMES[what]])
+    return f'is it "{visible(head)}"? then call that column "{what}"' if near else ""
+
+
+def student(
+    sheet: Spreadsheet, row: SheetRow, where: dict[str, int], told: TableProblems, numbered: bool
+) -> Student:
+    """One student; what is wrong in the row is noted."""
+
+    def cell(what: str) -> str:
+        return row.cells[where[what]] if what in where else ""
+
+    own = set(where.values())
+    full = full_name(
+        {what: cell(what) for what in sorted(NAMED & where.keys(), key=lambda n: where[n])}
+    )
+    names = {"id": (cell("id"), LONGEST_ID), "name": (full, LONGEST_NAME)}
+    for what, (text, most) in names.items():
+        if len(text) > most:
+            told.add(
+                sheet.place(row, head_of(sheet, where, what)),
+                f"{len(text)} characters",
+                f"at most {most}",
+            )
+    if not cell("id") and "id" in where:
+        told.add(sheet.place(row, head_of(sheet, where, "id")), "is missing", "the student's id")
+    return Student(
+        row=row.line,
+        id=cell("id"),
+        number=number_in(sheet, row, where, told, numbered),
+        name=" ".join(full.split()),
+        group=cell("group"),
+        extra={
+            sheet.head[i] or f"column {i + 1}": text
+            for i, text in enumerate(row.cells)
+            if i not in own
+        },
+    )
+
+
+def full_name(parts: Mapping[str, str]) -> str:
+    """The name of a student: its columns in the order of the file, none of them twice."""
+    whole = parts.get("name", "")
+    rest = [part for what, part in parts.items() if what != "name" and part in whole.split()]
+    named = [part for part in parts.values() if part and part not in rest]
+    return " ".join(named)
+
+
+def head_of(sheet: Spreadsheet, where: dict[str, int], what: str) -> str:
+    """What a column is called in this file."""
+    return sheet.head[where[what]] if what in where else what
+
+
+def number_in(
+    sheet: Spreadsheet, row: SheetRow, where: dict[str, int], told: TableProblems, numbered: bool
+) -> int | None:
+    """The student's number; None where there is none, noted where it is demanded or none."""
+    text = row.cells[where["number"]] if "number" in where else ""
+    place = sheet.place(row, head_of(sheet, where, "number"))
+    found = DECIMAL_ZERO.fullmatch(text)
+    text = found[1] if found else text
+    if WHOLE.fullmatch(text) and len(text) <= MOST_DIGITS:
+        return int(text)
+    if text and numbered:
+        told.add(place, f"{shown(text)} is no whole number from 0 on", "a number such as 7")
+    elif numbered and "number" in where:
+        told.add(place, "is missing", "the student's number, which the lab's formula needs")
+    return None
+
+
+def refuse_twin(
+    sheet: Spreadsheet, one: Student, first: dict[str, Student], place: str, told: TableProblems
+) -> None:
+    """Note an id that stands in a row before, also where only its case differs."""
+    other = first.setdefault(one.id.casefold(), one)
+    if one.id and other is not one:
+        same = "" if other.id == one.id else f", written {shown(other.id)},"
+        told.add(
+            f'{sheet.name}, row {one.row}, column "{place}"',
+            f"{shown(one.id)}{same} stands in row {other.row} already",
+            "an id of its own for each student",
+        )

@@ -1,0 +1,1 @@
+"""Data for each student of a class: assigned, judged as one batch, written down."""

@@ -1,0 +1,78 @@
+"""What is said of a class that got its data: how fair they are, and to whom they are not."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from graphkin.classroom.lab.fairness_words import limit_words, rule_words, spread_lines
+from graphkin.classroom.lab.lab_model import Formula, Lab
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import Assigned
+from graphkin.text.plain_table import labelled, table
+
+MOST = 40
+"""Rows of one list."""
+
+
+def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
+    """The whole report on a class."""
+    yield from labelled("rule", [rule_words(lab)])
+    yield from labelled("limits", [limit_words(lab.fair)])
+    fair = sum(each.fair for each in found)
+    yield from labelled("fair", [f"{fair} of {len(found)} students"])
+    yield from labelled("unfair", unfair_lines([each for each in found if not each.fair]))
+    again = [each for each in found if each.attempt]
+    if not isinstance(lab.rule, Formula):
+        yield from labelled("again", again_lines(again))
+    yield from labelled("compute", computed_lines([each for each in found if each.computed]))
+    drawn = [each for each in found if each.flattest is not None]
+    angles = [each.flattest for each in drawn if each.flattest is not None]
+    lengths = [each.shortest for each in drawn if each.shortest is not None]
+    rays = [each.rays for each in drawn if each.rays is not None]
+    yield from labelled("spread", spread_lines(angles, lengths, rays))
+    if isinstance(lab.rule, Formula):
+        yield from labelled("note", alike_lines([each.student for each in found]))
+
+
+def unfair_lines(unfair: Sequence[Assigned]) -> list[str]:
+    """Each student with unfair data: row, number, id and name, and the limits that are broken."""
+    rows = [(*who(each.student), "; ".join(map(str, each.faults))) for each in unfair]
+    return listed(("row", "number", "id", "name", "limits"), rows)
+
+
+def again_lines(again: Sequence[Assigned]) -> list[str]:
+    """Each student whose data were drawn again, and how often."""
+    rows = [(*who(each.student), f"{each.attempt + 1}") for each in again]
+    return listed(("row", "number", "id", "name", "draws"), rows)
+
+
+def computed_lines(found: Sequence[Assigned]) -> list[str]:
+    """Each student who computes some fields instead of measuring them."""
+    rows = [(*who(each.student), " ".join(each.computed)) for each in found]
+    return listed(("row", "number", "id", "name", "computed instead of measured"), rows)
+
+
+def alike_lines(students: Sequence[Student]) -> list[str]:
+    """Numbers that several students of a group share, and so their data."""
+    shared = Counter((student.group, student.number) for student in students)
+    return [
+        f"{count} students{f' of group {group}' if group else ''} have number {number}: "
+        "they get the same data"
+        for (group, number), count in shared.items()
+        if count > 1
+    ][:MOST]
+
+
+def who(student: Student) -> tuple[str, str, str, str]:
+    """A student as lists name one."""
+    number = "" if student.number is None else str(student.number)
+    return str(student.row), number, student.id, student.name
+
+
+def listed(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
+    """A list with its head, cut where it is long; none where it is empty."""
+    if not rows:
+        return ["none"]
+    more = [f"… and {len(rows) - MOST} more"] if len(rows) > MOST else []
+    return [*table(head, list(rows[:MOST])), *more]

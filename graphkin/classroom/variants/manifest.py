@@ -1,0 +1,131 @@
+"""What a class got, as JSON: enough to derive every sheet again years later.
+
+The rule as it is written, the course, the lab's name and its very text (copied beside it, with its
+hash); for each student the id, the opaque code, the exact parameters as text, and how often was
+drawn. ``rederived`` holds the rule against the parameters, from the manifest alone.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from graphkin.classroom.lab.lab_model import Formula, Lab, Range, Ranges
+from graphkin.classroom.lab.rules import exact_text, settings
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import Assigned
+from graphkin.scene.quantity import expression
+from graphkin.text.errors import Problem, SceneError
+
+FORMAT = 1
+"""Version of the manifest."""
+MANIFEST, TABLE, COPY = "manifest.json", "variants.csv", "lab"
+"""The files of a class folder, and the folder with the copy of its lab."""
+CODE = 10
+"""Signs of an opaque code: 50 bits, so that two of a class are alike once in 10⁹ classes."""
+
+
+def manifest(
+    lab: Lab,
+    students: Sequence[Assigned],
+    hashes: Mapping[str, str],
+    roster: str,
+    salt: str,
+) -> dict[str, Any]:
+    """The manifest of a class; ``hashes`` are of scene.toml, lab.toml, the table and the roster."""
+    import numpy
+
+    from graphkin import __version__
+
+    return {
+        "format": FORMAT,
+        "graphkin": __version__,
+        "numpy": numpy.__version__,
+        "lab": lab.name,
+        "course": lab.rule.course if isinstance(lab.rule, Ranges) else "",
+        "rule": written_rule(lab.rule),
+        "roster": roster,
+        "sha256": dict(hashes),
+        "salt": salt,
+        "students": [entry(each, salt) for each in students],
+    }
+
+
+def entry(each: Assigned, salt: str) -> dict[str, Any]:
+    """One student of the manifest."""
+    student = each.student
+    return {
+        "row": student.row,
+        "number": student.number,
+        "id": student.id,
+        "name": student.name,
+        "group": student.group,
+        "code": code(salt, student.id),
+        "parameters": {name: exact_text(value) for name, value in each.settings.items()},
+        "attempt": each.attempt,
+        "status": each.status,
+        "flattest_deg": rounded(each.flattest, 2),
+        "shortest_mm": rounded(each.shortest, 2),
+        "limits": [str(fault) for fault in each.faults],
+        "compute": list(each.computed),
+    }
+
+
+def rounded(value: float | None, digits: int) -> float | None:
+    """A number as it is written down, or none."""
+    return None if value is None else round(value, digits)
+
+
+def code(salt: str, student: str) -> str:
+    """The opaque code of a student: ten signs of base 32 of SHA-256 over salt and id."""
+    digest = hashlib.sha256((salt + student).encode("utf-8")).digest()
+    return base64.b32encode(digest).decode("ascii")[:CODE]
+
+
+def written_rule(rule: Formula | Ranges) -> dict[str, Any]:
+    """A rule as lab.toml writes it, numbers as exact texts."""
+    if isinstance(rule, Formula):
+        return {"set": {name: formula.text for name, formula in rule.settings.items()}}
+    draws = {
+        name: {"min": exact_text(r.least), "max": exact_text(r.most), "step": exact_text(r.step)}
+        for name, r in rule.draws.items()
+    }
+    return {"draw": draws, "tries": rule.tries}
+
+
+def read_rule(raw: Mapping[str, Any]) -> Formula | Ranges:
+    """The rule of a manifest. Raises SceneError where there is none."""
+    try:
+        rule = raw["rule"]
+        if "set" in rule:
+            return Formula({name: expression(text) for name, text in rule["set"].items()})
+        draws = {
+            name: Range(*(Fraction(ends[key]) for key in ("min", "max", "step")))
+            for name, ends in rule["draw"].items()
+        }
+        return Ranges(raw["course"], draws, int(rule["tries"]))
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        found = "the rule cannot be read"
+        raise SceneError(Problem(MANIFEST, found, '{"set": …} or {"draw": …}')) from error
+
+
+def rederived(raw: Mapping[str, Any]) -> list[dict[str, str]]:
+    """The exact parameters of every student, derived again from the rule of a manifest alone."""
+    from pathlib import Path
+
+    lab = Lab(str(raw["lab"]), Path(), Path(), read_rule(raw))
+    found = []
+    for each in raw["students"]:
+        student = Student(int(each["row"]), str(each["id"]), each["number"])
+        values = settings(lab, student, int(each["attempt"]))
+        found.append({name: exact_text(value) for name, value in values.items()})
+    return found
+
+
+def as_text(raw: Mapping[str, Any]) -> str:
+    """A manifest as the text of its file."""
+    return json.dumps(raw, indent=1, ensure_ascii=False) + "\n"

@@ -1,0 +1,261 @@
+"""The commands that write pictures: sheet, cycle, accuracy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphkin.cli.console import FAILED, complain
+from graphkin.cli.options import (
+    FORMATS,
+    force_option,
+    formats_of,
+    ink_option,
+    language_option,
+    leave,
+    mechanism_of,
+    output_option,
+    pairs_of,
+    scales_of,
+    scene_argument,
+    tell,
+)
+
+if TYPE_CHECKING:
+    from graphkin.drawing.scale import Scales
+    from graphkin.drawing.style import Ink
+    from graphkin.mechanism import Mechanism
+
+
+@click.command()
+@scene_argument
+@output_option
+@click.option(
+    "--view",
+    type=click.Choice(["key", "task", "steps", "overlay"]),
+    default="key",
+    show_default=True,
+    help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
+    " by sentence; overlay: the key alone, to be laid over a drawing.",
+)
+@language_option
+@ink_option
+@click.option(
+    "--format",
+    "formats",
+    metavar="svg,pdf,html",
+    default="svg,pdf",
+    show_default=True,
+    help="Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
+    " which draws itself step by step (key and steps alike), or holds the task.",
+)
+@force_option
+def sheet(
+    name: str,
+    settings: tuple[str, ...],
+    folder: Path,
+    view: str,
+    lang: str | None,
+    ink: Ink,
+    formats: str,
+    force: bool,
+) -> None:
+    """Draw the velocity and acceleration sheets and the calculations.
+
+    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and
+    what is set: pump-n7-velocity-key.pdf. Files that exist are kept unless --force is given.
+
+    With --format html it writes one page for a browser, pump-n7-key.html, with all drawings, every
+    step and the results inside; it needs no network.
+
+    \b
+    Examples:
+      graphkin sheet pump --set n=7 -o sheets
+      graphkin sheet pump --set n=7 -o sheets --format html
+      graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
+    """
+    kinds = formats_of(formats, (*FORMATS, "html"))
+    from graphkin.writers.files import file_stem, rendered, write_all
+
+    mechanism = mechanism_of(name, settings)
+    stem = file_stem(mechanism.scene.name, pairs_of(settings))
+    files: dict[str, bytes] = {}
+    if "html" in kinds:
+        from graphkin.classroom.page_documents import hand_out_page
+
+        page = hand_out_page(mechanism, name, stem, view, lang, ink)
+        files[f"{stem}-{view}.html"] = page.encode("utf-8")
+    if kinds != ("html",):
+        from graphkin.documents.sheet_documents import hand_out
+
+        for part in hand_out(mechanism, view=view, language=lang):
+            files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, kinds, ink)
+    tell(str(path) for path in write_all(folder, files, force))
+
+
+@click.command()
+@scene_argument
+@output_option
+@click.option(
+    "--driver",
+    metavar="N",
+    type=int,
+    help="Of several drivers move only this one, counted from 1, while the others stand still.",
+)
+@click.option(
+    "--steps",
+    metavar="N",
+    type=click.IntRange(4, 1_000_000),
+    default=360,
+    show_default=True,
+    help="Positions in a whole turn, in a range, or in the time shown.",
+)
+@click.option(
+    "--from", "low", metavar="NUMBER", type=float, help="Begin here, not at the start of the range."
+)
+@click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
+@language_option
+@click.option(
+    "--format",
+    "formats",
+    metavar="svg,png,gif,html",
+    default="svg,png",
+    show_default=True,
+    help="Kinds of picture to write; the table comes as CSV. gif, html: mechanism and plans as they"
+    " move, a picture and a page.",
+)
+@force_option
+def cycle(
+    name: str,
+    settings: tuple[str, ...],
+    folder: Path,
+    driver: int | None,
+    steps: int,
+    low: float | None,
+    high: float | None,
+    lang: str | None,
+    formats: str,
+    force: bool,
+) -> None:
+    """Move the driver through a whole turn, or as far as it can go.
+
+    Tells its range, its dead points and change points by name, how far the followers go, and what
+    the lengths say of a single loop. Writes a table (CSV, SI units), curves of all motions, paths
+    of points, centrodes, and the circle of the driven pin against what the rest can reach.
+
+    Several drivers, and laws of time, are moved by the time: one turn of the first, once to and
+    fro where a law never makes one, or --from and --to seconds.
+
+    \b
+    Examples:
+      graphkin cycle pump --set n=7 -o cycles
+      graphkin cycle mine.toml -o cycles --steps 720 --format png
+      graphkin cycle pump --set n=7 -o cycles --format gif,html
+    """
+    kinds = formats_of(formats, ("svg", "png", "gif", "html"))
+    from graphkin.cli.report.cycle_report import agrees, cycle_lines
+    from graphkin.cli.report.cycle_table import cycle_table
+    from graphkin.motion.curves.curve_files import FORMATS as CURVES
+    from graphkin.motion.curves.curve_files import picture_files
+    from graphkin.motion.cycle import cycle as moved
+    from graphkin.motion.sweep import bounds_in_si
+    from graphkin.web.animation import animation_files
+    from graphkin.writers.files import file_stem, refuse_existing, write_all
+
+    mechanism = mechanism_of(name, settings)
+    stem = file_stem(mechanism.scene.name, pairs_of(settings))
+    refuse_existing(folder, [folder / f"{stem}-cycle.csv"], force)
+    first, last = bounds_in_si(mechanism.scene, driver, low, high)
+    found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
+    tell(cycle_lines(found))
+    files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
+    curves = [kind for kind in kinds if kind in CURVES]
+    files |= picture_files(found, stem, curves) if curves else {}
+    files |= animation_files(found, stem, kinds, lang)
+    tell(["", *(str(path) for path in write_all(folder, files, force))])
+    if not agrees(found):
+        complain("the independent route does not agree with the construction")
+        leave(FAILED)
+
+
+@click.command()
+@scene_argument
+@output_option
+@click.option(
+    "--quick",
+    is_flag=True,
+    help="A few positions, decimals and balls timed at one, the pencil at four on the way: "
+    "to see what comes.",
+)
+@click.option(
+    "--format",
+    "formats",
+    metavar="svg,png",
+    default="svg,png",
+    show_default=True,
+    help="Kinds of picture to write; the table comes as CSV.",
+)
+@force_option
+def accuracy(
+    name: str, settings: tuple[str, ...], folder: Path, quick: bool, formats: str, force: bool
+) -> None:
+    """Measure what accuracy costs in time.
+
+    Holds every method against certified answers. Runs the same positions in doubles one by one and
+    in batches, in single and extended precision, in decimals of up to 120 digits, in balls that
+    prove their radius, by Newton's method on the loop equations and by central differences, and
+    foretells what a pencil makes of them. Writes a table (CSV) and three pictures: error against
+    time; error towards a dead point; cost by what is asked. It takes about half a minute; groups of
+    class III and higher some minutes.
+
+    \b
+    Examples:
+      graphkin accuracy pump -o accuracy
+      graphkin accuracy mine.toml -o accuracy --quick
+    """
+    kinds = formats_of(formats, ("svg", "png"))
+    from graphkin.accuracy.stopwatch import QUICK, Effort
+    from graphkin.accuracy.study import study
+    from graphkin.accuracy.study_files import picture_files
+    from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table
+    from graphkin.writers.files import file_stem, refuse_existing, write_all
+
+    mechanism = mechanism_of(name, settings)
+    stem = file_stem(mechanism.scene.name, pairs_of(settings))
+    refuse_existing(folder, [folder / f"{stem}-accuracy.csv"], force)
+    effort = QUICK if quick else Effort()
+    say = progress()
+    found = study(mechanism, scales_if_any(mechanism), effort, say=say)
+    say("")
+    tell(accuracy_lines(found))
+    files = {f"{stem}-accuracy.csv": accuracy_table(found).encode()}
+    files |= picture_files(found, stem, kinds)
+    tell(["", *(str(path) for path in write_all(folder, files, force))])
+
+
+def scales_if_any(mechanism: Mechanism) -> Scales | None:
+    """The scale factors of the sheets; None, and a message, where they cannot be drawn."""
+    from graphkin.text.errors import GraphkinError
+
+    try:
+        return scales_of(mechanism)
+    except GraphkinError as error:
+        for problem in error.problems:
+            complain(f"the pencil is left out: {problem}")
+        return None
+
+
+def progress() -> Callable[[str], None]:
+    """What shows on a terminal, on one line, what is being done; elsewhere it is silent."""
+    import sys
+
+    def say(words: str) -> None:
+        click.echo(f"\r\x1b[K{words}{' …' if words else ''}", nl=False, err=True)
+
+    def silent(words: str) -> None:
+        return
+
+    return say if sys.stderr is not None and sys.stderr.isatty() else silent

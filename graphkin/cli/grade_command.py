@@ -1,0 +1,295 @@
+"""The command ``grade``: the answers of a class, marked against each student's own drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphkin.cli.console import FAILED, complain, say
+
+if TYPE_CHECKING:
+    from graphkin.classroom.grading.answers import Answers
+    from graphkin.classroom.grading.class_folder import ClassFolder
+    from graphkin.classroom.grading.class_marking import Class
+    from graphkin.text import Words
+
+KINDS = ("html", "pdf")
+MANY = 100
+"""Different variants from which several processes pay for themselves."""
+TERMINAL = "en"
+"""What the terminal speaks, as all commands and all refusals do."""
+SHOWN = 10
+"""Notes of one kind that are told one by one."""
+
+
+@click.command("grade")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.argument("answers", metavar="ANSWERS", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--output",
+    "report",
+    metavar="REPORT",
+    type=click.Path(path_type=Path),
+    help="Folder to write into, made if it is missing; DIR/report by default.",
+)
+@click.option(
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language of the report, and of the feedback to those for whom the class list names none"
+    " (language, limba, lingua); the scene's by default. The terminal speaks English.",
+)
+@click.option(
+    "--format",
+    "formats",
+    metavar="html,pdf",
+    default="html,pdf",
+    show_default=True,
+    help="Kinds of feedback page to write for each student.",
+)
+@click.option(
+    "--gradebook",
+    "gradebooks",
+    metavar="FILE",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="An export of your own from Moodle or Canvas (CSV or XLSX), to be filled in; repeatable.",
+)
+@click.option(
+    "--column", metavar="NAME", help="The column of the gradebook for the points; the empty one."
+)
+@click.option(
+    "--jobs",
+    metavar="N",
+    type=click.IntRange(1, 1024),
+    help="Processes that mark at once; by default one, all cores for more than a hundred variants.",
+)
+@click.option(
+    "--release",
+    "released",
+    metavar="ID",
+    multiple=True,
+    help="A student whose mark is given although the lab holds it (hold = true), now and whenever"
+    " this report is marked again; repeatable.",
+)
+@click.option(
+    "--hold",
+    "held",
+    metavar="ID",
+    multiple=True,
+    help="A student who was released, and is held again; repeatable.",
+)
+@click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
+@click.pass_context
+def grade(
+    context: click.Context,
+    folder: Path,
+    answers: Path,
+    report: Path | None,
+    lang: str | None,
+    formats: str,
+    gradebooks: tuple[Path, ...],
+    column: str | None,
+    jobs: int | None,
+    released: tuple[str, ...],
+    held: tuple[str, ...],
+    force: bool,
+) -> None:
+    """Mark the answers of a class.
+
+    DIR is what graphkin variants wrote, ANSWERS a table.
+
+    ANSWERS is a CSV or XLSX file with a column id and one for each field of the form (v_D_mm,
+    v_D, omega_3, omega_3_sense, …), a row for each student; or a folder with a file for each.
+    Decimal comma or point; a unit may be written; a sense is + or -, ccw or cw, or said in English,
+    Romanian or Italian (în sens orar, anticlockwise); one that the sign of its own value
+    contradicts earns nothing. An empty cell is not answered, an empty row not handed in. A cell
+    that cannot be read is told: its points wait, and no gradebook gets the marks of that student
+    until it is mended and marked again.
+
+    A value may be off by what a careful pencil makes of that student's own drawing (tolerances.csv
+    says how much). What is wrong by the key is held against what follows from the student's own
+    earlier values, and against slips known by name. Writes marks.csv, a feedback page for each
+    student, a report on the class, and fills in gradebooks.
+
+    Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
+    another's get no mark until you decide: mark again with --force and --release ID. The report
+    keeps whom you released, for every later marking, until --hold ID.
+
+    \b
+    Examples:
+      graphkin grade class answers.csv -o report
+      graphkin grade class answers.xlsx -o report --gradebook moodle.csv --column "Lab 3"
+      graphkin grade class answers.csv -o report --force
+      graphkin grade class answers.csv -o report --force --release 0042 --release 0057
+      graphkin grade class answers.csv -o report --force --hold 0057
+
+    \b
+    Exit status: 0; 1 when some cells cannot be read; 2 when nothing was marked.
+    """
+    from graphkin.classroom.grading.answers import read_answers
+    from graphkin.classroom.grading.class_folder import open_class
+    from graphkin.classroom.grading.class_marking import graded_class
+    from graphkin.classroom.grading.class_report import result_lines
+    from graphkin.classroom.grading.releases import releases
+    from graphkin.text import words as words_in
+    from graphkin.writers.files import write_all
+
+    kinds = kinds_of(formats, context)
+    if len({path.name for path in gradebooks}) < len(gradebooks):
+        raise click.UsageError("--gradebook: two files of the same name", context)
+    opened = open_class(folder)
+    ids = {taker.student.id: taker.code for taker in opened.takers}
+    refuse_strangers(context, "--release", released, ids)
+    refuse_strangers(context, "--hold", held, ids)
+    if both := ", ".join(who for who in released if who in held):
+        raise click.UsageError(f"--release, --hold: {both} cannot be both", context)
+    out = report or folder / "report"
+    free = releases(out, tuple(ids), released, held)
+    codes = {code: who for who, code in ids.items()}
+    given = read_answers(answers, opened.book.form, ids, codes)
+    words = words_of(opened, lang)
+    processes = jobs or usual_jobs(opened)
+    found = graded_class(opened.book, opened.takers, given.of, processes, free.ids)
+    files = all_files(opened, found, given, words, kinds, out) | free.files()
+    spoken = words_in(TERMINAL)
+    books = filled_books(gradebooks, column, found, spoken)
+    written = write_all(out, {**files, **books}, force)
+    for line in result_lines(found.result, spoken):
+        say(line)
+    if free.ids and opened.book.lab.rubric.hold:
+        say(spoken("class.released", who=", ".join(free.ids)))
+    changes(files, spoken)
+    notes(opened, given, spoken)
+    say("")
+    for path in told_paths(written):
+        say(path)
+    if given.unread:
+        context.exit(FAILED)
+
+
+def refuse_strangers(
+    context: click.Context, option: str, named: tuple[str, ...], ids: Collection[str]
+) -> None:
+    """Raise UsageError for ids that are no student's."""
+    if unknown := ", ".join(who for who in named if who not in ids):
+        raise click.UsageError(f"{option}: {unknown} is no student of this class", context)
+
+
+def usual_jobs(opened: ClassFolder) -> int:
+    """As many processes as pay for themselves."""
+    from graphkin.classroom.printing.workers import cores
+
+    variants = {tuple(sorted(taker.settings.items())) for taker in opened.takers}
+    return cores() if len(variants) > MANY else 1
+
+
+def kinds_of(text: str, context: click.Context) -> tuple[str, ...]:
+    """The kinds of feedback page named with commas between them; none at all is allowed."""
+    kinds = tuple(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
+    wrong = [kind for kind in kinds if kind not in (*KINDS, "none")]
+    if wrong:
+        known = f"{', '.join(KINDS)} or none"
+        raise click.UsageError(f"--format: {', '.join(wrong)} is not {known}", context)
+    return kinds
+
+
+def words_of(opened: ClassFolder, lang: str | None) -> Words:
+    """The words of the pages."""
+    from graphkin.documents.sheet_documents import language_of
+
+    return language_of(opened.book.mechanism({}), lang)
+
+
+def all_files(
+    opened: ClassFolder,
+    found: Class,
+    given: Answers,
+    words: Words,
+    kinds: tuple[str, ...],
+    report: Path,
+) -> dict[str, bytes]:
+    """The files of the report; with what changed since the marks that are there."""
+    from graphkin.classroom.grading.grading_files import MARKS, ReportSettings, report_files
+
+    scene = opened.book.mechanism({}).scene
+    title = scene.titles.get(words.language, scene.title)
+    before = report / MARKS
+    earlier = before.read_bytes() if before.is_file() else b""
+    told = ReportSettings(title, words, given.unread, scene.titles)
+    return report_files(found, opened.edition.lab, told, kinds, earlier)
+
+
+def filled_books(
+    gradebooks: tuple[Path, ...], column: str | None, found: Class, words: Words
+) -> dict[str, bytes]:
+    """The gradebooks with the points in them."""
+    from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook
+    from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
+    from graphkin.classroom.grading.marks_tables import number
+
+    files: dict[str, bytes] = {}
+    ids = [each.taker.student.id for each in found.result.graded]
+    graded = found.result.graded
+    held = [each.taker.student.id for each in graded if each.held]
+    waiting = [each.taker.student.id for each in graded if each.pending and not each.held]
+    for path in gradebooks:
+        book = filled_gradebook(path, points_by_id(found), column, ids)
+        files[gradebook_name(path)] = book.data
+        filled = words("class.filled", file=path.name, count=book.count, column=book.column)
+        say(filled)
+        points = max((each.points for each in found.result.graded), default=None)
+        if book.worth is not None and book.worth != points:
+            amounts = {"worth": number(book.worth), "points": number(points or 0)}
+            amounts = {name: words.decimal(amount) for name, amount in amounts.items()}
+            complain(words("class.worth", file=path.name, column=book.column, **amounts))
+        if book.replaced:
+            amounts = {"count": str(book.replaced), "column": book.column}
+            complain(words("class.replaced", file=path.name, **amounts))
+        kept = (("class.not_in", book.absent), ("class.waits", waiting), ("class.held_back", held))
+        for key, who in kept:
+            tell_some([words(key, file=path.name, who=each) for each in who], words)
+    return files
+
+
+def changes(files: dict[str, bytes], words: Words) -> None:
+    """Tell how much a new marking changed, and the first of it."""
+    from graphkin.classroom.grading.grading_files import CHANGES
+    from graphkin.classroom.grading.marks_tables import change_lines
+
+    if CHANGES in files:
+        for line in change_lines(files[CHANGES], words):
+            say(line)
+
+
+def told_paths(written: list[Path]) -> list[str]:
+    """The files that were written; feedback pages by their folder and number."""
+    from graphkin.classroom.grading.grading_files import FEEDBACK
+
+    pages = [path for path in written if path.parent.name == FEEDBACK]
+    lines = [str(path) for path in written if path.parent.name != FEEDBACK]
+    return [*lines, f"{pages[0].parent}: {len(pages)} pages"] if pages else lines
+
+
+def notes(opened: ClassFolder, given: Answers, words: Words) -> None:
+    """What is told of the answers: columns that are no fields, languages that are none of the
+    pages', cells that cannot be read.
+    """
+    from graphkin.classroom.grading.class_report import language_lines, stranger_lines, unread_lines
+
+    names = [taker.student for taker in opened.takers]
+    tell_some(list(stranger_lines(given, words)), words)
+    tell_some(list(language_lines(opened.takers, words)), words)
+    tell_some(list(unread_lines(names, given.unread, words)), words)
+
+
+def tell_some(lines: list[str], words: Words) -> None:
+    """Tell some notes, and how many more there are."""
+    lines = list(dict.fromkeys(lines))
+    for line in lines[:SHOWN]:
+        complain(line)
+    if len(lines) > SHOWN:
+        complain(words("class.told_more", count=len(lines) - SHOWN))

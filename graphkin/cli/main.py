@@ -1,0 +1,303 @@
+"""The command line: the commands that speak, list, check, explain, solve; all others join them."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from graphkin import __version__
+from graphkin.cli.class_commands import new, variants
+from graphkin.cli.console import FAILED, CommandGroup, complain, say
+from graphkin.cli.draw_commands import accuracy, cycle, sheet
+from graphkin.cli.grade_command import grade
+from graphkin.cli.options import leave, mechanism_of, scales_of, scene_argument, tell
+from graphkin.cli.print_command import print_sheets
+from graphkin.cli.studio_command import studio
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from graphkin.cli.report.solution_record import Record
+    from graphkin.construction.core.program import Target
+    from graphkin.construction.core.run import Trace
+    from graphkin.construction.core.solution import Solution, Verdict
+    from graphkin.drawing.scale import Scales
+    from graphkin.mechanism import Mechanism
+    from graphkin.scene.model import Scene
+
+HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
+
+
+@click.group(cls=CommandGroup, invoke_without_command=True, context_settings=HELP)
+@click.version_option(__version__, "-V", "--version", prog_name="graphkin")
+@click.pass_context
+def app(context: click.Context) -> None:
+    """Draw the velocity and acceleration plans of a planar mechanism to scale, step by step, as a
+    hand does with compass and ruler, and check them by an independent calculation.
+
+    SCENE is the name of a lab that comes with graphkin, or a .toml file that describes your own
+    mechanism.
+
+    \b
+    Examples:
+      graphkin list                              which labs there are
+      graphkin solve pump --set n=7              all numbers of student 7's pump
+      graphkin sheet pump --set n=7 -o sheets    the drawings and calculations
+      graphkin cycle pump --set n=7 -o cycles    its motion from end to end, as curves
+      graphkin accuracy pump -o accuracy         what accuracy costs in time, as pictures
+      graphkin check mine.toml                   what is wrong with my own scene
+
+    \b
+    Exit status: 0 all is well; 1 the independent check disagrees, or something asked cannot
+    be drawn fairly; 2 the scene or the command cannot be understood, drawn or written.
+    """
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
+
+
+@app.command("list")
+def list_labs() -> None:
+    """List the labs that come with graphkin.
+
+    Shows for each lab its title, the parameters that --set can change with their ranges, and what
+    it asks for.
+    """
+    from graphkin.cli.report.catalogue import labs_lines
+
+    tell(labs_lines())
+
+
+@app.command()
+@scene_argument
+def check(name: str, settings: tuple[str, ...]) -> None:
+    """Check a scene and show how its mechanism is put together.
+
+    Tells every mistake at once. Then shows links, pairs and mobility, the groups in the order of
+    construction, both closures of each, the driver's range, and the flattest crossings.
+
+    A lab, which has a lab.toml beside its scene, is then tried on a thousand variants: how many
+    are fair, which limits the others break, and how much the difficulty differs.
+
+    \b
+    Examples:
+      graphkin check pump
+      graphkin check mine.toml --set r=120
+    """
+    from graphkin.cli.class_commands import check_lab
+    from graphkin.cli.report.check_report import Checking
+    from graphkin.scene import scene_files
+    from graphkin.text.errors import StructureError
+
+    checking = Checking(mechanism_of(name, settings))
+    tell(checking.lines())
+    if checking.problems:
+        raise StructureError(checking.problems)
+    for doubt in checking.doubts:
+        complain(doubt)
+    if not settings and scene_files.folder(name):
+        check_lab(name)
+    if checking.doubts:
+        leave(FAILED)
+
+
+@app.command()
+@scene_argument
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, times in seconds.")
+def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
+    """Explain which effects of the motion the construction needs.
+
+    For what the scene asks: which effects are in (normal components, an accelerated
+    driver, ...), which are out, why, how many steps each of them costs, and the time that those
+    steps alone take here and now.
+
+    \b
+    Examples:
+      graphkin explain pump
+      graphkin explain mine.toml --json
+    """
+    from graphkin.cli.report.explain_report import explain_lines, explain_record, explained
+
+    found = explained(mechanism_of(name, settings))
+    if as_json:
+        import json
+
+        say(json.dumps(explain_record(found), indent=2, ensure_ascii=False))
+    else:
+        tell(explain_lines(found))
+
+
+@app.command()
+@scene_argument
+@click.option("--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, full precision, SI units.")
+@click.option(
+    "--pencil",
+    metavar="MM",
+    type=click.FloatRange(0, 100),
+    help="Foretell the errors of a drawing whose marks lie within so many mm of where they belong.",
+)
+@click.option(
+    "--digits",
+    metavar="N",
+    type=click.IntRange(1, 1000),
+    help="Print N significant digits of each number, every one of them proved.",
+)
+def solve(
+    name: str,
+    settings: tuple[str, ...],
+    asked: bool,
+    as_json: bool,
+    pencil: float | None,
+    digits: int | None,
+) -> None:
+    """Compute positions, velocities and accelerations, and check them.
+
+    Units are m, s and rad; x points right, y up; counter-clockwise is positive. With --asked no
+    step is run that what is asked does not need, neither here nor in the check, and scales of a
+    drawing are looked for with --json alone.
+
+    With --digits every digit that is printed is proved, by balls of as many bits as that takes;
+    what no ball decides, such as whether a number is nought, is said instead, and the status is 1.
+
+    With --pencil it shows how flat the lines cross and what 95 of 100 drawings of what is asked
+    will be off at most, where 95 of 100 marks lie within MM and lines within as many degrees.
+
+    \b
+    Examples:
+      graphkin solve pump --set n=7
+      graphkin solve pump --set n=7 --asked
+      graphkin solve pump --set n=7 --asked --digits 30
+      graphkin solve pump --set n=7 --asked --pencil 0.25
+      graphkin solve mine.toml --json > mine.json
+    """
+    from graphkin.cli.report.solution_record import record
+    from graphkin.construction.core.results import gathered
+    from graphkin.loops.witness import sure_of
+
+    mechanism = mechanism_of(name, settings)
+    targets = mechanism.asked() if asked else None
+    trace, drawable = traced(mechanism, targets, digits)
+    solution = gathered(trace)
+    verdict = verdict_on(mechanism, solution)
+    solution = sure_of(solution, dict.fromkeys(verdict.unsure, True)) if verdict else solution
+    drawn = drawable and not (asked and pencil is None and not as_json)
+    drawn_at = scales_of(mechanism) if drawn else None
+    found = record(mechanism.scene, solution, verdict, drawn_at, asked=asked)
+    if digits is not None:
+        from graphkin.cli.report.certified_report import certify
+
+        found = certify(mechanism, found, digits, targets)
+    lines: tuple[str, ...] = ()
+    if pencil is not None and drawn_at is not None:
+        found["pencil"], lines = by_pencil(mechanism, drawn_at, pencil)
+    if as_json:
+        import json
+
+        say(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
+    else:
+        say(motion_words(mechanism.scene, solution, found, verdict))
+        tell(lines)
+    uncertain = not_certified(found)
+    doubtful = doubts(mechanism.scene, trace, solution, verdict, proved=digits is not None)
+    if doubtful or uncertain:
+        leave(FAILED)
+
+
+def traced(
+    mechanism: Mechanism, targets: Iterable[Target] | None, digits: int | None
+) -> tuple[Trace, bool]:
+    """The construction, and whether doubles can draw it: where digits are asked balls decide."""
+    from graphkin.text.errors import ClosureError
+
+    try:
+        return mechanism.trace(targets), True
+    except ClosureError:
+        if digits is None:
+            raise
+        from graphkin.accuracy.certified import decided
+
+        trace = decided(mechanism, digits, targets)
+        if trace is None:
+            raise
+        return trace, False
+
+
+def by_pencil(
+    mechanism: Mechanism, drawn_at: Scales, millimetres: float
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """What a pencil does to a drawing of what is asked, as a record and as lines; warns."""
+    from graphkin.accuracy.pencil import Pencil, forecast, original
+    from graphkin.cli.report.pencil_report import pencil_lines, pencil_record, warnings
+
+    found = forecast(original(mechanism, drawn_at), Pencil(millimetres))
+    for warning in warnings(found):
+        complain(f"{mechanism.scene.name} {warning}")
+    return pencil_record(found), ("", *pencil_lines(found))
+
+
+def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
+    """The judgement of the independent route; None, and a message, where it cannot judge."""
+    from graphkin.text.errors import StructureError, WitnessError
+
+    try:
+        return mechanism.witness(solution)
+    except (StructureError, WitnessError) as error:
+        for problem in error.problems:
+            complain(f"the independent check cannot judge: {problem}")
+        return None
+
+
+def motion_words(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
+    """The text of solve, in certified digits where the record holds them."""
+    if "digits" in found:
+        from graphkin.cli.report.certified_report import certified_text
+
+        return certified_text(scene, found, verdict)
+    from graphkin.cli.report.motion_report import motion_text
+
+    return motion_text(scene, solution, found, verdict)
+
+
+def not_certified(found: Record) -> bool:
+    """Warn of numbers whose digits are not proved; True when there are any."""
+    undecided = found.get("undecided", {})
+    if undecided:
+        from graphkin.text.plain_table import listed
+
+        complain(f"not certified: {listed(undecided, 6)}")
+    return bool(undecided)
+
+
+def doubts(
+    scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | None, *, proved: bool = False
+) -> bool:
+    """Warn of a flat crossing, of what no digit is sure of, and of a witness that disagrees.
+
+    True when there is any doubt. Digits that are ``proved`` are sure, whatever doubles lose.
+    """
+    from graphkin.cli.report.motion_report import flat_words, verdict_words
+    from graphkin.cli.report.unsure_words import digits_words, unsure_words
+    from graphkin.construction.core.solution import FAIR
+
+    flat = solution.margin < FAIR
+    if flat:
+        sure = f"; sure digits: {digits_words(verdict)}" if verdict and not proved else ""
+        complain(f"{flat_words(scene, trace)}{sure}")
+    unsure = verdict is not None and bool(verdict.unsure) and not proved
+    if verdict is not None and unsure:
+        complain(unsure_words(verdict))
+    if verdict is not None and not verdict.agrees:
+        complain(f"the independent check {verdict_words(verdict, scene)}")
+    return flat or verdict is None or not verdict.agrees or unsure
+
+
+for command in (sheet, cycle, accuracy, print_sheets, grade, new, variants, studio):
+    app.add_command(command)
+
+
+def main() -> None:
+    """Run the command line and leave with its status."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
+    app(prog_name="graphkin")

@@ -1,0 +1,129 @@
+"""What the commands share: their options and arguments, and how they speak and end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from graphkin.cli.console import READING, say
+from graphkin.text.errors import FileError, Problem
+
+if TYPE_CHECKING:
+    from graphkin.drawing.scale import Scales
+    from graphkin.mechanism import Mechanism
+
+FORMATS = ("svg", "pdf")
+
+
+class FolderType(click.Path):
+    """A folder to write into; nothing at all is no folder."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path of a folder."""
+        if not str(value).strip():
+            self.fail("the name of the folder is empty; . is the current one", param, ctx)
+        if Path(value).is_file():
+            hint = "name another folder with -o"
+            raise FileError(Problem(str(value), "is a file", "a folder", hint))
+        return super().convert(value, param, ctx)
+
+
+def scene_argument(command: Any) -> Any:
+    """SCENE and --set, which every command but list takes."""
+    command = click.option(
+        "--set",
+        "settings",
+        metavar="NAME=VALUE",
+        multiple=True,
+        help="Give a parameter of the scene another value, such as n=7. May be repeated.",
+    )(command)
+    return click.argument("name", metavar="SCENE")(command)
+
+
+output_option = click.option(
+    "-o",
+    "--output",
+    "folder",
+    metavar="DIR",
+    type=FolderType(path_type=Path),
+    default=Path(),
+    help="Folder to write into, made if it is missing; the current one by default.",
+)
+"""The folder of a command that writes files."""
+language_option = click.option(
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language of the pages; the scene's by default.",
+)
+"""The language of pages."""
+ink_option = click.option(
+    "--ink",
+    type=click.Choice(["colour", "black"]),
+    default="colour",
+    show_default=True,
+    help="black: for printers without colour; the kinds of line tell vectors apart.",
+)
+"""The ink of pages."""
+force_option = click.option("--force", is_flag=True, help="Replace files that exist.")
+"""Leave to replace files."""
+
+
+def formats_of(text: str, known: tuple[str, ...] = FORMATS) -> tuple[str, ...]:
+    """The kinds of file named with commas between them."""
+    kinds = tuple(dict.fromkeys(kind.strip().lower() for kind in text.split(",") if kind.strip()))
+    wrong = [kind for kind in kinds if kind not in known]
+    if wrong or not kinds:
+        found, both = ", ".join(wrong) or "nothing", ",".join(known)
+        words = f"--format: {found} is not {', '.join(known)} or {both}"
+        raise click.UsageError(words, current())
+    return kinds
+
+
+def mechanism_of(name: str, settings: tuple[str, ...]) -> Mechanism:
+    """The mechanism of a lab or a file with its parameters set."""
+    from graphkin.mechanism import Mechanism
+    from graphkin.scene import scene_files
+    from graphkin.scene.read_scene import read_scene
+
+    path, pairs = scene_files.find(name), pairs_of(settings)
+    current().meta[READING] = str(path) if Path(name).is_dir() else name
+    return Mechanism(read_scene(path, pairs))
+
+
+def scales_of(mechanism: Mechanism) -> Scales:
+    """The scale factors of the sheets."""
+    from graphkin.documents.scaling import scales
+
+    return scales(mechanism)
+
+
+def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
+    """Each NAME=VALUE in its two parts; a name may be set once."""
+    found: dict[str, str] = {}
+    for setting in settings:
+        name, equals, value = (part.strip() for part in setting.partition("="))
+        if not (name and equals and value):
+            raise click.UsageError(f"--set {setting}: write NAME=VALUE, such as n=7", current())
+        if name in found:
+            raise click.UsageError(f"--set {name}: is set twice", current())
+        found[name] = value
+    return found
+
+
+def current() -> click.Context:
+    """The context of the command that runs."""
+    return click.get_current_context()
+
+
+def leave(status: int) -> None:
+    """End the command with a status."""
+    current().exit(status)
+
+
+def tell(lines: Iterable[str]) -> None:
+    """Print lines."""
+    for line in lines:
+        say(line)

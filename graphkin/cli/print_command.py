@@ -1,0 +1,160 @@
+"""The command ``print``: a class folder as files for the printer and for each student."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphkin.cli.console import FAILED, complain, say, say_aside
+from graphkin.cli.options import ink_option, language_option
+
+if TYPE_CHECKING:
+    from graphkin.classroom.printing.print_run import Outcome, Tell
+    from graphkin.drawing.style import Ink
+
+TENTHS = 10
+"""How often a run tells how far it is where there is no terminal."""
+
+
+@click.command("print")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option(
+    "--view",
+    "views",
+    metavar="task,key,overlay,steps",
+    default="task,key",
+    show_default=True,
+    help="What to print of each student; a task comes with its A4 form.",
+)
+@language_option
+@ink_option
+@click.option(
+    "--format",
+    "formats",
+    metavar="pdf,svg,html",
+    default="pdf",
+    show_default=True,
+    help="Kinds of file to write for each student; the files for the printer are PDF. html: a page"
+    " for a browser, the task with a form that saves the answers.",
+)
+@click.option(
+    "--jobs",
+    metavar="N",
+    type=click.IntRange(1, 1024),
+    help="Processes that draw at once; as many as there are cores by default.",
+)
+@click.option(
+    "--engine",
+    "cluster",
+    metavar="dask://HOST:PORT",
+    default="",
+    help="Draw on the Dask cluster with its scheduler there (graphkin[cluster]).",
+)
+@click.option("--force", is_flag=True, help="Replace files that were printed otherwise.")
+@click.pass_context
+def print_sheets(
+    context: click.Context,
+    folder: Path,
+    views: str,
+    lang: str | None,
+    ink: Ink,
+    formats: str,
+    jobs: int | None,
+    cluster: str,
+    force: bool,
+) -> None:
+    """Print the sheets of a class.
+
+    DIR is what graphkin variants wrote.
+
+    Writes into DIR/print a task sheet (A3) and a form (A4) for every student, and what else
+    --view names; then one file of each view with all students in the order of the roster, for the
+    printer: class-task.pdf, class-key.pdf. Name, group and an opaque code stand on every sheet,
+    the code also as a QR square where it has room. A column language of the class list gives each
+    student's own; --lang is for those who have none.
+
+    A run that was stopped goes on where it was: the same command again makes what is missing, and
+    the same bytes come of it. Two runs into one folder are refused.
+
+    \b
+    Examples:
+      graphkin print mechanics-331
+      graphkin print mechanics-331 --view task,key,overlay --ink black
+      graphkin print mechanics-331 --view steps --format pdf,svg --lang en
+      graphkin print mechanics-331 --view task --format html
+    """
+    from graphkin.classroom.printing.edition import read_edition
+    from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
+    from graphkin.classroom.printing.print_work import VIEWS
+    from graphkin.classroom.printing.workers import CLUSTER, cores
+
+    chosen = named(context, "--view", views, VIEWS)
+    kinds = named(context, "--format", formats, ("pdf", "svg", "html"))
+    if "html" in kinds and "overlay" in chosen:
+        raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
+    if cluster and not cluster.startswith(CLUSTER):
+        raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
+    wishes = PrintRequest(chosen, kinds, lang, ink, force)
+    with progress() as tell:
+        outcome = print_class(read_edition(folder), wishes, Means(jobs or cores(), cluster), tell)
+    report(outcome)
+    if outcome.refused:
+        context.exit(FAILED)
+
+
+def named(
+    context: click.Context, option: str, text: str, known: tuple[str, ...]
+) -> tuple[str, ...]:
+    """The words of an option with commas between them, in the order in which they are known."""
+    words = [word.strip().lower() for word in text.split(",") if word.strip()]
+    wrong = [word for word in words if word not in known]
+    if wrong or not words:
+        found = ", ".join(wrong) or "nothing"
+        raise click.UsageError(f"{option}: {found} is none of {', '.join(known)}", context)
+    return tuple(word for word in known if word in words)
+
+
+@contextmanager
+def progress() -> Iterator[Tell]:
+    """What shows how many students are done: a bar on a terminal, else a line for each tenth."""
+    if sys.stderr is not None and sys.stderr.isatty():
+        with click.progressbar(length=1, label="students", show_pos=True, file=sys.stderr) as bar:
+
+            def move(done: int, total: int) -> None:
+                bar.length = max(total, 1)
+                bar.update(done - bar.pos)
+
+            yield move
+        return
+    told = -1
+
+    def line(done: int, total: int) -> None:
+        nonlocal told
+        tenth = TENTHS * done // max(total, 1)
+        if tenth > told:
+            told = tenth
+            say_aside(f"{done} of {total} students")
+
+    yield line
+
+
+def report(outcome: Outcome) -> None:
+    """Say what came of a run: the files for the printer, and who got none and why."""
+    if outcome.left:
+        complain(f"an earlier run did not end ({outcome.left}); what it had finished was kept")
+    for variant in outcome.lost:
+        complain(f'{variant.id}: "{variant.name}" has signs that the font of the sheets lacks: ?')
+    for line in outcome.strange:
+        complain(line)
+    for variant, problems in outcome.refused:
+        for problem in problems:
+            complain(f"{variant.id} {variant.name}: {problem}")
+    stood = f", {outcome.stood} stood already" if outcome.stood else ""
+    say(f"{outcome.made} student{'' if outcome.made == 1 else 's'} printed{stood}")
+    for path in outcome.files or [outcome.folder]:
+        say(str(path))

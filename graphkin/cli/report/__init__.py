@@ -1,0 +1,1 @@
+"""What the commands print: records for machines (JSON), aligned text for people."""

@@ -1,0 +1,55 @@
+"""The text of list."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.scene import scene_files
+from graphkin.scene.model import Ask, Parameter, Scene
+from graphkin.scene.parameters import range_words
+from graphkin.text.plain_table import labelled, listed
+
+ASKED = (
+    ("velocity", "velocity of"),
+    ("acceleration", "acceleration of"),
+    ("omega", "ω of"),
+    ("epsilon", "ε of"),
+    ("slides", "sliding of"),
+    ("centres", "instantaneous centres of"),
+    ("pairs", "relative centres of"),
+    ("poles", "acceleration poles of"),
+    ("inflection", "inflection circles of"),
+    ("centrodes", "centrodes of"),
+    ("curves", "paths of"),
+)
+
+
+def labs_lines() -> Iterator[str]:
+    """Every shipped lab: its title, parameters with their ranges, and what it asks."""
+    from graphkin.scene.read_scene import read_scene
+
+    for name in scene_files.names():
+        yield from lab_lines(read_scene(scene_files.find(name)))
+        yield ""
+
+
+def lab_lines(scene: Scene) -> list[str]:
+    """One lab."""
+    parameters = [parameter_words(parameter) for parameter in scene.parameters.values()]
+    return [
+        scene.name,
+        *labelled("", [scene.titles.get("en", scene.title)], 2),
+        *labelled("  set", parameters or ["nothing"], 9),
+        *labelled("  asked", [ask_words(scene.ask)], 9),
+    ]
+
+
+def parameter_words(parameter: Parameter) -> str:
+    """A parameter with its range, and the value it has unless it is set."""
+    return f"{range_words(parameter)} ({parameter.value.written({})} unless set)"
+
+
+def ask_words(ask: Ask) -> str:
+    """What a scene asks for, in words."""
+    wanted = [(words, getattr(ask, key)) for key, words in ASKED]
+    return "; ".join(f"{words} {listed(names)}" for words, names in wanted if names) or "nothing"

@@ -1,0 +1,305 @@
+"""What solve says in certified digits: the record with proved decimals, and its text.
+
+The record has the structure of the usual one, strings in place of numbers. What is not decided is
+null there, and told under ``undecided`` by its path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
+from graphkin.cli.report.motion_report import heading, scale_lines, verdict_words
+from graphkin.cli.report.solution_record import Record, motion_of
+from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.results import gathered
+from graphkin.construction.core.run import StepFailed
+from graphkin.construction.core.solution import (
+    LinkMotion,
+    PointMotion,
+    SlideMotion,
+    Solution,
+    Verdict,
+)
+from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.diagnosis.assembly_failure import not_found, why
+from graphkin.documents.centre_tables import carried, with_pole
+from graphkin.mechanism import Mechanism
+from graphkin.numbers.kinds import ball_kind, sound_ball
+from graphkin.numbers.plane import Ratio
+from graphkin.scene.model import Scene
+from graphkin.text.plain_table import table
+
+FAR = "at infinity, or too far to tell: not decided"
+NOWHERE = "none: at infinity, or the link is at rest"
+TURNING = ("omega", "epsilon")
+CENTRES = {"instant_centre": "centre", "acceleration_pole": "pole"}
+SLIDES = {"position": "slide", "speed": "slide speed", "acceleration": "slide acceleration"}
+"""Targets of the program by the keys of the record."""
+SECTIONS = {"points": "point", "links": "link", "centres": "links", "slides": "block"}
+"""The parts of the record that hold certified digits, with the head of their names."""
+QUANTITIES = {
+    "": ("centre of both", "m"),
+    "position": ("position", "m"),
+    "velocity": ("velocity", "m/s"),
+    "speed": ("speed", "m/s"),
+    "acceleration": ("acceleration", "m/s²"),
+    "coriolis": ("Coriolis", "m/s²"),
+    "omega": ("ω", "rad/s"),
+    "epsilon": ("ε", "rad/s²"),
+    "instant_centre": ("instantaneous centre", "m"),
+    "acceleration_pole": ("acceleration pole", "m"),
+    "inflection": ("inflection circle", "m"),
+    "inflection.pole": ("inflection pole", "m"),
+    "inflection.centre": ("inflection circle, centre", "m"),
+    "inflection.radius": ("inflection circle, radius", "m"),
+}
+"""What the keys of the record are called, with their units."""
+
+
+def certify(mechanism: Mechanism, found: Record, digits: int, targets: Any = None) -> Record:
+    """The record of a run in floats with so many proved digits; ``undecided`` where there are none.
+
+    The precision is raised until every number is decided, or by as much as is sensible.
+    """
+    certifier = Certifier.of(mechanism, targets)
+    for bits, narrowed in precisions(digits):
+        printer = Printer(mechanism.scene, certifier.run(bits, narrowed), digits)
+        with ball_kind(bits).working():
+            record = certified_record(found, printer)
+        if not printer.undecided:
+            break
+    return record | {"digits": digits, "bits": bits, "undecided": printer.undecided}
+
+
+@dataclass
+class Printer:
+    """Prints the numbers of a run in balls, and keeps what it cannot print by its path."""
+
+    scene: Scene
+    balls: Balls
+    digits: int
+    undecided: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def targets(self) -> Mapping[Target, int]:
+        """All that the program constructs."""
+        return self.balls.trace.program.targets
+
+    def real(self, path: str, ball: Any, target: Target) -> str | None:
+        """The digits of a number; None where they are not proved, or it was not found."""
+        if ball is None:
+            self.lost(path, target)
+            return None
+        if not sound_ball(ball):
+            self.doubted(path, FAR)
+            return None
+        printed = decimals(ball, self.digits)
+        if printed.text is None:
+            self.doubted(path, printed.doubt)
+        return printed.text
+
+    def pair(self, path: str, ball: Any, target: Target) -> list[str | None] | None:
+        """The digits of a point or a vector."""
+        if ball is None:
+            self.lost(path, target)
+            return None
+        return [self.real(f"{path}.{axis}", part, target) for axis, part in parts_of(ball)]
+
+    def centre(self, path: str, ratio: Ratio | None, target: Target) -> list[str | None] | None:
+        """The digits of a centre; None without doubt only where it surely is at infinity."""
+        if ratio is None:
+            self.lost(path, target)
+            return None
+        if ratio.size == 0:
+            return None
+        place = place_of(ratio)
+        if place is None:
+            self.doubted(path, FAR)
+            return None
+        return self.pair(path, self.balls.narrowed(place, target), target)
+
+    def lost(self, path: str, target: Target) -> None:
+        """A number that was not found: some step before it is singular within the ball.
+
+        Without such a step nothing tells it, in floats as little as in balls.
+        """
+        failed = self.balls.failure(target)
+        if failed is not None:
+            self.doubted(path, singular_words(self.scene, self.balls.trace.program, failed))
+
+    def doubted(self, path: str, words: str) -> None:
+        """A number that is not decided, with the reason."""
+        self.undecided[path] = words
+
+
+def parts_of(ball: Any) -> tuple[tuple[str, Any], ...]:
+    """The two coordinates of a point or a vector."""
+    return ("x", ball.real), ("y", ball.imag)
+
+
+def place_of(ratio: Ratio) -> Any:
+    """The point of a ratio; None where its ball reaches to infinity."""
+    try:
+        place = ratio.start + ratio.shift / ratio.size
+    except ZeroDivisionError:
+        return None
+    return place if sound_ball(place) else None
+
+
+def singular_words(scene: Scene, program: Program, failed: StepFailed) -> str:
+    """Why a step cannot be drawn in balls, in the words of a step that fails in floats."""
+    action, reason = failed.step.action, "the ball does not tell where"
+    if action is not None and (
+        action.margin is not None or isinstance(action.value, ClosureSolver)
+    ):
+        reason = why(scene, program, failed)
+    problem = not_found(program, failed.number, reason, "")
+    return f"singular within the ball: {problem.place}: {problem.found}"
+
+
+# --- the record ----------------------------------------------------------------------------------
+
+
+def certified_record(found: Record, printer: Printer) -> Record:
+    """A record with the digits of a run in balls in place of its numbers."""
+    solution = completed(printer.scene, gathered(printer.balls.trace, printer.scene.links))
+    record = found | {
+        "points": {n: point(n, found["points"][n], solution, printer) for n in found["points"]},
+        "links": {n: link(n, found["links"][n], solution, printer) for n in found["links"]},
+        "slides": {n: slide(n, solution, printer) for n in found["slides"]},
+    }
+    if "centres" in found:
+        record["centres"] = {
+            name: printer.centre(f"centres.{name}", solution.centres.get(name), ("centre", name))
+            for name in found["centres"]
+        }
+    return record
+
+
+def completed(scene: Scene, solution: Solution) -> Solution:
+    """The solution with every moving link in it: a block turns as its guide does."""
+    links = {
+        name: with_pole(solution.links.get(name), carried(scene, name, solution))
+        for name in scene.links
+    }
+    return replace(solution, links=links)
+
+
+def point(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
+    """Position, velocity and acceleration of a point, those of its entry in floats."""
+    motion = motion_of(name, solution) or PointMotion()
+    of = name if (next(iter(entry)), name) in printer.targets else name.partition("@")[0]
+    return {
+        key: printer.pair(f"points.{name}.{key}", getattr(motion, key), (key, of)) for key in entry
+    }
+
+
+def link(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
+    """Turning and centres of a link, those of its entry in floats."""
+    motion, path = solution.links[name], f"links.{name}"
+    record: Record = {}
+    for key in entry:
+        if key in TURNING:
+            record[key] = printer.real(f"{path}.{key}", getattr(motion, key), (key, name))
+        elif key in CENTRES:
+            target = CENTRES[key], name
+            record[key] = printer.centre(f"{path}.{key}", getattr(motion, key), target)
+        else:
+            record[key] = inflection(f"{path}.{key}", name, motion, printer)
+    return record
+
+
+def inflection(path: str, name: str, motion: LinkMotion, printer: Printer) -> Record | None:
+    """The inflection circle; None without doubt only where the link surely does not turn."""
+    target = "inflection", name
+    ratios = motion.instant_centre, motion.inflection_pole
+    if ratios[0] is None or ratios[1] is None:
+        printer.lost(path, target)
+        return None
+    if ratios[0].size == 0 or ratios[1].size == 0:
+        return None
+    first, pole = place_of(ratios[0]), place_of(ratios[1])
+    if first is None or pole is None:
+        printer.doubted(path, FAR)
+        return None
+    return {
+        "pole": printer.pair(f"{path}.pole", pole, target),
+        "centre": printer.pair(f"{path}.centre", (first + pole) / 2, target),
+        "radius": printer.real(f"{path}.radius", abs(pole - first) / 2, target),
+    }
+
+
+def slide(name: str, solution: Solution, printer: Printer) -> Record:
+    """Motion of a block along its guide; a guide that does not turn has no Coriolis vector."""
+    motion, path = solution.slides.get(name, SlideMotion()), f"slides.{name}"
+    record: Record = {
+        key: printer.real(f"{path}.{key}", getattr(motion, key), (target, name))
+        for key, target in SLIDES.items()
+    }
+    target = "coriolis", name
+    still = motion.coriolis is None and target not in printer.targets
+    vector = 0j if still else motion.coriolis
+    return record | {"coriolis": printer.pair(f"{path}.coriolis", vector, target)}
+
+
+# --- the text ------------------------------------------------------------------------------------
+
+
+def certified_text(scene: Scene, record: Record, verdict: Verdict | None) -> str:
+    """Everything that a certified record holds, a number on each line."""
+    parts = [
+        [heading(scene, record)],
+        *(numbers_table(record, section) for section in SECTIONS),
+        scale_lines(record["scales"]) if "scales" in record else [],
+        [certified_words(record), f"witness  {verdict_words(verdict, scene)}"],
+    ]
+    return "\n\n".join("\n".join(lines) for lines in parts if lines)
+
+
+def numbers_table(record: Record, section: str) -> list[str]:
+    """The numbers of the points, links, slides or centres, each with its quantity and unit."""
+    rows, last = [], ""
+    for name, entry in record.get(section, {}).items():
+        place = f"{section}.{name}"
+        values = {place: entry} if section == "centres" else below(place, entry)
+        for path, text in leaves(values):
+            shown = text if text is not None else record["undecided"].get(path, NOWHERE)
+            sign = "" if shown.startswith("-") else " "
+            rows.append([name if name != last else "", quantity(path, place), sign + shown])
+            last = name
+    return table([SECTIONS[section], "", f" {record['digits']} digits"], rows) if rows else []
+
+
+def below(path: str, entry: Record) -> Record:
+    """The parts of an entry by their paths."""
+    return {f"{path}.{key}": value for key, value in entry.items()}
+
+
+def leaves(values: Record) -> Iterator[tuple[str, str | None]]:
+    """Every number of an entry, with its path; None for what has no digits."""
+    for path, value in values.items():
+        if isinstance(value, dict):
+            yield from leaves(below(path, value))
+        elif isinstance(value, list):
+            yield from zip((f"{path}.x", f"{path}.y"), value, strict=True)
+        else:
+            yield path, value
+
+
+def quantity(path: str, place: str) -> str:
+    """What a path in an entry is called, with its unit."""
+    *keys, last = path.removeprefix(place).strip(".").split(".")
+    axis = [last] if last in ("x", "y") else []
+    words, unit = QUANTITIES[".".join(keys if axis else [*keys, last])]
+    return f"{' '.join([*filter(None, [words]), *axis])}, {unit}"
+
+
+def certified_words(record: Record) -> str:
+    """How many digits are proved, and with which precision."""
+    missing, bits = len(record["undecided"]), record["bits"]
+    if not missing:
+        return f"digits   every one proved, by balls of {bits} bits"
+    return f"digits   every one proved that is printed; {missing} not decided by {bits} bits"

@@ -1,0 +1,188 @@
+"""The text of check: what a scene is made of, how it closes, how well it can be drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees
+
+from graphkin.cli.report.coincident_pins import fallen_together
+from graphkin.cli.report.crossing_words import crossing
+from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
+from graphkin.cli.report.solution_record import plain, settings_words
+from graphkin.cli.report.structure_report import group_lines, structure
+from graphkin.construction.core.crossings import crossings
+from graphkin.construction.core.results import gathered
+from graphkin.construction.core.run import Trace
+from graphkin.construction.rolling.wheel_actions import counted_link
+from graphkin.diagnosis.closures import Choice, choices
+from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
+from graphkin.mechanism import Mechanism
+from graphkin.scene.findings import numbered
+from graphkin.scene.model import Scene
+from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import driver_problem
+from graphkin.structure.groups import Higher
+from graphkin.structure.turn_counting import counting
+from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError
+from graphkin.text.plain_table import labelled, listed, table
+
+WORST = 3
+"""Flattest crossings shown."""
+
+
+class Checking:
+    """Looks at a mechanism part by part; what is wrong is kept, and what is known still shown."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+        self.problems: list[Problem] = []
+        self.doubts: list[str] = []
+
+    def lines(self) -> Iterator[str]:
+        """The whole report, line by line, as far as the scene allows."""
+        scene = self.mechanism.scene
+        yield from title(scene)
+        try:
+            yield from structure(scene)
+            yield from labelled("groups", group_lines(decompose(scene)))
+            yield from self.closing()
+            yield from labelled("rank", self.rank())
+            trace = self.mechanism.trace()
+            yield from labelled("turns", turns_lines(trace, scene))
+            by_hand = self.mechanism.trace(self.mechanism.asked(), by_hand=True)
+            yield from labelled("crossings", crossing_lines(by_hand))
+            yield from labelled("note", fallen_together(scene, trace))
+            self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
+            yield from labelled("witness", [self.witness(trace)])
+        except GraphkinError as error:
+            self.problems += error.problems
+
+    def closing(self) -> Iterator[str]:
+        """Closures of the dyads, and the driver's angles for which everything closes."""
+        mechanism = self.mechanism
+        lines: list[str] = []
+        for choice in choices(mechanism.scene, mechanism.groups, mechanism.program):
+            lines += closure_lines(choice)
+        legend = ["(* as the scene says)"] if lines else ["nothing to choose"]
+        yield from labelled("closures", [*lines, *legend])
+        yield from labelled("range", range_lines(mechanism))
+
+    def rank(self) -> list[str]:
+        """The true mobility in words; a wrong number of drivers for it is a problem.
+
+        Where nothing closes, more drivers than the count leaves freedoms may be the cause.
+        """
+        from graphkin.cli.report.mobility_report import Rank
+
+        try:
+            rank = Rank(self.mechanism)
+        except ClosureError as error:
+            doubt = driver_problem(self.mechanism.scene)
+            raise ClosureError([*error.problems, *([doubt] if doubt else [])]) from error
+        problem = driver_problem(self.mechanism.scene, rank.moving)
+        self.problems += [problem] if problem else []
+        return list(rank.lines())
+
+    def witness(self, trace: Trace) -> str:
+        """The verdict of the independent route; a doubt where it does not agree."""
+        try:
+            verdict = self.mechanism.witness(gathered(trace))
+        except WitnessError as error:
+            self.doubts.append(f"the independent route cannot judge: {error}")
+            return f"could not judge: {error}"
+        if not verdict.agrees:
+            self.doubts.append("the independent route does not agree with the construction")
+        return verdict_words(verdict, self.mechanism.scene)
+
+
+def title(scene: Scene) -> list[str]:
+    """Title, name and parameters."""
+    settings = settings_words({name: plain(scene.values.get(name)) for name in scene.parameters})
+    return [f"{scene.title} ({scene.name})" + (f", {settings}" if settings else ""), ""]
+
+
+def closure_lines(choice: Choice) -> list[str]:
+    """Both closures of a dyad, the picked one marked."""
+    lines = [f"{choice.pin} of links {listed(choice.links)}:"]
+    for closure in choice.closures:
+        if closure.place is None:
+            where = "cannot be drawn"
+        else:
+            x, y = (f"{1e3 * part + 0.0:.3f}" for part in (closure.place.real, closure.place.imag))
+            where = f"({x}, {y}) mm"
+        rest = f"then {closure.fails} cannot be drawn" if closure.fails else "the rest closes"
+        if closure.place is None:
+            rest = ""
+        mark = "*" if closure.picked else " "
+        lines.append(f"{mark} {closure.words:<18} {where:<26} {rest}".rstrip())
+    return lines
+
+
+def range_lines(mechanism: Mechanism) -> list[str]:
+    """The positions of the driver for which everything closes, for one driver."""
+    if len(mechanism.scene.drivers) != 1:
+        return ["not swept: it is for mechanisms with one driver"]
+    found = closing(mechanism.scene)
+    return [range_words(mechanism, found), *([found.bound] if found.bound else [])]
+
+
+def range_words(mechanism: Mechanism, found: ClosingRanges) -> str:
+    """Where the only driver closes everything."""
+    scene, ranges = mechanism.scene, found.ranges
+    turns = scene.drivers[0].kind == "turn"
+    what = "angle" if turns else "position"
+    if any(isinstance(group, Higher) for group in mechanism.groups) and ranges:
+        where = "every" if ranges == [(0.0, 360.0)] else "some"
+        words = f"has the closure of that number for {where} {what} of the driver"
+        if where == "some":
+            words += f": {reached_words(scene, ranges)}"
+        return f"{words}; numbers change hands at dead points: graphkin cycle follows the motion"
+    if turns and ranges == [(0.0, 360.0)]:
+        return "closes for every angle of the driver: it turns fully"
+    if not ranges:
+        return f"closes for no {what} of the driver"
+    return f"closes for driver {what}s {reached_words(scene, ranges)}"
+
+
+def turns_lines(trace: Trace, scene: Scene) -> list[str]:
+    """Which angle links are taken to have, where their pins leave whole turns open."""
+    found = []
+    for step in trace.program.steps:
+        link = counted_link(step)
+        if link is None:
+            continue
+        angle, near = degrees(trace.value("turned", link)), degrees(trace.values[step.args[-1]])
+        found += [
+            f"link {link} stands at {angle:.2f}°, the angle within half a turn of {near:g}°",
+            "  its pins do not show how often it went round since the start of "
+            f"{place_of_turns(scene, link)};",
+            f"  turns = {{ {link} = … }} there says how many whole turns are to be added",
+        ]
+    return found
+
+
+def place_of_turns(scene: Scene, link: str) -> str:
+    """The key of what rolls and counts the angle of a link."""
+    rolling = counting(scene).get(link)
+    return next(
+        numbered(f"links.{each.name}.rolls", n, len(each.rolls))
+        for each in scene.links.values()
+        for n, own in enumerate(each.rolls)
+        if own is rolling or rolling is None
+    )
+
+
+def crossing_lines(trace: Trace) -> list[str]:
+    """The flattest crossings on paper: the angle, the part of the work, and the point.
+
+    ``trace`` holds the hand's way to what is asked: right triangles, plates and poles, too.
+    """
+    rows: dict[tuple[str, str], str] = {}
+    for found in sorted(crossings(trace), key=lambda found: found.angle):
+        rows.setdefault(crossing(trace.program, found.number), f"{degrees(found.angle):.2f}°")
+        if len(rows) == WORST:
+            break
+    if not rows:
+        return ["nothing crosses"]
+    lines = [(angle, part, point) for (point, part), angle in rows.items()]
+    return table(("angle", "part", "point (flattest crossings)"), lines)

@@ -1,0 +1,74 @@
+"""Where lines cross in a construction, in words: the point as the scene names it."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.pen import image, letter, second_image
+from graphkin.construction.core.program import CONTACT, Part, Program
+from graphkin.diagnosis.singularity_words import closed_by
+from graphkin.scene.model import FRAME
+from graphkin.text.plain_table import listed
+
+TAGS = "¹²"
+"""The tags of the images of two trial plans."""
+CENTRES = {
+    "I": "the centre of link",
+    "J": "the acceleration pole of link",
+    "W": "the inflection pole of link",
+}
+
+
+def crossing(program: Program, number: int) -> tuple[str, str]:
+    """What a step finds by lines that cross, as the scene calls it, and the part of the work."""
+    step = program.steps[number]
+    return place_words(program, number) or "lines that help", step.part.value
+
+
+def place_words(program: Program, number: int) -> str:
+    """The point, the line, the centre or the links that a step settles; empty for none of them."""
+    step = program.steps[number]
+    whole = next((n for n, other in enumerate(program.steps) if other.by_hand == number), None)
+    if whole is not None and not step.name:
+        return place_words(program, whole)
+    says, key = step.says, step.action.key if step.action else ""
+    if key == "swing-through":
+        return f"the line {says['p']}-{says['q']}"
+    kind = construction(step)
+    if kind is not None and kind.title:
+        return kind.title
+    if not step.name and key.startswith(("close", "part", "share")):
+        return f"links {listed(closed_by(program, number))} together"
+    name = drawn_name(program, number)
+    if step.part in (Part.CENTRE, Part.POLE) and name[:1] in CENTRES and "k" in says:
+        with_which = says.get("j", FRAME)
+        about = "" if with_which == FRAME else f" against link {with_which}"
+        return f"{CENTRES[name[:1]]} {says['k']}{about}"
+    return point_words(program, name)
+
+
+def drawn_name(program: Program, number: int) -> str:
+    """The letter of a step, or of the later step that lays what it finds.
+
+    The corner of a plate has its letter only where the plate is laid.
+    """
+    step = program.steps[number]
+    name, reached = step.name, {number}
+    for later in range(number + 1, len(program.steps)):
+        after = program.steps[later]
+        if name or after.part not in (step.part, Part.POSITION):
+            break
+        if reached.intersection(after.args):
+            name = after.name
+            reached.add(later)
+    return name
+
+
+def point_words(program: Program, name: str) -> str:
+    """The point whose letter or whose image in a plan this is; a name that is none stays itself."""
+    bare = name.rstrip(TAGS)
+    for quantity, point in program.targets:
+        if quantity == "position" and bare in (letter(point), image(point), second_image(point)):
+            own, _, link = point.removeprefix(CONTACT).partition("@")
+            words = f"the contact {own}" if point.startswith(CONTACT) else own
+            return f"{words} on link {link}" if link else words
+    return name

@@ -1,0 +1,307 @@
+"""The text of cycle: range, dead points, closures, limits of the followers, verdict on the loop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from graphkin.cli.report.piece_words import pieces_words
+from graphkin.cli.report.solution_record import plain, settings_words
+from graphkin.cli.report.sweep_words import LETTER, at_words, length_words, short
+from graphkin.text.plain_table import labelled, listed
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+    from graphkin.motion.ends import Event
+    from graphkin.motion.events import Singular
+    from graphkin.motion.follower_limits import Follower, Limit
+    from graphkin.motion.pieces import Path
+    from graphkin.motion.single_loop import Loop
+    from graphkin.motion.sweep import Sweep
+
+FLAT = 1e-10
+"""Difference that a row may have, over the cube of its flattest sine: beside singular places an
+acceleration is known no better, least of all where all of its kind are nought."""
+TINY = 1e-99
+"""Sine that counts as none."""
+SAME = 1e-6
+"""Distance of two limits, in degrees, m or s, that are one."""
+SHOWN = 6
+"""Places left out that are listed."""
+
+
+def cycle_lines(cycle: Cycle) -> Iterator[str]:
+    """The whole report of a cycle, line by line."""
+    from graphkin.motion.follower_limits import followers
+    from graphkin.motion.single_loop import loop_of
+
+    scene = cycle.scene
+    settings = settings_words({name: plain(scene.values.get(name)) for name in scene.parameters})
+    yield f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
+    yield ""
+    yield from labelled("sweep", list(sweep_words(cycle)))
+    yield from labelled("range", range_words(cycle))
+    yield from labelled("dead", [singular_words(cycle, s) for s in of_kind(cycle, "dead")])
+    yield from labelled("change", [singular_words(cycle, s) for s in of_kind(cycle, "change")])
+    yield from labelled(*pieces_words(cycle))
+    several = len(cycle.path.ranges) > 1
+    for i in range(len(cycle.path.ranges)):
+        steady = not any(stops(cycle, i))
+        found = [
+            line for each in followers(cycle, i) for line in follower_words(cycle, each, steady)
+        ]
+        yield from labelled(f"in range {i + 1}" if several else "followers", found)
+    loop = loop_of(cycle)
+    yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
+    yield from labelled("rows", [rows_words(cycle)])
+    yield from labelled("witness", [witness_words(cycle)])
+    yield from labelled("digits", list(digits_words(cycle)))
+
+
+def of_kind(cycle: Cycle, kind: str) -> Iterable[Singular]:
+    """Dead points, or change points."""
+    return (each for each in cycle.singulars if each.kind == kind)
+
+
+def sweep_words(cycle: Cycle) -> Iterator[str]:
+    """What is moved, and how."""
+    sweep = cycle.sweep
+    if sweep.what == "time":
+        count = len(cycle.scene.drivers)
+        yield f"{'every driver' if count > 1 else 'the driver'} moves with the time"
+        return
+    driver = sweep.driver
+    assert driver is not None
+    what = {"turn": "turns", "slide": "slides", "roll": "rolls"}[sweep.what]
+    unit = "rad" if sweep.what == "turn" else "m"
+    yield (
+        f"link {driver.link} {what}; at each position its speed is "
+        f"{short(float(driver.speed.si(cycle.scene.values)))} {unit}/s, its acceleration "
+        f"{short(float(driver.acceleration.si(cycle.scene.values)))} {unit}/s²"
+    )
+    if len(cycle.scene.drivers) > 1:
+        yield "the other drivers stand still where the scene puts them"
+
+
+def range_words(cycle: Cycle) -> list[str]:
+    """Where the driver can go."""
+    sweep = cycle.sweep
+    if cycle.path.whole:
+        words = ["every angle of the driver: it turns fully"]
+        return words + list(return_words(cycle.path))
+    lines = []
+    for pieces in cycle.path.ranges:
+        low, high = pieces[0].low, pieces[-1].high
+        ends = [at_words(sweep, end.at, name=False) for end in (low, high)]
+        line = f"{LETTER[sweep.what]} from {ends[0]} to {ends[1]}"
+        line += f" ({short(high.at - low.at)}° in all)" if sweep.what == "turn" else ""
+        if sweep.what in ("slide", "roll"):
+            line += beyond_words(sweep, low, high)
+        lines.append(line)
+    return lines
+
+
+def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
+    """What comes beyond the ends of a slide's or wheel's range that are no dead points.
+
+    Nothing stops it that has not stopped it where all lengths together no longer reach.
+    """
+    from graphkin.motion.driving import reach_of
+
+    open_ends = [(end, w) for end, w in ((low, "below"), (high, "above")) if end.kind == "window"]
+    enough = 2 * reach_of(sweep.original)
+    free = [w for end, w in open_ends if abs(end.at - sweep.start) >= enough]
+    more = [w for _, w in open_ends if w not in free]
+    words = f"; nothing stops it {' and '.join(free)}" if free else ""
+    return words + (f"; it goes on {' and '.join(more)}" if more else "")
+
+
+def return_words(path: Path) -> Iterator[str]:
+    """How the mechanism stands after a turn of the driver, unless it stands as before."""
+    from graphkin.motion.period import strangers, turns_to_return
+    from graphkin.motion.pieces import MOST_TURNS
+
+    if path.returns:
+        return
+    others = strangers(path)
+    if dict(path.ranges[0][0].branches) != dict(path.ranges[0][-1].branches) or not others:
+        yield "after one turn the mechanism stands in another closure"
+        return
+    stand = "links {} stand" if len(others) > 1 else "link {} stands"
+    yield f"after one turn {stand.format(listed(others))} otherwise than before"
+    turns = turns_to_return(path)
+    yield (
+        f"after {turns} turns all stands as before"
+        if turns
+        else f"nor does all stand as before within {MOST_TURNS} turns"
+    )
+
+
+def singular_words(cycle: Cycle, found: Singular) -> str:
+    """A dead point or a change point, in a sentence."""
+    where = f"{found.lines} at {at_words(cycle.sweep, found.at)}"
+    if found.kind == "dead" and cycle.sweep.what == "time":
+        return f"{where}: the motion ends, {found.pin} cannot be found beyond"
+    if found.kind == "dead":
+        return f"{where}: limit position of the driver, {found.pin} cannot be found beyond"
+    return f"{where}: change point, passed as the velocity leads"
+
+
+def stops(cycle: Cycle, number: int) -> tuple[bool, bool]:
+    """Whether a dead point ends a range of the driver, below and above."""
+    pieces = cycle.path.ranges[number]
+    return pieces[0].low.kind != "window", pieces[-1].high.kind != "window"
+
+
+def follower_words(cycle: Cycle, found: Follower, steady: bool) -> list[str]:
+    """How far one follower goes, where it turns round, and the ratio of the times.
+
+    ``steady`` tells that nothing stops the driver, so that a link without limits turns on.
+    """
+    what = f"block {found.name}" if found.line is None else f"link {found.name}"
+    line = "" if found.line is None else f" (line {'-'.join(found.line)})"
+    if found.full:
+        return [f"{what}{line} turns fully"]
+    verb = "goes" if found.line is None else "swings"
+    if steady and found.line is not None and not found.limits:
+        verb = "turns one way by"
+    words = f"{what}{line} {verb} {value_words(cycle, found, found.extent)}: "
+    words += " to ".join(limit_words(cycle, found, end) for end in (found.low, found.high))
+    lines = [words]
+    ends = [end.at for end in (found.low, found.high)]
+    others = [each for each in found.limits if min(abs(each.at - at) for at in ends) > SAME]
+    if others:
+        also = listed(limit_words(cycle, found, each) for each in others)
+        lines.append(f"  it turns round also at {also}")
+    if found.time_ratio is not None:
+        lines.append(f"  time ratio of its two strokes {found.time_ratio:.4f}")
+    return lines
+
+
+def limit_words(cycle: Cycle, found: Follower, limit: Limit) -> str:
+    """One limit with the driver's place."""
+    return f"{value_words(cycle, found, limit.value)} (at {at_words(cycle.sweep, limit.at)})"
+
+
+def value_words(cycle: Cycle, found: Follower, value: float) -> str:
+    """An angle or a coordinate of a follower."""
+    return length_words(cycle.sweep, value) if found.line is None else f"{value:.3f}°"
+
+
+def loop_words(cycle: Cycle, loop: Loop) -> list[str]:
+    """The verdict on a single loop, by its lengths and by the ring or band."""
+    sweep = cycle.sweep
+    size = {name: length_words(sweep, value) for name, value in loop.lengths.items()}
+    pins = "-".join(pin for pin in loop.pins if pin)
+    lines = [
+        f"{loop.kind.replace('slider-driven', 'slider-crank')} {pins}: "
+        + ", ".join(f"{name} {value}" for name, value in size.items())
+    ]
+    lines += verdict(loop)
+    lines.append(reach_words(sweep, loop))
+    if loop.more:
+        lines.append("the groups that hang on this loop may narrow the range further")
+    return lines
+
+
+def verdict(loop: Loop) -> list[str]:
+    """What the lengths say, in the field's words."""
+    from graphkin.motion.single_loop import class_of
+
+    if loop.kind == "four-bar":
+        found = class_of(loop)
+        return [f"Grashof: {SUMS[found.partition(' ')[0]]}, so it is a {found}: {WORDS[found]}"]
+    if loop.kind == "slider-crank":
+        sign = "≤" if loop.turns else ">"
+        says = "the crank turns fully" if loop.turns else "the crank cannot turn fully"
+        return [f"crank + offset {sign} rod: {says}"]
+    r, d, c = (loop.lengths[key] for key in ("crank", "offset", "rod"))
+    says = "could turn fully as the driver" if r + d <= c else "could not turn fully as the driver"
+    return [f"the block drives between its dead points; the crank {says}"]
+
+
+SUMS = {
+    "change-point": "shortest + longest = sum of the other two",
+    "triple": "shortest + longest > sum of the other two",
+    "double": "shortest + longest < sum of the other two",
+    "crank-rocker": "shortest + longest < sum of the other two",
+    "rocker-crank": "shortest + longest < sum of the other two",
+}
+WORDS = {
+    "change-point parallelogram": "crank and follower turn alike or against one another",
+    "change-point kite": "all its links can lie in one line",
+    "change-point four-bar": "all its links can lie in one line",
+    "triple rocker": "no link turns fully against another",
+    "double crank": "the frame is the shortest, both links on it turn fully",
+    "crank-rocker": "the driver is the shortest and turns fully, the other rocks",
+    "rocker-crank": "the follower is the shortest and could turn fully, the driver rocks",
+    "double rocker": "the coupler is the shortest and turns fully, both links on the frame rock",
+}
+
+
+def reach_words(sweep: Sweep, loop: Loop) -> str:
+    """The path of the driven pin against what the rest can reach."""
+    from graphkin.motion.single_loop import Band, Ring
+
+    pin = loop.pins[1]
+    if isinstance(loop.reach, Band):
+        area = f"the band of {length_words(sweep, loop.reach.half)} on either side of the guide"
+    else:
+        inner, outer = loop.reach.inner, loop.reach.outer
+        area = f"the ring of radii {length_words(sweep, inner)} and {length_words(sweep, outer)}"
+        area += f" about {loop.pins[3]}"
+    path = "circle" if isinstance(loop.path, Ring) else "line"
+    lies = "lies wholly within" if loop.turns else "leaves"
+    return f"the {path} of {pin} {lies} {area}"
+
+
+def rows_words(cycle: Cycle) -> str:
+    """How many rows there are, and which positions have none."""
+    words = f"{len(cycle.at)} rows"
+    left = cycle.left_out
+    if not len(left):
+        return words
+    places = [at_words(cycle.sweep, float(at), name=False) for at in left]
+    which = listed(places) if len(left) <= SHOWN else f"{places[0]} … {places[-1]}"
+    return f"{words}; {len(left)} positions left out, they do not close or are singular: {which}"
+
+
+def witness_words(cycle: Cycle) -> str:
+    """What the independent route says of all rows."""
+    found = cycle.witnessed
+    if found.refused:
+        return f"could not judge: {found.refused}"
+    if not len(cycle.at):
+        return "nothing to judge"
+    largest = f"largest difference {found.largest:.1e}"
+    count = int(found.agrees.sum())
+    if count == len(cycle.at):
+        return f"agrees in every row: {largest}"
+    if agrees(cycle):
+        others = len(cycle.at) - count
+        return f"agrees, but for {others} rows beside singular places: {largest}"
+    return f"DOES NOT AGREE in {len(cycle.at) - count} rows: {largest}"
+
+
+def digits_words(cycle: Cycle) -> Iterator[str]:
+    """Of which quantities no digit is sure, and in how many rows."""
+    import numpy as np
+
+    unsure = cycle.witnessed.unsure
+    if unsure:
+        rows = int(np.logical_or.reduce([*unsure.values()]).sum())
+        where = f"in {rows} row{'s' * (rows > 1)}, whose cells are empty"
+        yield f"none is sure of {listed(unsure, SHOWN)} {where}"
+
+
+def agrees(cycle: Cycle) -> bool:
+    """Whether the independent route agrees in every row that is not beside a singular place.
+
+    Where a crossing is so flat that no digit is sure it need not have an answer at all.
+    """
+    import numpy as np
+
+    found = cycle.witnessed
+    allowed = FLAT / np.maximum(cycle.solution.margin, TINY) ** 3
+    flat = (found.difference <= allowed) | (allowed >= 1)
+    return bool(not found.refused and (found.agrees | flat).all())

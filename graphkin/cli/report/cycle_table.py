@@ -1,0 +1,100 @@
+"""The table of a cycle: a row for each position of the driver, SI units, comma separated."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from graphkin.numbers.plane import Ratio
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+
+Column = tuple[str, Any]
+POINT = (("position", "", "m"), ("velocity", "v", "m/s"), ("acceleration", "a", "m/s^2"))
+SLIDE = (("position", "s", "m"), ("speed", "v", "m/s"), ("acceleration", "a", "m/s^2"))
+
+
+def cycle_table(cycle: Cycle) -> str:
+    """The whole table as CSV: heads with their units, '.' decimals, full precision.
+
+    A cell is empty where there is no value, an instantaneous centre at infinity, and where no digit
+    of the value is sure.
+    """
+    columns = list(columns_of(cycle))
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([head for head, _ in columns])
+    for row in range(len(cycle.at)):
+        writer.writerow([cell(values[row]) for _, values in columns])
+    return out.getvalue()
+
+
+def cell(value: Any) -> str:
+    """A number in its shortest exact form, never minus nought; empty where there is none."""
+    import math
+
+    if getattr(value, "dtype", None) == "int64":
+        return str(value)
+    return repr(float(value) + 0.0) if math.isfinite(value) else ""
+
+
+def columns_of(cycle: Cycle) -> Iterator[Column]:
+    """Every column with its head, in the order of the scene."""
+    sweep = cycle.sweep
+    yield f"{sweep.symbol} [{sweep.unit}]", cycle.at
+    if sweep.what == "turn":
+        import numpy as np
+
+        yield f"{sweep.symbol} [rad]", np.radians(cycle.at)
+    yield "piece", cycle.piece
+    yield from of_points(cycle)
+    yield from of_links(cycle)
+    yield from of_slides(cycle)
+    for pin, margin in cycle.margins.items():
+        yield f"margin_{pin}", margin
+    if not cycle.witnessed.refused:
+        yield "witness", cycle.witnessed.difference
+
+
+def of_points(cycle: Cycle) -> Iterator[Column]:
+    """Position, velocity and acceleration of every moving point, by components."""
+    for name, motion in cycle.sure.points.items():
+        if name in cycle.scene.frame.points:
+            continue
+        for quantity, letter, unit in POINT:
+            value = getattr(motion, quantity)
+            if value is not None:
+                yield f"{letter}x_{name} [{unit}]", value.real
+                yield f"{letter}y_{name} [{unit}]", value.imag
+
+
+def of_links(cycle: Cycle) -> Iterator[Column]:
+    """Angular velocity and acceleration and the instantaneous centre of every link."""
+    for name, motion in cycle.sure.links.items():
+        if motion.omega is not None:
+            yield f"omega_{name} [rad/s]", motion.omega
+        if motion.epsilon is not None:
+            yield f"epsilon_{name} [rad/s^2]", motion.epsilon
+        centre = motion.instant_centre
+        if isinstance(centre, Ratio):
+            import numpy as np
+
+            with np.errstate(all="ignore"):
+                place = centre.start + centre.shift / centre.size
+            yield f"Ix_{name} [m]", place.real
+            yield f"Iy_{name} [m]", place.imag
+
+
+def of_slides(cycle: Cycle) -> Iterator[Column]:
+    """Coordinate, speed and acceleration of every block along its guide, and Coriolis vector."""
+    for name, motion in cycle.sure.slides.items():
+        for quantity, letter, unit in SLIDE:
+            value = getattr(motion, quantity)
+            if value is not None:
+                yield f"{letter}_slide_{name} [{unit}]", value
+        if motion.coriolis is not None:
+            yield f"cx_slide_{name} [m/s^2]", motion.coriolis.real
+            yield f"cy_slide_{name} [m/s^2]", motion.coriolis.imag

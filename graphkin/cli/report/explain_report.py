@@ -1,0 +1,133 @@
+"""The text and the JSON of explain: which effects are in, why, their steps and what those cost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from graphkin.cli.report.catalogue import ask_words
+from graphkin.cli.report.solution_record import settings_words
+from graphkin.construction.core.timing import Timing, timing
+from graphkin.diagnosis.effects import NAMES, EffectRow, effects, measured
+from graphkin.scene.model import Scene
+from graphkin.text.errors import ClosureError
+from graphkin.text.plain_table import table
+
+if TYPE_CHECKING:
+    from graphkin.mechanism import Mechanism
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """What explain has to say of a scene.
+
+    ``asked`` and ``everything`` are how many steps a run of what is asked, and of all that can be
+    asked, has, and the time that it takes. ``unmeasured`` says why there are no times.
+    """
+
+    scene: Scene
+    rows: tuple[EffectRow, ...]
+    asked: tuple[int, Timing | None]
+    everything: tuple[int, Timing | None]
+    unmeasured: str = ""
+
+
+def explained(mechanism: Mechanism) -> Explanation:
+    """Count the effects of a mechanism, and measure them where its scene can be drawn."""
+    program, asked = mechanism.program, mechanism.asked()
+    some, every = len(program.needed(asked)), len(program.needed(program.answers))
+    try:
+        return Explanation(
+            mechanism.scene,
+            measured(mechanism),
+            (some, timing(lambda: mechanism.trace(asked))),
+            (every, timing(mechanism.trace)),
+        )
+    except ClosureError as error:
+        why = str(error.problems[0])
+        return Explanation(mechanism.scene, effects(mechanism), (some, None), (every, None), why)
+
+
+def explain_lines(found: Explanation) -> Iterator[str]:
+    """The table of effects, each in or out, and the sums below it."""
+    scene = found.scene
+    values = {name: str(scene.values[name]) for name in scene.parameters}
+    settings = settings_words(values)
+    yield f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
+    yield f"asked: {ask_words(scene.ask)}"
+    yield ""
+    heads = ("effect", "", "steps", "time, µs", "quartiles", "why")
+    yield from table(heads, [cells(row) for row in found.rows])
+    yield ""
+    (steps, asked), (all_steps, everything) = found.asked, found.everything
+    if asked is None or everything is None:
+        yield f"{steps} steps give what is asked, {all_steps} would give everything"
+        yield f"no time is measured: {found.unmeasured}"
+        return
+    yield f"{steps} steps give what is asked, in {in_words(asked)}; {share(found.rows)}"
+    yield f"{all_steps} steps would give everything, in {in_words(everything)}"
+    yield (
+        f"time: median of {asked.rounds} rounds of those steps alone on one scene in float64, "
+        "without the witness; half of the rounds lie between the quartiles"
+    )
+
+
+def cells(row: EffectRow) -> tuple[str, ...]:
+    """One line of the table."""
+    time = row.time
+    spread = f"{micro(time.low)} – {micro(time.high)}" if time else ""
+    return (
+        row.name,
+        "in" if row.included else "out",
+        f"{row.steps:5d}",
+        f"{micro(time.median) if time else '':>8}",
+        f"{spread:>15}",
+        row.reason,
+    )
+
+
+def micro(seconds: float) -> str:
+    """Microseconds, with two digits at least."""
+    value = seconds * 1e6
+    return f"{value:.1f}" if value < 100 else f"{value:.0f}"
+
+
+def in_words(time: Timing) -> str:
+    """A time with its quartiles."""
+    return f"{micro(time.median)} µs ({micro(time.low)} – {micro(time.high)})"
+
+
+def share(rows: Sequence[EffectRow]) -> str:
+    """What the effects add up to, beside a whole run."""
+    seconds = sum(row.time.median for row in rows if row.time and row.name in NAMES)
+    return f"the effects alone add up to {micro(seconds)} µs"
+
+
+def explain_record(found: Explanation) -> dict[str, Any]:
+    """The same as plain data, times in seconds."""
+    return {
+        "name": found.scene.name,
+        "asked": ask_words(found.scene.ask),
+        "effects": [
+            {
+                "effect": row.name,
+                "in": row.included,
+                "steps": row.steps,
+                "time": time_record(row.time),
+                "why": row.reason,
+            }
+            for row in found.rows
+        ],
+        "steps_asked": found.asked[0],
+        "time_asked": time_record(found.asked[1]),
+        "steps_everything": found.everything[0],
+        "time_everything": time_record(found.everything[1]),
+    }
+
+
+def time_record(time: Timing | None) -> dict[str, float] | None:
+    """A time in seconds; None where nothing was run."""
+    if time is None:
+        return None
+    return {"median": time.median, "low": time.low, "high": time.high, "rounds": time.rounds}

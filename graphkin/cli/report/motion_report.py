@@ -1,0 +1,202 @@
+"""The text of solve: tables of points, links, centres and slides, the scales and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import isfinite
+from typing import Any
+
+from graphkin.cli.report.crossing_words import crossing
+from graphkin.cli.report.solution_record import Record, settings_words
+from graphkin.cli.report.unsure_words import digits_words, is_unsure, unsure_words
+from graphkin.construction.core.run import Trace
+from graphkin.construction.core.solution import FAIR, Solution, Verdict
+from graphkin.diagnosis.singularity_words import beside_dead_point
+from graphkin.documents.centre_tables import (
+    breadth_of,
+    centre_words,
+    completed,
+    inflection_table,
+    largest,
+    pole_words,
+    relative_table,
+)
+from graphkin.scene.model import Scene
+from graphkin.text.plain_table import Cell, cleaned, number, table
+
+POINT_HEADS = {
+    "position": ("x, m", "y, m"),
+    "velocity": ("vx, m/s", "vy, m/s", "v, m/s"),
+    "acceleration": ("ax, m/s²", "ay, m/s²", "a, m/s²"),
+}
+
+
+def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
+    """Everything that a record holds, in aligned tables."""
+    parts = [
+        [heading(scene, found)],
+        points_table(found["points"], solution),
+        turning_table(found["links"], solution),
+        centres_table(scene, solution, found["links"]),
+        relative_table(solution, found.get("centres", {})),
+        inflection_table(found["links"]),
+        slides_table(found["slides"]),
+        scale_lines(found["scales"]) if "scales" in found else [],
+        [f"witness  {verdict_words(verdict, scene)}", *sure_lines(verdict)],
+    ]
+    return "\n\n".join("\n".join(lines) for lines in parts if lines)
+
+
+def heading(scene: Scene, found: Record) -> str:
+    """Title and name of the scene, and its parameters as set."""
+    settings = settings_words(found["parameters"])
+    return f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
+
+
+def points_table(points: Mapping[str, Record], solution: Solution) -> list[str]:
+    """Position, velocity and acceleration of each point, with magnitudes."""
+    known = [key for key in POINT_HEADS if any(key in point for point in points.values())]
+    if not known:
+        return []
+    every = solution.points.values()
+    biggest = {key: largest(getattr(point, key) for point in every) for key in known}
+    rows: list[list[Cell]] = []
+    for name, point in points.items():
+        row: list[Cell] = [name]
+        for key in known:
+            row += components(point.get(key), biggest[key], len(POINT_HEADS[key]))
+        rows.append(row)
+    return table(["point", *(head for key in known for head in POINT_HEADS[key])], rows)
+
+
+def components(pair: list[float | None] | None, biggest: float, columns: int) -> list[Cell]:
+    """The two components of a vector, and its magnitude where there is a third column."""
+    known = [part for part in pair or () if part is not None]
+    if len(known) < 2:
+        return [None] * columns
+    return [cleaned(value, biggest) for value in (*known, abs(complex(*known)))[:columns]]
+
+
+def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
+    """ω and ε of each link, with their senses in words; ε beside ω² may be rounding."""
+    turning = largest(link.omega for link in solution.links.values())
+    twist = max(turning**2, largest(link.epsilon for link in solution.links.values()))
+    heads: list[str] = ["link"]
+    columns: list[list[Cell]] = [list(links)]
+    for key, head, biggest in (("omega", "ω, rad/s", turning), ("epsilon", "ε, rad/s²", twist)):
+        values = [link.get(key) for link in links.values()]
+        if any(value is not None for value in values):
+            clean = [None if value is None else cleaned(value, biggest) for value in values]
+            heads += [head, f"sense of {head[0]}"]
+            columns += [list(clean), [sense(value) for value in clean]]
+    unsure = {name for name, link in solution.links.items() if is_unsure(link)}
+    every = zip(*columns, strict=True)
+    rows = [row for row in every if row[0] in unsure or any(cell is not None for cell in row[1:])]
+    return table(heads, rows) if rows else []
+
+
+def sense(value: float | None) -> str | None:
+    """Which way a link turns, in words."""
+    if value is None:
+        return None
+    return "none" if value == 0 else "counter-clockwise" if value > 0 else "clockwise"
+
+
+def centres_table(scene: Scene, solution: Solution, links: Mapping[str, Record]) -> list[str]:
+    """Instantaneous centre and acceleration pole of each link that has them reported."""
+    full, breadth = completed(scene, solution), breadth_of(solution)
+    kinds = {
+        "instant_centre": "instantaneous centre, m",
+        "acceleration_pole": "acceleration pole, m",
+    }
+    known = [key for key in kinds if any(key in link for link in links.values())]
+    rows: list[list[Cell]] = []
+    for name, link in links.items():
+        cells: dict[str, Cell] = {
+            "instant_centre": centre_words(full.links[name].instant_centre, breadth),
+            "acceleration_pole": pole_words(
+                full.links[name].acceleration_pole, acceleration_of(scene, full, name), breadth
+            ),
+        }
+        if any(key in link for key in known):
+            rows.append([name, *(cells[key] if key in link else None for key in known)])
+    return table(["link", *(kinds[key] for key in known)], rows) if rows else []
+
+
+def acceleration_of(scene: Scene, solution: Solution, link: str) -> complex | None:
+    """Acceleration of the first known point of a link."""
+    points = (solution.points.get(name) for name in scene.links[link].points)
+    return next((p.acceleration for p in points if p is not None), None)
+
+
+def slides_table(slides: Mapping[str, Record]) -> list[str]:
+    """Motion of each block along its guide, and its Coriolis vector."""
+    heads = [
+        "block",
+        "position, m",
+        "speed, m/s",
+        "acceleration, m/s²",
+        "Coriolis x, m/s²",
+        "y, m/s²",
+    ]
+    keys = ("position", "speed", "acceleration")
+    rows: list[list[Any]] = [
+        [name, *(slide[key] for key in keys), *slide["coriolis"]] for name, slide in slides.items()
+    ]
+    return table(heads, rows) if rows else []
+
+
+def scale_lines(scales: Mapping[str, float | None]) -> list[str]:
+    """The scale factors of the largest drawing that fits the sheet; those of plans where known."""
+    kL, kv, ka = scales["kL"], scales["kv"], scales["ka"]
+    assert kL is not None
+    drawn = f"1 : {kL:g}" if kL >= 1 else f"{1 / kL:g} : 1"
+    lines = [f"scale    kL = {kL:g}, drawn {drawn}"]
+    if kv is None or ka is None:
+        return lines
+    return [
+        *lines,
+        f"         kv = {number(kv)} m/s per metre of paper, {number(kv / 1000)} m/s per mm",
+        f"         ka = {number(ka)} m/s² per metre of paper, {number(ka / 1000)} m/s² per mm",
+    ]
+
+
+def verdict_words(verdict: Verdict | None, scene: Scene) -> str:
+    """What the independent route says of the construction, each cause of a doubt by itself."""
+    if verdict is None:
+        return "could not judge"
+    where = f" at {verdict.quantity}" if verdict.quantity else ""
+    found = f"largest difference {verdict.largest_difference:.1e}{where}"
+    found += f", limit {verdict.limit:.1e}"
+    if verdict.agrees:
+        return f"agrees: {found}"
+    says = f"the numbers {'differ' if verdict.differs else 'agree'}: {found}"
+    if not isfinite(verdict.limit):
+        says = "lines stand in line, where no difference can be judged"
+    if verdict.branches:
+        says += f"; does not hold of [branches]: {verdict.not_as_stated(scene.branches)}"
+    return f"DOES NOT AGREE: {says}"
+
+
+def sure_lines(verdict: Verdict | None) -> list[str]:
+    """How many digits are sure, and of what there is none."""
+    if verdict is None or not verdict.digits:
+        return []
+    words = [f"digits   sure: {digits_words(verdict)}"]
+    return [*words, f"         {unsure_words(verdict)}"] if verdict.unsure else words
+
+
+def is_flat(trace: Trace) -> bool:
+    """Whether some lines cross so flatly that no ruler finds their point."""
+    return any(float(margin) < FAIR for margin in trace.margins.values())
+
+
+def flat_words(scene: Scene, trace: Trace) -> str:
+    """The flattest crossing: its point, its sine, what is nearly in line, and how to leave it."""
+    number = min(trace.margins, key=lambda step: float(trace.margins[step]))
+    point, part = crossing(trace.program, number)
+    sine = f"{float(trace.margins[number]):.2e}, less than {FAIR:g}"
+    return (
+        f"the lines at {point} ({part}) cross at a sine of {sine}: the answer is not fair to ask; "
+        f"{beside_dead_point(scene, trace.program, number)}"
+    )

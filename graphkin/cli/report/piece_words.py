@@ -1,0 +1,68 @@
+"""The pieces of a cycle in words: which closures [branches] states where."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby, pairwise
+from typing import TYPE_CHECKING
+
+from graphkin.cli.report.sweep_words import LETTER, at_words
+from graphkin.scene.model import Closure
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+    from graphkin.motion.pieces import Piece
+    from graphkin.scene.model import Branch
+
+
+def pieces_words(cycle: Cycle) -> tuple[str, list[str]]:
+    """The label and the lines about the pieces; none where there is but one."""
+    pieces = cycle.pieces
+    if any(piece.low.kind == "number" for piece in pieces):
+        return "closures", list(number_words(cycle, pieces))
+    if len(pieces) == 1:
+        return "pieces", []
+    lines = []
+    for piece in pieces:
+        signs = [branch_words(*each) for each in piece.branches.items()]
+        span = span_words(cycle, piece.low.at, piece.high.at)
+        lines.append(f"{span}: {', '.join(signs) or 'nothing to pick'}")
+    return "pieces", lines
+
+
+def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
+    """The numbers that the closure of a group of higher class has along its one motion.
+
+    Pieces of one number that follow one another are told as one; too short ones are not told.
+    """
+    yield "one motion through the whole range; to stand in it, write in [branches]"
+    for (name, number), run in groupby(pieces, numbered):
+        part = list(run)
+        low, high = part[0].low.at, part[-1].high.at
+        if not is_short(cycle, low, high):
+            yield f'{span_words(cycle, low, high)}: {name} = "closure {number}"'
+    for before, after in pairwise(pieces):
+        low, high = before.high.at, after.low.at
+        if not is_short(cycle, low, high):
+            yield f"{span_words(cycle, low, high)}: no rows, two closures lie too close together"
+
+
+def numbered(piece: Piece) -> tuple[str, int]:
+    """The link whose closure is numbered on a piece, and its number."""
+    return next((k, b.number) for k, b in piece.branches.items() if isinstance(b, Closure))
+
+
+def is_short(cycle: Cycle, low: float, high: float) -> bool:
+    """Whether two places are told by the same figures."""
+    return at_words(cycle.sweep, low) == at_words(cycle.sweep, high)
+
+
+def span_words(cycle: Cycle, low: float, high: float) -> str:
+    """A part of the sweep."""
+    ends = (at_words(cycle.sweep, end, name=False) for end in (low, high))
+    return f"{LETTER[cycle.sweep.what]} from {' to '.join(ends)}"
+
+
+def branch_words(name: str, branch: Branch) -> str:
+    """One sign, or the number of a closure."""
+    return f"{name} {branch}"

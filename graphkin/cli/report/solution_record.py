@@ -1,0 +1,207 @@
+"""The JSON of solve: SI units, x right, y up, counter-clockwise positive, full precision."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from math import isfinite
+from typing import Any, Protocol
+
+from graphkin.construction.core.solution import (
+    LinkMotion,
+    PointMotion,
+    SlideMotion,
+    Solution,
+    Verdict,
+)
+from graphkin.documents.centre_tables import breadth_of, completed, place_of
+from graphkin.scene.model import Scene
+
+Record = dict[str, Any]
+Wanted = Callable[[str, str], bool]
+"""Whether a quantity of a point, link or block is to be reported."""
+
+
+class ReportedScales(Protocol):
+    """Scale factors of a sheet: kL, and kv, ka per metre of paper."""
+
+    @property
+    def kL(self) -> float: ...  # noqa: D102
+    @property
+    def kv(self) -> float: ...  # noqa: D102
+    @property
+    def ka(self) -> float: ...  # noqa: D102
+
+
+def record(
+    scene: Scene,
+    solution: Solution,
+    verdict: Verdict | None,
+    scales: ReportedScales | None,
+    *,
+    asked: bool = False,
+) -> Record:
+    """Everything that solve reports, under the names of the scene and in its order.
+
+    Without ``scales`` there are none in it: they belong to a drawing, which nobody may have asked.
+    """
+    full, wanted = completed(scene, solution), wanted_of(scene, asked)
+    return {
+        "name": scene.name,
+        "parameters": {name: plain(scene.values.get(name)) for name in scene.parameters},
+        "points": named(point_names(scene, full), lambda n: point(n, motion_of(n, full), wanted)),
+        "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth_of(full))),
+        **centres(scene, full),
+        "slides": named(blocks(scene, full), lambda n: slide(n, full.slides[n], wanted)),
+        **drawn_at(scales, verdict),
+        "witness": witness(verdict),
+        "margin": real(solution.margin),
+    }
+
+
+def drawn_at(scales: ReportedScales | None, verdict: Verdict | None) -> Record:
+    """The scale factors of the sheets, where they were looked for.
+
+    Those of the plans are null where there are numbers of which no digit is sure.
+    """
+    if scales is None:
+        return {}
+    sure = verdict is None or not verdict.unsure
+    plans = {"kv": scales.kv, "ka": scales.ka} if sure else {"kv": None, "ka": None}
+    return {"scales": {"kL": scales.kL, **plans}}
+
+
+def wanted_of(scene: Scene, asked: bool) -> Wanted:
+    """Everything, or only what [ask] asks."""
+    if not asked:
+        return lambda quantity, of: True
+    ask = scene.ask
+    names = {
+        "position": ask.curves,
+        "velocity": ask.velocity,
+        "acceleration": ask.acceleration,
+        "omega": ask.omega,
+        "epsilon": ask.epsilon,
+        "instant_centre": ask.centres,
+        "acceleration_pole": ask.poles,
+        "inflection": ask.inflection,
+        "slide": ask.slides,
+    }
+    return lambda quantity, of: of in names.get(quantity, ())
+
+
+def point_names(scene: Scene, solution: Solution) -> list[str]:
+    """The frame's points, the links' as written, then those such as A@3."""
+    written = [p for link in (scene.frame, *scene.links.values()) for p in link.points]
+    asked = [name for name in (*scene.ask.velocity, *scene.ask.acceleration) if "@" in name]
+    names = dict.fromkeys((*written, *asked, *solution.points))
+    return [name for name in names if motion_of(name, solution) is not None]
+
+
+def motion_of(name: str, solution: Solution) -> PointMotion | None:
+    """The motion of a point; A@3 is A itself where link 3 owns it."""
+    return solution.points.get(name) or solution.points.get(name.partition("@")[0])
+
+
+def blocks(scene: Scene, solution: Solution) -> list[str]:
+    """The links that slide, in the order written."""
+    return [name for name in scene.links if name in solution.slides]
+
+
+def named(names: Any, entry: Callable[[str], Record]) -> Record:
+    """An entry for each name that has anything to report."""
+    entries = ((name, entry(name)) for name in names)
+    return {name: found for name, found in entries if found}
+
+
+def point(name: str, motion: PointMotion | None, wanted: Wanted) -> Record:
+    """Position, velocity and acceleration of a point, those that are wanted and known."""
+    assert motion is not None
+    found = {
+        "position": motion.position,
+        "velocity": motion.velocity,
+        "acceleration": motion.acceleration,
+    }
+    return {
+        key: pair(value) for key, value in found.items() if value is not None and wanted(key, name)
+    }
+
+
+def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Record:
+    """Turning of a link, and its centres or null where they are at infinity."""
+    turning = {"omega": motion.omega, "epsilon": motion.epsilon}
+    centres = {
+        "instant_centre": place_of(motion.instant_centre, breadth),
+        "acceleration_pole": place_of(motion.acceleration_pole, breadth),
+    }
+    found: Record = {key: real(value) for key, value in turning.items() if wanted(key, name)}
+    found |= {key: pair(value) for key, value in centres.items() if wanted(key, name)}
+    if motion.inflection_pole is not None and wanted("inflection", name):
+        found["inflection"] = inflection(motion, breadth)
+    return found
+
+
+def inflection(motion: LinkMotion, breadth: float) -> Record | None:
+    """The inflection circle: its pole, centre and radius; null where the link does not turn."""
+    first = place_of(motion.instant_centre, breadth)
+    pole = place_of(motion.inflection_pole, breadth)
+    if first is None or pole is None:
+        return None
+    return {"pole": pair(pole), "centre": pair((first + pole) / 2), "radius": abs(pole - first) / 2}
+
+
+def centres(scene: Scene, solution: Solution) -> Record:
+    """The relative centres that are asked, or null where they are at infinity."""
+    breadth = breadth_of(solution)
+    known = [name for name in scene.ask.pairs if name in solution.centres]
+    found = {name: pair(place_of(solution.centres[name], breadth)) for name in known}
+    return {"centres": found} if found else {}
+
+
+def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
+    """Motion of a block along its guide; a guide that does not turn has no Coriolis vector."""
+    if not wanted("slide", name):
+        return {}
+    return {
+        "position": real(motion.position),
+        "speed": real(motion.speed),
+        "acceleration": real(motion.acceleration),
+        "coriolis": pair(motion.coriolis if motion.coriolis is not None else 0j),
+    }
+
+
+def witness(verdict: Verdict | None) -> Record:
+    """The verdict of the independent route; without one nothing agrees."""
+    if verdict is None:
+        return {"agrees": False, "largest_difference": None}
+    return {
+        "agrees": verdict.agrees,
+        "largest_difference": real(verdict.largest_difference),
+        "quantity": verdict.quantity,
+        "limit": real(verdict.limit),
+        "branches_not_held": list(verdict.branches),
+        "digits": dict(verdict.digits),
+        "unsure": list(verdict.unsure),
+    }
+
+
+def real(value: Any) -> float | None:
+    """A finite float, never minus nought; None for what is not known."""
+    return float(value) + 0.0 if value is not None and isfinite(value) else None
+
+
+def pair(value: complex | None) -> list[float | None] | None:
+    """Two numbers of a point or vector."""
+    return None if value is None else [real(value.real), real(value.imag)]
+
+
+def plain(value: object) -> int | float | None:
+    """A parameter's value, whole when it is whole."""
+    if isinstance(value, Fraction) and value.denominator == 1:
+        return int(value)
+    return real(value)
+
+
+def settings_words(parameters: Mapping[str, Any]) -> str:
+    """Parameters as set, such as n = 7."""
+    return ", ".join(f"{name} = {value}" for name, value in parameters.items())

@@ -1,0 +1,243 @@
+"""The text of check on how a mechanism is put together: pairs, count, loops, drivers, groups."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from graphkin.scene.findings import natural
+from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.quantity import SI
+from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
+from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Group, Higher, Tie, Train
+from graphkin.structure.joints import partner
+from graphkin.structure.mobility import count
+from graphkin.structure.pairs import Contact, Pair, Pin, Sliding, contacts, pairs, sharers
+from graphkin.text.plain_table import labelled, listed
+
+VERBS = {"turn": "turns", "slide": "slides", "roll": "rolls"}
+MOST_LOOPS = 24
+"""Rings of four links that are told."""
+NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight")
+
+
+def structure(scene: Scene) -> Iterator[str]:
+    """Links, pairs, the count of freedoms, and the drivers.
+
+    Raises StructureError for wheels that do not touch, after the links.
+    """
+    moving = listed(scene.links)
+    yield from labelled("links", [f"{len(scene.links)} moving ({moving}), and the frame"])
+    joined = (*pairs(scene), *contacts(scene))
+    yield from labelled("pairs", [f"{len(joined)}:", *map(pair_words, joined)])
+    counted = count(scene)
+    yield from labelled("count", [f"{counted.words}, mobility by the count", *count_notes(scene)])
+    yield from labelled("loops", loop_lines(scene))
+    drivers = [driver_words(scene, driver) for driver in scene.drivers] or ["none"]
+    yield from labelled("drivers", drivers)
+
+
+# --- pairs and the count -------------------------------------------------------------------------
+
+
+def pair_words(pair: Pair | Contact) -> str:
+    """A pair with the links that it joins."""
+    if isinstance(pair, Pin):
+        return f"pin {pair.point} of {joined_words(pair.links)}"
+    if isinstance(pair, Contact):
+        return contact_words(pair)
+    return f"slide of block {pair.block} on {link_words(pair.links[1])}"
+
+
+def contact_words(contact: Contact) -> str:
+    """A rolling pair, with the freedoms that it takes where an arm spares it one."""
+    link, on = contact.links
+    track = "a track" if contact.track is None else f"wheel {contact.track.centre}"
+    words = f"wheel {contact.wheel.centre} of link {link} on {track} of {link_words(on)}"
+    if contact.arm is None:
+        return words
+    return f"{words}, at a distance that {link_words(contact.arm)} keeps"
+
+
+def count_notes(scene: Scene) -> Iterator[str]:
+    """What is easily counted wrong: pins of several links, contacts of one freedom, springs."""
+    for point, links in sharers(scene).items():
+        if len(links) > 2:
+            many = number_word(len(links) - 1)
+            yield f"pin {point} of {joined_words(links)} counts as {many} pairs"
+    singles = [contact for contact in contacts(scene) if contact.taken == 1]
+    if singles:
+        one = "the wheel" if len(singles) == 1 else "each wheel"
+        yield f"{one} whose distance is kept takes one freedom, every other pair two"
+
+
+def number_word(number: int) -> str:
+    """A small number as a word."""
+    return NUMBERS[number] if 0 <= number < len(NUMBERS) else str(number)
+
+
+def link_words(name: str) -> str:
+    """A link by its name, link 0 as the frame."""
+    return "the frame" if name == FRAME else f"link {name}"
+
+
+def joined_words(names: Sequence[str]) -> str:
+    """Several links by their names, the frame apart."""
+    if FRAME in names:
+        return listed(map(link_words, names))
+    return f"links {listed(names)}"
+
+
+# --- closed loops --------------------------------------------------------------------------------
+
+
+def loop_lines(scene: Scene) -> list[str]:
+    """How many closed loops are independent, and what turns fully in each single one."""
+    loops = count(scene).loops
+    if loops <= 0:
+        return ["none: an open chain"]
+    noun = "closed loop" if loops == 1 else "independent closed loops"
+    lines = [f"{loops} {noun}"]
+    single = single_loops(scene)
+    for loop in single[:MOST_LOOPS]:
+        lines += single_loop_lines(scene, loop)
+    if len(single) > MOST_LOOPS:
+        lines.append(f"and {len(single) - MOST_LOOPS} more rings of four links")
+    return lines
+
+
+def single_loop_lines(scene: Scene, loop: Loop) -> list[str]:
+    """A loop of four links: its class, the rule that decides it, and what that means."""
+    head = four_bar_words(scene, loop) if isinstance(loop, FourBar) else slider_words(scene, loop)
+    verdicts = [words for driver in scene.drivers if (words := driver_turn(loop, driver))]
+    return [head, *(f"  {words}" for words in verdicts)]
+
+
+def four_bar_words(scene: Scene, loop: FourBar) -> str:
+    """Grashof's rule with the numbers of a loop: s + l against p + q."""
+    short, *middle, long = sorted(loop.lengths)
+    sign = {"triple rocker": ">", "change point": "="}.get(loop.kind, "<")
+    numbers = [written(scene, length) for length in (short, long, *middle)]
+    rule = f"{numbers[0]} + {numbers[1]} {sign} {numbers[2]} + {numbers[3]} {unit(scene)}"
+    kind = f" ({loop.kind})" if FRAME in loop.links or not loop.slack else ""
+    return f"four-bar {ring(loop)}: {rule}, {turning_words(loop)}{kind}"
+
+
+def slider_words(scene: Scene, loop: SliderCrank) -> str:
+    """The rule r + |d| against c with the numbers of a loop."""
+    short, long = loop.lengths
+    sign = {1: "<", 0: "=", -1: ">"}[loop.slack]
+    left = f"{written(scene, short)} + {written(scene, abs(loop.offset))}"
+    rule = f"{left} {sign} {written(scene, long)} {unit(scene)}"
+    if FRAME not in loop.links:
+        kind = "loop with a slide"
+    else:
+        kind = "slider-crank" if loop.guide == FRAME else "inverted slider-crank"
+    return f"{kind} {ring(loop)}: {rule}, {turning_words(loop)}"
+
+
+def turning_words(loop: Loop) -> str:
+    """Which links turn all the way round against the others."""
+    if not loop.turning:
+        return "no link turns fully"
+    if FRAME in loop.turning and loop.slack:
+        return "every link turns fully against the frame"
+    if len(loop.turning) == 1:
+        words = f"{link_words(*loop.turning)} turns fully"
+    else:
+        words = f"{joined_words(loop.turning)} turn fully"
+    if loop.slack:
+        return f"{words} against the others"
+    return f"{words}, but with the bars in line both closures meet"
+
+
+def driver_turn(loop: Loop, driver: Driver) -> str:
+    """Whether a turning driver within a loop turns fully there; empty where it is not in it."""
+    ends = {driver.link, driver.against}
+    if driver.kind != "turn" or not ends <= set(loop.links):
+        return ""
+    against = "" if driver.against == FRAME else f" against link {driver.against}"
+    name = f"in this loop the driver of link {driver.link}{against}"
+    if ends.isdisjoint(loop.turning):
+        return f"{name} cannot turn fully: dead points end its range"
+    return f"{name} turns fully"
+
+
+def ring(loop: Loop) -> str:
+    """The links of a loop, one after the other."""
+    return "–".join(loop.links)
+
+
+def written(scene: Scene, length: float) -> str:
+    """A length (m) as a number in the unit of the scene."""
+    return f"{length / float(SI[unit(scene)][0]):.6g}"
+
+
+def unit(scene: Scene) -> str:
+    """The unit of lengths of the scene."""
+    return scene.units["length"]
+
+
+# --- drivers and groups --------------------------------------------------------------------------
+
+
+def driver_words(scene: Scene, driver: Driver) -> str:
+    """What a driver does, in the units of the scene, at these parameters."""
+    found = [
+        f"{quantity.written(scene.values)} {quantity.unit}".strip()
+        for quantity in (driver.position, driver.speed, driver.acceleration)
+    ]
+    at = f"at {found[0]}, speed {found[1]}"
+    at += "" if driver.acceleration.is_zero() else f", acceleration {found[2]}"
+    return f"link {driver.link} {VERBS[driver.kind]} against {link_words(driver.against)}: {at}"
+
+
+def group_lines(groups: tuple[Group, ...]) -> list[str]:
+    """The groups in the order of construction."""
+    return [f"{i}. {group_words(group)}" for i, group in enumerate(groups, 1)]
+
+
+def group_words(group: Group) -> str:
+    """A group by its kind, class and order, its links and what it hangs on."""
+    match group:
+        case Crank(driver, link, pivot):
+            other = driver.against if driver.link == link else driver.link
+            against = "" if other == FRAME else f" against link {other}"
+            return f"crank {link} about {pivot}{against} (class I)"
+        case Driven(_, link, pair):
+            return f"link {link} driven (class I): {pair_words(pair)}"
+        case Dyad(links, left, inner, right):
+            outer = listed(map(pair_name, (left, right)))
+            of = f"{group.title} (class II, order 2) of links {listed(links)}"
+            return f"{of}, inner {pair_name(inner)}, outer {outer}"
+        case Geared(link, pair, contact):
+            other = link_words(partner(contact, link))
+            return f"link {link} on {pair_name(pair)}, moved by its contact with {other}"
+        case Train(arm, wheel, pivot, _, rolled):
+            others = listed(link_words(partner(contact, wheel)) for contact in rolled)
+            return f"arm {arm} on {pair_name(pivot)} with wheel {wheel}, which rolls on {others}"
+        case Tie(link, first, second):
+            held = listed(map(pair_name, (first, second)))
+            if isinstance(first, Sliding):
+                return f"link {link} led by {held}: both tell how it is turned, so that one is idle"
+            return f"link {link} between {held}, which stand already: it must be idle"
+        case Higher():
+            return higher_words(group)
+    return f"{group.title}: {joined_words(group.links)}"
+
+
+def higher_words(group: Higher) -> str:
+    """A group of class III or more: its links, and how it is closed."""
+    links = listed(sorted(group.links, key=natural))
+    start = f"tried at link {group.trial.link} on {pair_name(group.trial.pair)}"
+    last = group.last
+    end = f"link {last.link}" if isinstance(last, Tie) else f"the driver of link {last.link}"
+    return f"{group.title} (links {links}): {start}, closed by {end}"
+
+
+def pair_name(pair: Pair | Contact) -> str:
+    """A pair in short: pin B, slide of 5 on the frame, contact of links 1 and 2."""
+    if isinstance(pair, Pin):
+        return f"pin {pair.point}"
+    if isinstance(pair, Contact):
+        return f"contact of {joined_words(pair.links)}"
+    return pair_words(pair)

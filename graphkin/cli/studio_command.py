@@ -1,0 +1,73 @@
+"""The command ``studio``: a page on this computer in which a scene is written and looked at."""
+
+from __future__ import annotations
+
+import gc
+from importlib.util import find_spec
+from pathlib import Path
+
+import click
+
+from graphkin.cli.options import current, tell
+
+NEEDED = ("bottle", "waitress")
+"""The packages of the extra [studio]."""
+
+
+@click.command()
+@click.argument("name", metavar="[SCENE]", required=False, default="")
+@click.option(
+    "--port",
+    metavar="N",
+    type=click.IntRange(0, 65535),
+    default=0,
+    help="Port to listen at; a free one by default.",
+)
+@click.option("--no-browser", is_flag=True, help="Only print the address, open no browser.")
+@click.option(
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language to begin with; the scene's by default. The page lets another be chosen.",
+)
+def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
+    """Write, move and look at a scene in a browser.
+
+    Opens, for this computer alone, a page with the text of SCENE, its mistakes marked where they
+    stand, a slider for each parameter, the mechanism, both plans, results, flattest crossings and
+    the independent check; all of it follows what is written and moved. Scenes and sheets are saved
+    into the current folder, and nothing outside it is read or written. Without SCENE it begins with
+    a slider-crank.
+
+    The page's address holds a token that nobody else knows; it ends with this command (Ctrl+C).
+
+    \b
+    Examples:
+      graphkin studio
+      graphkin studio pump --lang en
+      graphkin studio mine.toml --no-browser --port 8080
+    """
+    if missing := [name for name in NEEDED if not find_spec(name)]:
+        raise click.UsageError(
+            f"the studio needs {' and '.join(missing)}: pip install '.[studio]' where graphkin was "
+            "installed from, or pip install 'graphkin[studio]'",
+            current(),
+        )
+    from graphkin.studio.folder import Folder
+    from graphkin.studio.redirect import Redirect
+    from graphkin.studio.server import serve
+    from graphkin.studio.session import Session
+
+    session = Session(Folder(Path()), lang)
+    redirect = Redirect()
+    served = serve(session, port, session.address_of(name), redirect.remove)
+    tell([served.address])
+    try:
+        if not no_browser:
+            import webbrowser
+
+            webbrowser.open(redirect.write(served.address))
+        gc.collect()
+        gc.freeze()  # what is loaded stays: a search for garbage during a move passes it over
+        served.server.run()
+    finally:
+        redirect.remove()

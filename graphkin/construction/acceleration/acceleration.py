@@ -1,0 +1,233 @@
+"""The acceleration plan: normal components by the right triangle, perpendiculars, crossings."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, slide_arrow
+from graphkin.construction.core.bases import Base, crank_tip, sides_of
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.pen import Pen, Says, about, letter, named, second_image
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import (
+    alike,
+    centripetal,
+    driven_tangential,
+    meet,
+    parallel_to,
+    similar_point,
+)
+from graphkin.construction.coriolis.coincident_points import (
+    accelerated,
+    omega_of,
+    tangential_effect,
+)
+from graphkin.construction.guides.guide_actions import driven_slide
+from graphkin.construction.guides.sliding import lay_off_component, turning_component
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.plate_points import crosses_well
+from graphkin.construction.normal_component.normal_component import (
+    lay_off_normal,
+    normal_component,
+    square,
+)
+from graphkin.construction.rolling import wheel_images
+from graphkin.construction.velocity.velocity import driven_rate, line_of
+from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
+from graphkin.structure.joints import Joint, partner
+from graphkin.structure.pairs import Contact, Pin, Sliding
+
+
+def frame(pen: Pen) -> None:
+    """All fixed points have their image in the pole o′."""
+    for point in pen.scene.frame.points:
+        pen.want("acceleration", point, pen.pole(Plane.ACCELERATIONS))
+
+
+def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
+    """Acceleration of a driven tip: from tip to pivot, and square to the bar if it speeds up."""
+    tip, driver = crank_tip(pen.scene, group), group.driver
+    rate = pen.drive(driver).acceleration
+    pen.want("epsilon", group.link, driven_rate(pen, group, "epsilon", rate))
+    if tip is not None:
+        steady = driver.acceleration.is_zero() and not pen.turns(other_of(driver, group.link))
+        turn_tip(pen, group.link, group.pivot, tip, steady=steady)
+
+
+def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False) -> None:
+    """Second image of a point of a link whose rates are known, from that of its pivot."""
+    ends = pen.the("position", pivot), pen.the("position", tip)
+    start = pen.the("acceleration", pivot)
+    says: Says = {"p": pivot, "q": tip, "s": named(pen, start), "i": about(pen, tip, pivot)}
+    says["k"] = link
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        name = second_image(tip) if steady else ""
+        with pen.calls_for(Effect.NORMAL):
+            found = pen.draw(centripetal, start, *ends, pen.the("omega", link), name=name, **says)
+        if not steady or start != pen.pole(Plane.ACCELERATIONS):
+            component_arrow(pen, start, found, "ν", tip, pivot)
+        if not steady:
+            corner, rate = found, pen.the("epsilon", link)
+            name = second_image(tip)
+            with pen.calls_for(tangential_effect(pen, rate)):
+                found = pen.draw(driven_tangential, found, *ends, rate, name=name, **says)
+            component_arrow(pen, corner, found, "τ", tip, pivot)
+    pen.want("acceleration", tip, found)
+    acceleration_arrow(pen, tip)
+
+
+def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
+    """Second image of a driven slider or wheel: along its guide from what is known of it."""
+    if isinstance(group.pair, Contact):
+        rate = wheel_images.given_speed(pen, group.driver, group.pair, "acceleration")
+    else:
+        rate = pen.drive(group.driver).acceleration
+    slide_on(pen, shapes, group.pair, group.link, rate)
+
+
+def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, rate: int) -> None:
+    """Second image of the point of a link that slides, or rolls, with a rate along its guide."""
+    point, known = pen.bases[link].start, partner(pair, link)
+    way = 1 if pair.links[0] == link else -1
+    line = line_of(pen, shapes, pair, link, point)
+    vector = turning_component(pen, pair, link, point, point)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = lay_off_component(pen, pair, link, point, point, vector)
+        says: Says = {"q": point, "g": pair.links[0], "s": named(pen, corner)}
+        name = second_image(point)
+        with pen.calls_for(sliding_effect(pen, rate)):
+            found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)
+        slide_arrow(pen, corner, found, known, point)
+    pen.want("acceleration", point, found)
+    acceleration_arrow(pen, point)
+    if isinstance(pair, Contact):
+        wheel_images.second_touch(pen, pair)
+
+
+def sliding_effect(pen: Pen, rate: int) -> Effect | None:
+    """A component along a guide is a driver's where that is accelerated."""
+    return Effect.DRIVER if accelerated(pen, rate) else None
+
+
+def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+    """Second image of the point that closes a dyad: known components laid off, others crossed."""
+    cross(pen, shapes, *sides_of(pen.bases, group))
+
+
+def cross(
+    pen: Pen, shapes: LinkShapes, name: str, point: str, sides: list[tuple[Joint, str]]
+) -> None:
+    """The second image of a point from the lines on which two pairs leave it free."""
+    normals = {
+        pair.point: normal_component(pen, pair.point, name)
+        for pair, _ in sides
+        if isinstance(pair, Pin)
+    }
+    slides = {
+        pair.links: turning_component(pen, pair, link, name, point)
+        for pair, link in sides
+        if not isinstance(pair, Pin)
+    }
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        lines: list[int] = []
+        corners: list[int] = []
+        for pair, link in sides:
+            if isinstance(pair, Pin):
+                corner = lay_off_normal(pen, pair.point, name, normals[pair.point])
+                lines.append(square(pen, pair.point, name, corner))
+            else:
+                corner = lay_off_component(pen, pair, link, name, point, slides[pair.links])
+                lines.append(along(pen, shapes, pair, link, point, corner))
+            corners.append(corner)
+        found = pen.draw(meet, *lines, name=second_image(name), q=name)
+        for (pair, link), corner in zip(sides, corners, strict=True):
+            if isinstance(pair, Pin):
+                component_arrow(pen, corner, found, "τ", name, pair.point)
+            elif "@" in name:
+                slide_arrow(pen, found, corner, link, point)
+            else:
+                slide_arrow(pen, corner, found, partner(pair, link), point)
+    pen.want("acceleration", name, found)
+    if "@" not in name:
+        acceleration_arrow(pen, name)
+    for pair, _ in sides:
+        if isinstance(pair, Contact):
+            wheel_images.second_touch(pen, pair)
+
+
+def along(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, point: str, corner: int) -> int:
+    """Through the end of what is known of a sliding acceleration the parallel to its guide."""
+    assert not isinstance(pair, Pin)
+    line = line_of(pen, shapes, pair, link, point)
+    says: Says = {"s": named(pen, corner), "g": pair.links[0]}
+    return pen.draw(parallel_to, corner, line, **says)
+
+
+def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+    """A link between two known ones: on two guides it is crossed, at pins it is there."""
+    if isinstance(group.first, Sliding):
+        point = pen.bases[group.link].start
+        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
+
+
+# --- the rest of a link --------------------------------------------------------------------------
+
+
+def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
+    """Second images of the other points of a link, similar to the link (Mehmke)."""
+    if base.end is None:
+        led_points(pen, base)
+        return
+    ends = pen.the("acceleration", base.start), pen.the("acceleration", base.end)
+    for point in base.others:
+        if pen.has("acceleration", point):
+            continue
+        by_hand: int | None = None
+        corners: dict[str, int] = {}
+        ratio = shapes.ratio_of(base, point)
+        if crosses_well(pen, ratio):
+            by_hand, corners = two_perpendiculars(pen, base, point)
+        says: Says = {"p": letter(base.start), "q": letter(base.end), "r": point}
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            found = pen.draw(
+                similar_point, *ends, ratio, name=second_image(point), by_hand=by_hand, **says
+            )
+            for pivot, corner in corners.items():
+                component_arrow(pen, corner, found, "τ", point, pivot)
+        pen.want("acceleration", point, found)
+        acceleration_arrow(pen, point)
+
+
+def led_points(pen: Pen, base: Base) -> None:
+    """The other points of a link that turns with its guide; where it only shifts, one image."""
+    for point in base.others:
+        if pen.has("acceleration", point):
+            continue
+        if pen.turns(base.link):
+            omega_of(pen, base.link), omega_of(pen, base.link, "epsilon")
+            steady = pen.is_nought(pen.the("epsilon", base.link))
+            turn_tip(pen, base.link, base.start, point, steady=steady)
+            continue
+        start = pen.the("acceleration", base.start)
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            found = pen.draw(alike, start, name=second_image(point), p=base.start, q=point)
+        pen.want("acceleration", point, found)
+        acceleration_arrow(pen, point)
+
+
+def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str, int]]:
+    """The hand's way to a plate point: normal and perpendicular about each end of the base."""
+    assert base.end is not None
+    lines: list[int] = []
+    corners: dict[str, int] = {}
+    with pen.hands_way():
+        for pivot in (base.start, base.end):
+            vector = normal_component(pen, pivot, point)
+            with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+                corners[pivot] = lay_off_normal(pen, pivot, point, vector)
+                lines.append(square(pen, pivot, point, corners[pivot]))
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            return pen.draw(meet, *lines), corners
+
+
+def turning(pen: Pen, base: Base) -> None:
+    """Angular acceleration of a link: tangential component over length, with its sense."""
+    omega_of(pen, base.link, "epsilon")

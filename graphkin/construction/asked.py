@@ -1,0 +1,70 @@
+"""What is asked of points: in its plan an arrow from the pole, and the same on the mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
+from graphkin.construction.core.pen import Pen, letter
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import Action, set_on, set_on_twice
+from graphkin.construction.coriolis.coincident_points import carried
+
+
+class AskedQuantity(NamedTuple):
+    """What differs between velocities and accelerations."""
+
+    quantity: str
+    sign: str
+    plane: Plane
+    part: Part
+    action: Action  # that sets a vector on the mechanism
+    arrow: Callable[[Pen, str], None]  # from the pole of the plan
+
+
+VELOCITY = AskedQuantity(
+    "velocity",
+    "v",
+    Plane.VELOCITIES,
+    Part.VELOCITY,
+    set_on,
+    lambda pen, point: velocity_arrows(pen, point, None),
+)
+ACCELERATION = AskedQuantity(
+    "acceleration", "a", Plane.ACCELERATIONS, Part.ACCELERATION, set_on_twice, acceleration_arrow
+)
+
+
+def show(pen: Pen, kind: AskedQuantity, tips: Iterable[str]) -> None:
+    """The vectors of driven tips and of what is asked, on the mechanism, and their arrows."""
+    names: tuple[str, ...] = getattr(pen.scene.ask, kind.quantity)
+    asked = [constructed(pen, name, kind.quantity) for name in names]
+    for point in asked:
+        if pen.the(kind.quantity, point) != pen.pole(kind.plane):  # as that of a fixed point is
+            kind.arrow(pen, point)
+    for point in dict.fromkeys((*tips, *asked)):
+        set_on_mechanism(pen, kind, point)
+
+
+def constructed(pen: Pen, name: str, quantity: str) -> str:
+    """The point that a name asks about, its image found: A for A@3 where link 3 owns A."""
+    point, _, link = name.partition("@")
+    if not link:
+        return name
+    owned = point in pen.scene.link(link).points
+    if not pen.has("position", name):
+        pen.want("position", name, pen.the("position", point))
+    if not pen.has(quantity, name):
+        number = carried(pen, link, point, quantity)
+        if not pen.has(quantity, name):
+            pen.want(quantity, name, number)
+    return point if owned else name
+
+
+def set_on_mechanism(pen: Pen, kind: AskedQuantity, point: str) -> None:
+    """The absolute velocity or acceleration of a point, set on the mechanism."""
+    ends = pen.the("position", point), pen.pole(kind.plane), pen.the(kind.quantity, point)
+    with pen.on(kind.part, Plane.MECHANISM):
+        symbol = f"{kind.sign}_{letter(point)}"
+        pen.arrow(kind.action, *ends, pen.seconds(), name=symbol, symbol=symbol)

@@ -1,0 +1,1 @@
+"""Instantaneous centres, poles and inflection circles."""

@@ -1,0 +1,266 @@
+"""Relative centres of any two links, by Kennedy's lines or from the velocity plan.
+
+The centres of three links lie on one line (Kennedy, Aronhold). Pins, guides and contacts are
+centres at once; every other one is where two such lines meet. Where the circle diagram stops, in
+groups of class III and higher, the normals to two velocities give a centre against the frame.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import combinations
+from math import hypot
+
+from graphkin.construction.centres.centre_actions import (
+    guide_centre,
+    kennedy_endless,
+    kennedy_line,
+    kennedy_meet,
+    normals_meet,
+    pin_centre,
+    relative_centre,
+)
+from graphkin.construction.centres.circle_diagram import Centre, Pair, ordered, routes, unit
+from graphkin.construction.core.pen import Pen, Says, named
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.run import StepFailed, Trace, run
+from graphkin.construction.core.vocabulary import velocity_normal
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.numbers.plane import Ratio
+from graphkin.scene.model import FRAME
+from graphkin.text.errors import ClosureError
+
+ENDLESS = 1e-9
+"""A third coordinate, in breadths of the mechanism, below which a centre lies at infinity."""
+MANY = 40
+"""Links beyond which no way over other links is looked for: a sheet could not hold it."""
+
+
+def relative(pen: Pen) -> None:
+    """The relative centres that are asked, with those over which a hand finds them."""
+    if pen.scene.ask.pairs:
+        finder = Finder(pen)
+        for pair in pen.scene.ask.pairs:
+            first, second = pair.split("-")
+            if finder.moves(first) and finder.moves(second):
+                pen.want("centre", pair, finder.centre((first, second)))
+
+
+class Finder:
+    """Draws relative centres, each once, the ones that it is found from before it."""
+
+    def __init__(self, pen: Pen) -> None:
+        self.pen = pen
+        self.links = (FRAME, *pen.scene.links)
+        self.drawn: dict[Pair, int] = {}
+
+    def moves(self, link: str) -> bool:
+        """True for the frame, and for a link whose velocities are constructed."""
+        return link == FRAME or (self.pen.has("omega", link) and bool(self.points(link)))
+
+    def points(self, link: str) -> list[str]:
+        """The points of a link whose velocities are constructed."""
+        points = self.pen.scene.link(link).points
+        return [p for p in points if self.pen.has("position", p) and self.pen.has("velocity", p)]
+
+    @cached_property
+    def pins(self) -> dict[Pair, str]:
+        """The first pin that each two links share."""
+        found: dict[Pair, str] = {}
+        for a, b in combinations(self.links, 2):
+            there = self.pen.scene.link(b).points
+            shared = [p for p in self.pen.scene.link(a).points if p in there]
+            if shared and self.pen.has("position", shared[0]):
+                found[a, b] = shared[0]
+        return found
+
+    @cached_property
+    def guides(self) -> dict[Pair, tuple[str, int]]:
+        """Each block and its guide: the block's name and the step of the guide's line."""
+        found: dict[Pair, tuple[str, int]] = {}
+        for link in self.pen.scene.links.values():
+            line = self.pen.targets.get(("guide", link.name))
+            if len(link.slides) == 1 and line is not None and self.points(link.name):
+                found[ordered(self.links, link.name, link.slides[0].on)] = link.name, line
+        return found
+
+    @cached_property
+    def contacts(self) -> frozenset[Pair]:
+        """Each wheel and the link on which it rolls: their centre is where they touch."""
+        links = self.pen.scene.links.values()
+        return frozenset(ordered(self.links, w.name, r.on) for w in links for r in w.rolls)
+
+    @cached_property
+    def ways(self) -> dict[Pair, tuple[str, str] | None]:
+        """How each centre is found that is no pin, guide or contact."""
+        links = [link for link in self.links if self.moves(link)]
+        if len(links) > MANY:
+            return {}
+        every = {*self.pins, *self.guides, *self.contacts}
+        known = {pair for pair in every if pair[0] in links and pair[1] in links}
+        normals = [link for link in links[1:] if len(self.swift(link)) > 1]
+        return routes(links, known, self.where, normals)
+
+    @cached_property
+    def here(self) -> Trace | None:
+        """All velocities at the scene's own numbers; None where the mechanism does not close."""
+        program = self.pen.program()
+        wanted = [t for t in program.targets if t[0] in ("position", "velocity", "omega", "guide")]
+        try:
+            return run(program, program.needed(wanted), self.pen.scene.values, FLOAT)
+        except (StepFailed, ClosureError):
+            return None
+
+    @cached_property
+    def where(self) -> dict[Pair, Centre]:
+        """Where the centres lie at the scene's own numbers, lengths in breadths of the mechanism.
+
+        Links that do not move against each other, and are not joined, have none.
+        """
+        if self.here is None:
+            return {}
+        links = [link for link in self.links if self.moves(link)]
+        spots = [self.here.value("position", p) for link in links for p in self.points(link)]
+        middle = sum(spots) / len(spots)
+        breadth = max(abs(spot - middle) for spot in spots) or 1.0
+        fastest = max(abs(self.here.value("omega", link)) for link in links[1:]) or 1.0
+        found: dict[Pair, Centre] = {}
+        for pair in combinations(links, 2):
+            ratio = self.ratio(pair, self.here)
+            way = (ratio.start - middle) / breadth * ratio.size + ratio.shift / breadth
+            if hypot(abs(way), ratio.size) > (0 if pair in self.joined else ENDLESS * fastest):
+                found[pair] = unit(way.real, way.imag, ratio.size)
+        return found
+
+    @cached_property
+    def joined(self) -> frozenset[Pair]:
+        """The links that a pin or a guide joins."""
+        return frozenset({*self.pins, *self.guides})
+
+    def ratio(self, pair: Pair, here: Trace) -> Ratio:
+        """A centre at the scene's own numbers."""
+        if pair in self.pins:
+            return Ratio(here.value("position", self.pins[pair]), 0j, 1.0)
+        if pair in self.guides:
+            block, line = self.guides[pair]
+            along = here.values[line].along
+            start = here.value("position", self.points(block)[0])
+            return Ratio(start, 1j * along / abs(along), 0.0)
+        motions = (number for link in reversed(pair) for number in self.motion(link))
+        return Ratio(*relative_centre(*(here.values.get(n, 0.0) for n in motions)))
+
+    def swift(self, link: str) -> list[str]:
+        """The points of a link that do not stand still, in different places."""
+        if self.here is None:
+            return self.points(link)
+        found: dict[complex, str] = {}
+        for point in self.points(link):
+            if self.here.value("velocity", point):
+                found.setdefault(self.here.value("position", point), point)
+        return list(found.values())
+
+    def motion(self, link: str, point: str = "") -> tuple[int, int, int]:
+        """The steps of place and velocity of a point of a link, and of its angular velocity."""
+        o = self.pen.pole(Plane.VELOCITIES)
+        if link == FRAME:
+            return (self.pen.the("position", point) if point else o), o, self.pen.given("nought")
+        point = point or self.points(link)[0]
+        place, image = self.pen.the("position", point), self.pen.the("velocity", point)
+        return place, image, self.pen.the("omega", link)
+
+    def centre(self, pair: Pair) -> int:
+        """The step of the centre of two links."""
+        if pair not in self.drawn:
+            with self.pen.on(Part.CENTRE, Plane.MECHANISM):
+                self.drawn[pair] = self.draw(pair)
+        return self.drawn[pair]
+
+    def draw(self, pair: Pair) -> int:
+        """A pin, a guide's far centre, or the centre by velocities with the hand's way to it."""
+        pen, first, second = self.pen, *pair
+        says: Says = {"j": first, "k": second}
+        name = pair_name(first, second)
+        if pair in self.pins:
+            pin = self.pins[pair]
+            return pen.draw(pin_centre, pen.the("position", pin), name=name, p=pin, **says)
+        if pair in self.guides:
+            block, line = self.guides[pair]
+            point = self.points(block)[0]
+            says |= {"p": point, "g": block}
+            return pen.draw(guide_centre, pen.the("position", point), line, name=name, **says)
+        start, point = self.start(pair)
+        motions = *self.motion(start, point), *self.motion(first if start == second else second)
+        by_hand = self.by_hand(pair) if pair in self.ways else None
+        says |= {"p": point}
+        if pair in self.contacts:
+            says["how"] = "touch"
+        elif by_hand is not None and not self.on_line(pair, point):
+            says["aside"] = point
+        return pen.draw(relative_centre, *motions, name=name, by_hand=by_hand, **says)
+
+    def start(self, pair: Pair) -> tuple[str, str]:
+        """The link and its point from which a centre is reckoned, on a line drawn if there is one.
+
+        So the arrow to a centre off the sheet lies on that line.
+        """
+        for over in self.ways.get(pair) or ():
+            for end in reversed(pair):
+                pin = self.pins.get(ordered(self.links, end, over))
+                if pin is not None and self.pen.has("velocity", pin):
+                    return end, pin
+        return pair[1], (self.swift(pair[1]) or self.points(pair[1]))[0]
+
+    def on_line(self, pair: Pair, point: str) -> bool:
+        """Whether a line is drawn from a point to a centre."""
+        over = self.ways.get(pair)
+        joined = [self.pins.get(ordered(self.links, e, k)) for k in over or () for e in pair]
+        return over is None or point in joined
+
+    def by_hand(self, pair: Pair) -> int | None:
+        """The hand's way to a centre: two lines of centres, or the normals to two velocities."""
+        way = self.ways[pair]
+        if way is None:
+            return self.by_normals(pair[1])
+        lines = [self.line(pair, over) for over in way]
+        with self.pen.hands_way():
+            drawn = [line for line in lines if line is not None]
+            if len(drawn) == 2:
+                return self.pen.draw(kennedy_meet, *drawn)
+            return self.pen.draw(kennedy_endless, *drawn) if drawn else None
+
+    def line(self, pair: Pair, over: str) -> int | None:
+        """The line of the centres of a third link with two; None where both lie at infinity."""
+        ends = [ordered(self.links, end, over) for end in pair]
+        if all(self.is_endless(end) for end in ends):
+            return None
+        numbers = [self.centre(end) for end in ends]
+        names = [named(self.pen, number) for number in numbers]
+        with self.pen.hands_way():
+            return self.pen.draw(kennedy_line, *numbers, m=names[0], n=names[1])
+
+    def is_endless(self, pair: Pair) -> bool:
+        """Whether a centre lies at infinity at the scene's own numbers."""
+        return abs(self.where.get(pair, (0.0, 0.0, 1.0))[2]) <= ENDLESS
+
+    def by_normals(self, link: str) -> int:
+        """Where the normals to the velocities of two points of a link meet."""
+        pen, o = self.pen, self.pen.pole(Plane.VELOCITIES)
+        with pen.hands_way():
+            rays = [
+                pen.draw(
+                    velocity_normal,
+                    pen.the("position", point),
+                    o,
+                    pen.the("velocity", point),
+                    p=point,
+                    s=named(pen, pen.the("velocity", point)),
+                )
+                for point in self.swift(link)[:2]
+            ]
+            return pen.draw(normals_meet, *rays)
+
+
+def pair_name(first: str, second: str) -> str:
+    """I24 for links 2 and 4; I_10,12 and I_arm,sun where the two would run together."""
+    plain = all(link.isdigit() and len(link) == 1 for link in (first, second))
+    return f"I{first}{second}" if plain else f"I_{first},{second}"

@@ -1,0 +1,193 @@
+"""From groups to the program: all positions, then all velocities, then accelerations and poles."""
+
+from __future__ import annotations
+
+from graphkin.construction import asked
+from graphkin.construction.acceleration import acceleration
+from graphkin.construction.centres import centres
+from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
+from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane, Program
+from graphkin.construction.core.vocabulary import coordinate
+from graphkin.construction.drivers import cylinder
+from graphkin.construction.guides import sliding
+from graphkin.construction.guides.guides import axis, standing_guide
+from graphkin.construction.higher_class import higher, two_trials
+from graphkin.construction.links import plate_points, position
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.rolling import rolling, wheel_images
+from graphkin.construction.velocity import velocity
+from graphkin.scene.model import Scene
+from graphkin.structure.groups import (
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Stretched,
+    Tie,
+    Train,
+)
+from graphkin.text.errors import Problem, StructureError
+
+Standing = list[tuple[Group, tuple[Base, ...]]]
+"""Each group with the bases of its links."""
+
+
+def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
+    """The program of a mechanism, everything included. Raises StructureError, all at once."""
+    standing = stand(scene, groups)
+    pen = Pen(scene)
+    shapes = LinkShapes(pen)
+    position.frame(pen)
+    for group, found in standing:
+        place(pen, shapes, group, found)
+        if isinstance(group, Tie):
+            position.refuse_misfit(pen, shapes, group)
+    rolling.refuse_idle_turns(pen)
+    write_turning(pen, shapes)
+    write_velocities(pen, shapes, standing)
+    write_accelerations(pen, shapes, standing)
+    every = [base for _, found in standing for base in found]
+    for base in every:
+        centres.centre(pen, base)
+    centres.relative(pen)
+    for base in every:
+        centres.pole(pen, base)
+        centres.inflection(pen, base)
+    return pen.program()
+
+
+def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
+    """The groups with their bases; every missing branch and construction is listed at once."""
+    problems: list[Problem] = []
+    standing: Standing = []
+    for group in groups:
+        try:
+            standing.append((group, bases(scene, group)))
+            refuse_unstated(scene, group)
+        except StructureError as error:
+            others = stray(scene, groups, group)
+            problems += [in_place_of(scene, each, others) for each in error.problems]
+    problems += [] if problems else unused_branches(scene, groups)
+    if problems:
+        raise StructureError(problems)
+    return standing
+
+
+def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
+    """The mechanism to scale: one group."""
+    pen.bases |= {base.link: base for base in found}
+    pen.leads |= leads_of(group)
+    match group:
+        case Crank():
+            position.crank(pen, shapes, group)
+        case Driven():
+            position.driven(pen, shapes, group)
+        case Dyad():
+            position.dyad(pen, shapes, group)
+        case Stretched():
+            cylinder.place(pen, shapes, group)
+        case Geared():
+            rolling.geared(pen, shapes, group)
+        case Train():
+            rolling.train(pen, shapes, group)
+        case Tie():
+            position.tie(pen, shapes, group)
+        case Higher():
+            higher.position(pen, shapes, group, place)
+            return
+    for base in found:
+        plate_points.plate_points(pen, shapes, base)
+
+
+def write_turning(pen: Pen, shapes: LinkShapes) -> None:
+    """The axis of every link, and where each block stands on its guide."""
+    for link in pen.scene.links.values():
+        axis(pen, shapes, link.name)
+        if link.slides:
+            guide = standing_guide(pen, shapes, pen.first_slide(link.name))
+            pen.want("guide", link.name, guide)
+            with pen.on(Part.RESULT, Plane.NUMBERS):
+                found = pen.draw(coordinate, guide, pen.the("position", link.points[0]))
+            pen.want("slide", link.name, found)
+
+
+def write_velocities(pen: Pen, shapes: LinkShapes, standing: Standing) -> None:
+    """The velocity plan, the angular velocities, and what is asked set on the mechanism."""
+    velocity.frame(pen)
+    for group, found in standing:
+        move(pen, shapes, group, found)
+    for link in pen.scene.links.values():
+        if link.slides:
+            velocity.sliding(pen, shapes, link.name)
+    asked.show(pen, asked.VELOCITY, tips(pen, standing))
+
+
+def move(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
+    """The velocity plan: one group."""
+    match group:
+        case Crank():
+            velocity.crank(pen, shapes, group)
+        case Driven():
+            velocity.driven(pen, shapes, group)
+        case Dyad():
+            velocity.dyad(pen, shapes, group)
+        case Stretched():
+            cylinder.move(pen, shapes, group)
+        case Geared():
+            wheel_images.geared(pen, group)
+        case Train():
+            wheel_images.train(pen, group)
+        case Tie():
+            velocity.tie(pen, shapes, group)
+        case Higher():
+            two_trials.velocity(pen, shapes, group, move)
+            return
+    for base in found:
+        velocity.plate_points(pen, shapes, base)
+        velocity.turning(pen, base)
+
+
+def write_accelerations(pen: Pen, shapes: LinkShapes, standing: Standing) -> None:
+    """The acceleration plan, the angular accelerations, and what is asked set on the mechanism."""
+    acceleration.frame(pen)
+    for group, found in standing:
+        accelerate(pen, shapes, group, found)
+    for link in pen.scene.links.values():
+        if link.slides:
+            sliding.sliding(pen, shapes, link.name)
+    asked.show(pen, asked.ACCELERATION, tips(pen, standing))
+
+
+def accelerate(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
+    """The acceleration plan: one group."""
+    match group:
+        case Crank():
+            acceleration.crank(pen, shapes, group)
+        case Driven():
+            acceleration.driven(pen, shapes, group)
+        case Dyad():
+            acceleration.dyad(pen, shapes, group)
+        case Stretched():
+            cylinder.accelerate(pen, shapes, group)
+        case Geared():
+            wheel_images.second_geared(pen, shapes, group)
+        case Train():
+            wheel_images.second_train(pen, group)
+        case Tie():
+            acceleration.tie(pen, shapes, group)
+        case Higher():
+            two_trials.acceleration(pen, shapes, group, accelerate)
+            return
+    for base in found:
+        acceleration.plate_points(pen, shapes, base)
+        acceleration.turning(pen, base)
+
+
+def tips(pen: Pen, standing: Standing) -> list[str]:
+    """The points of cranks whose motion is given."""
+    found = (crank_tip(pen.scene, group) for group, _ in standing if isinstance(group, Crank))
+    return [tip for tip in found if tip is not None]

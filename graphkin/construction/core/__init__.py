@@ -1,0 +1,1 @@
+"""What every kind of construction builds on: program, pen, run, canvas."""

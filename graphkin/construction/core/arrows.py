@@ -1,0 +1,61 @@
+"""The arrows of the plans: absolute and relative velocities, absolute accelerations."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.bases import under
+from graphkin.construction.core.pen import PRIME, Pen, about, letter, named, owned, second_image
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import join
+from graphkin.scene.model import FRAME
+
+
+def velocity_arrows(pen: Pen, pin: str, pivot: str | None) -> None:
+    """The arrows of a plan to an image: the absolute velocity, and the one relative to a pivot."""
+    arrow_between(pen, pen.pole(Plane.VELOCITIES), pen.the("velocity", pin), pin, "")
+    if pivot is not None:
+        relative_arrow(pen, pin, pivot)
+
+
+def relative_arrow(pen: Pen, pin: str, pivot: str) -> None:
+    """The arrow of the velocity of a pin relative to a pivot, where both move and not alike."""
+    start, tip = pen.the("velocity", pivot), pen.the("velocity", pin)
+    if start == tip or pen.pole(Plane.VELOCITIES) in (start, tip):
+        return
+    if pivot == pin.partition("@")[0]:
+        arrow_between(pen, tip, start, pivot, letter(pin))
+    else:
+        arrow_between(pen, start, tip, pin, letter(pivot))
+
+
+def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
+    """The arrow of the velocity of a point, against another if that is named; drawn once."""
+    name = named(pen, tail) + named(pen, tip)
+    if name not in pen.arrows:
+        with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+            symbol = f"v_{letter(pin)}{about}"
+            pen.arrow(join, tail, tip, name=name, symbol=symbol, q=letter(pin), p=about)
+
+
+def acceleration_arrow(pen: Pen, pin: str) -> None:
+    """The arrow from the pole to a second image, the absolute acceleration; drawn once."""
+    o, tip = pen.pole(Plane.ACCELERATIONS), pen.the("acceleration", pin)
+    name = f"o{PRIME}{second_image(pin)}"
+    if name not in pen.arrows:
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            symbol = f"a_{owned(pin)}"
+            pen.arrow(join, o, tip, name=name, symbol=symbol, q=owned(pin), p="")
+
+
+def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
+    """The arrow of a normal (ν) or tangential (τ) component."""
+    symbol = f"a_{about(pen, pin, pivot)}^{kind}"
+    pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind=kind, q=owned(pin), p=owned(pivot))
+
+
+def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:
+    """The arrow of a relative acceleration along a guide that moves."""
+    if link == FRAME:
+        return
+    symbol = f"a_{letter(point)}{letter(under(point, link))}^r"
+    if symbol not in pen.arrows:
+        pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind="r", q=point, p="")

@@ -1,0 +1,248 @@
+"""What the plans need to know of a link: two of its points as a base, and the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from graphkin.construction.core.program import CONTACT
+from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.groups import (
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Stretched,
+    Tie,
+    Train,
+    TriedLink,
+    Unresolved,
+)
+from graphkin.structure.joints import Joint, partner
+from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.text.errors import Problem, StructureError
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """Two points of a link that its group constructs, and the points that follow from them.
+
+    ``end`` may be a point of the link under another's, such as A@3. Without one (None) the
+    turning of the link is known otherwise: all follows from ``start``, the axis and omega.
+    """
+
+    link: str
+    start: str
+    end: str | None
+    others: tuple[str, ...]
+
+
+def base_of(scene: Scene, link: str, start: str, end: str | None) -> Base:
+    """The base of a link, with its other points in the order written."""
+    points = scene.link(link).points
+    return Base(link, start, end, tuple(p for p in points if p not in (start, end)))
+
+
+def under(point: str, link: str) -> str:
+    """Name of the point of a link under another link's point."""
+    return f"{point}@{link}"
+
+
+def contact_name(contact: Contact) -> str:
+    """Name of the point where a wheel touches what it rolls on: their common centre.
+
+    The mark before it keeps it apart from the points of the scene.
+    """
+    return CONTACT + contact.letter
+
+
+def crank_tip(scene: Scene, crank: Crank) -> str | None:
+    """The first point of a driven link beside its pivot, along the line whose angle is given.
+
+    None for a wheel that has its pivot only.
+    """
+    points = scene.link(crank.link).points
+    line = (crank.driver.of if crank.driver.link == crank.link else None) or points[:2]
+    return next((point for point in (*line, *points) if point != crank.pivot), None)
+
+
+def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
+    """The bases of a group's links. Raises StructureError for a group without construction."""
+    match group:
+        case Crank(link=link, pivot=pivot):
+            return (base_of(scene, link, pivot, crank_tip(scene, group)),)
+        case Driven(link=link, pair=pair):
+            return (led_base(scene, link, led_point(scene, link, pair), pair),)
+        case Dyad():
+            return dyad_bases(scene, group)
+        case Stretched(near=near, pin=pin, dyad=dyad):
+            far = dyad.links[0]
+            first, second = dyad_bases(scene, dyad)
+            rod = Base(far, first.end or "", first.start, first.others)
+            return rod, base_of(scene, near, pin.point, None), second
+        case Geared():
+            return (geared_base(scene, group),)
+        case Train(arm, wheel, Pin(point=pivot), Pin(point=centre), (contact, _)):
+            rim = under(contact_name(contact), wheel)
+            return base_of(scene, arm, pivot, centre), base_of(scene, wheel, centre, rim)
+        case Tie(link, Pin(point=first), Pin(point=second)):
+            return (base_of(scene, link, first, second),)
+        case Tie(link, Sliding(), Sliding()):
+            return (base_of(scene, link, scene.link(link).points[0], None),)
+        case Tie(link, Pin(point=first), _):
+            return (base_of(scene, link, first, None),)
+        case Higher():
+            chain = [bases(scene, each) for each in (*group.chain, *ending(group))]
+            return (trial_base(scene, group.trial), *(base for each in chain for base in each))
+    raise no_construction(group)
+
+
+def leads_of(group: Group) -> dict[str, str]:
+    """The links that turn as another does, because they slide on one another, and which that is."""
+    match group:
+        case Driven(link=link, pair=Sliding() as pair):
+            return {link: partner(pair, link)}
+        case Stretched(near=near, dyad=dyad):
+            return {near: dyad.links[0], **leads_of(dyad)}
+        case Geared(link=link, pair=Sliding() as pair):
+            return {link: partner(pair, link)}
+        case Tie(link=link, second=Sliding() as pair):
+            return {link: partner(pair, link)}
+        case Dyad(links=(first, second), left=Pin(), inner=Sliding(), right=Sliding() as right):
+            return {second: partner(right, second), first: second}
+        case Dyad(inner=Sliding(links=(block, carrier))):
+            return {block: carrier}
+        case Dyad(links=links, left=left, right=right):
+            ends = zip(links, (left, right), strict=True)
+            return {each: partner(p, each) for each, p in ends if isinstance(p, Sliding)}
+        case Higher():
+            found: dict[str, str] = {}
+            for each in (*group.chain, *ending(group)):
+                found |= leads_of(each)
+            trial = group.trial
+            if isinstance(trial.pair, Sliding):
+                found[trial.link] = partner(trial.pair, trial.link)
+            return found
+    return {}
+
+
+def ending(group: Higher) -> tuple[Tie, ...]:
+    """The link that closes a group last, if a link does."""
+    return (group.last,) if isinstance(group.last, Tie) else ()
+
+
+def trial_base(scene: Scene, trial: TriedLink) -> Base:
+    """The base of a tried link: its pin and another point, or the point that a guide leads."""
+    if isinstance(trial.pair, Pin):
+        pivot = trial.pair.point
+        tip = next((p for p in scene.link(trial.link).points if p != pivot), None)
+        return base_of(scene, trial.link, pivot, tip)
+    point = led_point(scene, trial.link, trial.pair)
+    return led_base(scene, trial.link, point, trial.pair)
+
+
+def led_point(scene: Scene, link: str, pair: Joint) -> str:
+    """The point of a link that a slide or a track leads on a line."""
+    if isinstance(pair, Contact) and pair.links[0] == link:
+        return pair.wheel.centre
+    return scene.link(link).points[0]
+
+
+def dyad_bases(scene: Scene, dyad: Dyad) -> tuple[Base, ...]:
+    """The bases of the two links of a dyad."""
+    first, second = dyad.links
+    match dyad.left, dyad.inner, dyad.right:
+        case Pin(left), Pin(pin), Pin(right):
+            return base_of(scene, first, left, pin), base_of(scene, second, right, pin)
+        case Pin(left), Pin(pin), Sliding():
+            return base_of(scene, first, left, pin), base_of(scene, second, pin, None)
+        case Pin(left), Pin(pin), Contact() as contact:
+            return base_of(scene, first, left, pin), wheel_base(scene, second, pin, contact)
+        case Pin(left), Sliding() as slide, Pin(right):
+            block, carrier = slide.links
+            pins = {first: left, second: right}
+            foot = Base(carrier, pins[carrier], under(pins[block], carrier), ())
+            others = tuple(p for p in scene.link(carrier).points if p != foot.start)
+            found = {
+                carrier: Base(carrier, foot.start, foot.end, others),
+                block: base_of(scene, block, pins[block], None),
+            }
+            return found[carrier], found[block]
+        case Sliding() | Contact(), Pin(pin), Sliding() | Contact():
+            return led_base(scene, first, pin, dyad.left), led_base(scene, second, pin, dyad.right)
+        case Pin(left), Sliding(), Sliding():
+            led = scene.link(second).points[0]
+            return base_of(scene, first, left, None), base_of(scene, second, led, None)
+    raise no_construction(dyad)
+
+
+def sides_of(known: Mapping[str, Base], dyad: Dyad) -> tuple[str, str, list[tuple[Joint, str]]]:
+    """The point whose images close a dyad in the plans, where it lies, and what leaves it free.
+
+    Each side is a pair with the link that it holds. Of a dyad RPR it is the point of the guide's
+    link under the block's pin: turning with the one, sliding along the other.
+    """
+    first, second = dyad.links
+    match dyad.left, dyad.inner, dyad.right:
+        case left, Pin(point=pin), right:
+            return pin, pin, [(left, first), (right, second)]
+        case Pin(), Sliding() as inner, Pin():
+            block, carrier = inner.links
+            base = known[carrier]
+            assert base.end is not None
+            pivot = Pin(base.start, (carrier, FRAME))
+            return base.end, known[block].start, [(pivot, carrier), (inner, carrier)]
+        case _, inner, right:
+            led = known[second].start
+            return led, led, [(inner, second), (right, second)]
+
+
+def led_base(scene: Scene, link: str, pin: str, pair: Joint) -> Base:
+    """The base of a link that a slide or a track leads, by its pin."""
+    if isinstance(pair, Contact):
+        return wheel_base(scene, link, pin, pair)
+    return base_of(scene, link, pin, None)
+
+
+def wheel_base(scene: Scene, link: str, pin: str, contact: Contact) -> Base:
+    """The base of a wheel on a track: its pin and its point of contact."""
+    if contact.links[0] != link:
+        raise no_track(link)
+    return base_of(scene, link, pin, under(contact_name(contact), link))
+
+
+def no_track(link: str) -> StructureError:
+    """The error for a track that a pin and a wheel are to carry: it is not constructed."""
+    return StructureError(
+        Problem(
+            f"links.{link}",
+            "is a straight track that only a wheel and a pin hold",
+            "a track that slides, is driven, or belongs to the frame",
+        )
+    )
+
+
+def geared_base(scene: Scene, group: Geared) -> Base:
+    """The base of a geared wheel: its centre and its point of contact; a rack only shifts."""
+    match group.pair:
+        case Pin(point=point):
+            return base_of(scene, group.link, point, under(contact_name(group.contact), group.link))
+        case Contact() as own:
+            return base_of(scene, group.link, own.wheel.centre, None)
+        case _:
+            return base_of(scene, group.link, scene.link(group.link).points[0], None)
+
+
+def no_construction(group: Group) -> StructureError:
+    """The error for links that hold together in a way for which there is no construction."""
+    what = group.title if not isinstance(group, Unresolved) else "hold together in a way"
+    return StructureError(
+        Problem(
+            "links." + ", ".join(group.links),
+            f"{what} that cannot be constructed",
+            "links that close on known ones, two at a time or after one of them has been tried",
+            "is a driver missing, or does it drive a link that cannot be reached by itself?",
+        )
+    )

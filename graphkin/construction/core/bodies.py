@@ -1,0 +1,62 @@
+"""What stands in the plane beside points: guides, wheels, and the places where wheels touch."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from graphkin.numbers.plane import dot
+from graphkin.scene.model import Rolling, Slide, Wheel
+
+
+class Guideway(NamedTuple):
+    """The straight guide of a block: its zero, its unit direction, and the block's first point.
+
+    ``offset`` is how far the block's first point stands to the left of the guide.
+    """
+
+    block: str
+    slide: Slide
+    zero: complex
+    along: complex
+    at: complex
+    offset: float
+
+    @property
+    def coordinate(self) -> float:
+        """Where the block stands, along the guide from its zero."""
+        return float(dot(self.at - self.zero, self.along))
+
+    @property
+    def foot(self) -> complex:
+        """The place on the guide beside the block's first point."""
+        return self.zero + self.coordinate * self.along
+
+
+class Disc(NamedTuple):
+    """A wheel of a link in the plane; ``module`` is nought where it has no teeth."""
+
+    link: str
+    wheel: Wheel
+    centre: complex
+    radius: float
+    module: float
+
+    @property
+    def outer(self) -> float:
+        """Radius of the circle that holds all of the wheel."""
+        thick = 3 * self.module if self.wheel.inside else self.module
+        return self.radius + thick
+
+
+class Touch(NamedTuple):
+    """Where a wheel touches its track; ``along`` is the way in which a straight track counts.
+
+    ``zero`` is where a straight track counts from, ``other`` the wheel that a circular one is.
+    """
+
+    rolling: Rolling
+    disc: Disc
+    at: complex
+    along: complex
+    zero: complex | None = None
+    other: Disc | None = None

@@ -1,0 +1,205 @@
+"""Which way a group closes, as the scene states it: sides, ways and numbers of closures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from graphkin.scene.check import written
+from graphkin.scene.model import Closure, Scene, Side, Way
+from graphkin.structure.groups import (
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Stretched,
+)
+from graphkin.structure.pairs import Pin
+from graphkin.text.errors import Problem, StructureError
+
+MISSING = "is missing"
+"""What is found of a branch that is not written."""
+
+
+def choosing(groups: tuple[Group, ...]) -> list[str]:
+    """The names under which the scene may state a branch: pins, blocks, links of higher groups."""
+    names: list[str] = []
+    for group in groups:
+        match group.dyad if isinstance(group, Stretched) else group:
+            case Dyad(inner=Pin(point=pin), type="RRR"):
+                names.append(pin)
+            case Dyad() as dyad if has_two_ways(dyad):
+                names.append(block_of(dyad))
+            case Higher(links=links):
+                names += links
+    return names
+
+
+def refuse_unstated(scene: Scene, group: Group) -> None:
+    """Raise StructureError where the scene does not say in which way a group closes."""
+    match group:
+        case Dyad(type="RRR"):
+            side_of(scene, group)
+        case Dyad() if has_two_ways(group):
+            way_of(scene, group)
+        case Stretched(dyad=dyad):
+            refuse_unstated(scene, dyad)
+        case Higher():
+            closure_of(scene, group)
+
+
+def has_two_ways(dyad: Dyad) -> bool:
+    """Whether a dyad with a slide or a track closes in two ways."""
+    return dyad.type in ("RRP", "RPR", "RRW")
+
+
+def unused_branches(scene: Scene, groups: tuple[Group, ...]) -> list[Problem]:
+    """A problem for each branch that no group has a choice for."""
+    allowed = choosing(groups)
+    return [
+        Problem(
+            f"branches.{name}",
+            why_no_choice(scene, groups, name),
+            f"branches of {', '.join(sorted(allowed))}" if allowed else "no branches",
+            f"take it out{only_way(scene, groups, name)}",
+        )
+        for name in scene.branches
+        if name not in allowed
+    ]
+
+
+def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
+    """What settles a link or a point that needs no branch."""
+    match group_of(scene, groups, name):
+        case Crank(driver=driver) | Driven(driver=driver):
+            return (
+                f"link {driver.link} is driven: nothing is left to choose at {called(scene, name)}"
+            )
+        case Dyad() as dyad if not (dyad.type == "RRR" or has_two_ways(dyad)):
+            links = " and ".join(dyad.links)
+            return f"links {links} with their slides close in one way only ({dyad.title})"
+        case Geared(link=link):
+            return f"link {link} follows from its contact in one way only"
+    return f"no group has a choice at {called(scene, name)}"
+
+
+def only_way(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
+    """Where the branch of a group is written, when it stands under another name of the group."""
+    group = group_of(scene, groups, name)
+    names = choosing((group,)) if group is not None else []
+    return f"; the branch of its group is that of {names[0]}" if names else ""
+
+
+def group_of(scene: Scene, groups: tuple[Group, ...], name: str) -> Group | None:
+    """The first group that has a link, or a point."""
+    for group in groups:
+        if name in group.links or any(name in scene.links[k].points for k in group.links):
+            return group
+    return None
+
+
+def called(scene: Scene, name: str) -> str:
+    """A link or a point in words."""
+    return f"link {name}" if name in scene.links else name
+
+
+def stray(scene: Scene, groups: tuple[Group, ...], group: Group) -> list[str]:
+    """The branches written under the other names of a group, where no group has a choice."""
+    allowed = choosing(groups)
+    own = {*group.links, *(point for link in group.links for point in scene.links[link].points)}
+    return [name for name in scene.branches if name in own and name not in allowed]
+
+
+def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem:
+    """The problem of a missing branch, together with the branches that seem to stand for it."""
+    if problem.found != MISSING or not names:
+        return problem
+    lines = " and ".join(f"{name} = {written(scene.branches[name])}" for name in names)
+    verb = "chooses" if len(names) == 1 else "choose"
+    own = problem.place.partition(".")[2]
+    expected = " or ".join(f"{own} = {words}" for words in problem.expected.split(" or "))
+    if problem.expected.startswith(f"{own} = "):
+        expected = problem.expected
+    return replace(
+        problem,
+        found=f"{MISSING}, while {lines} {verb} nothing",
+        expected=f"{expected} in place of {lines}",
+    )
+
+
+def side_of(scene: Scene, dyad: Dyad) -> int:
+    """The stated side of a dyad's inner pin: +1 left of the way from one known pin to the other."""
+    assert isinstance(dyad.inner, Pin) and isinstance(dyad.left, Pin)
+    assert isinstance(dyad.right, Pin)
+    ends = (dyad.left.point.partition("@")[0], dyad.right.point)
+    branch = scene.branches.get(dyad.inner.point)
+    if isinstance(branch, Side) and (branch.first, branch.second) == ends:
+        return branch.side
+    if isinstance(branch, Side) and (branch.second, branch.first) == ends:
+        return -branch.side
+    line = "-".join(ends)
+    raise StructureError(
+        Problem(
+            f"branches.{dyad.inner.point}",
+            MISSING if branch is None else "does not name the two known pins of its dyad",
+            f'"left of {line}" or "right of {line}"',
+            f"{dyad.inner.point} can lie on either side of the line {line}; the scene says which",
+        )
+    )
+
+
+def block_of(dyad: Dyad) -> str:
+    """The block, or the wheel, by which the scene names the way of a dyad."""
+    slide = next(p for p in (dyad.right, dyad.inner, dyad.left) if not isinstance(p, Pin))
+    return slide.links[0]
+
+
+def way_of(scene: Scene, dyad: Dyad) -> int:
+    """The stated way of a sliding link: +1 the larger slide coordinate, -1 the smaller."""
+    block = block_of(dyad)
+    branch = scene.branches.get(block)
+    if isinstance(branch, Way):
+        return branch.way
+    hint = "the arc cuts the guide twice; forward is the larger coordinate along the guide"
+    if dyad.type == "RPR":
+        hint = "the bar can point either way; forward is the larger coordinate along the guide"
+    raise StructureError(
+        Problem(
+            f"branches.{block}",
+            MISSING if branch is None else f"{written(branch)} for a link that slides or rolls",
+            '"forward" or "backward"',
+            hint,
+        )
+    )
+
+
+def closure_of(scene: Scene, group: Higher) -> int:
+    """The stated number of a higher group's closure, counted from one."""
+    stated = {name: scene.branches[name] for name in group.links if name in scene.branches}
+    numbers = [branch.number for branch in stated.values() if isinstance(branch, Closure)]
+    if numbers and len(stated) == 1:
+        return numbers[0]
+    link = next(iter(stated), first_written(scene, group))
+    hint = "they close together in several ways; graphkin check lists them"
+    found = MISSING
+    if len(numbers) > 1:
+        found = "is given twice"
+    elif stated:
+        lines = " and ".join(f"{name} = {written(branch)}" for name, branch in stated.items())
+        found = f"{lines} for one {group.title}"
+        hint += "; if two of them should close by themselves, a guide or a pin is on the wrong link"
+    raise StructureError(
+        Problem(
+            f"branches.{link}",
+            found,
+            f'{link} = "closure 1", or another number, for the links {", ".join(group.links)}',
+            hint,
+        )
+    )
+
+
+def first_written(scene: Scene, group: Higher) -> str:
+    """The link of a group that is written first."""
+    return next(name for name in scene.links if name in group.links)

@@ -1,0 +1,46 @@
+"""What a construction draws with: the marks of one step, in any kind of number."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+class Canvas(Protocol):
+    """Where the marks of one step are put down; places are points of the mechanism, in metres.
+
+    Paper draws them at once; a page that moves keeps how each follows its values.
+    """
+
+    @property
+    def drawing(self) -> Drawing:
+        """The sheet at the position where the scene stands."""
+
+    def value(self, number: int) -> Any:
+        """The value of a step."""
+
+    def size(self, way: Any) -> Any:
+        """How long a way of the mechanism is drawn, in mm."""
+
+    def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
+        """A vector with its symbol, in the look of its kind."""
+
+    def point(self, name: str, at: Any) -> None:
+        """A small point with its letter."""
+
+    def segment(self, start: Any, end: Any) -> None:
+        """A thin line between two points."""
+
+    def line(self) -> bool:
+        """The step's own line as far as it is needed; False where none of it is in the field."""
+
+    def line_beyond(self) -> None:
+        """The same, where it leads farther than its own two points."""
+
+    def right_angle(self, toward: Any) -> None:
+        """The mark of a right angle where the step's line begins, against the way to a point."""
+
+    def swing(self, centre: Any, end: Any) -> None:
+        """The arc by which a point was carried about a centre."""

@@ -1,0 +1,301 @@
+"""Components of an acceleration that follow from velocities: drawn by triangles, then laid off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.kind import Construction, construction, constructions
+from graphkin.construction.core.naming import drawn_between, plan_amount
+from graphkin.construction.core.plot import TINY
+from graphkin.construction.core.program import Part, Plane, Program
+from graphkin.construction.core.run import Trace
+from graphkin.construction.core.too_short import is_short
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import smaller
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.construction.core.relation import Relation
+    from graphkin.drawing.scale import Scales
+
+
+class Size(NamedTuple):
+    """A student's size of a component in SI: the own sizes that it follows from, and the bar (m)
+    that is measured for it, infinite where none is.
+    """
+
+    factors: tuple[Any, ...]
+    size: float
+    bar: float
+
+
+class OwnSizes(Protocol):
+    """What a student has measured, or the key where nothing is: sizes in SI, with their fields."""
+
+    def vectors(self, tail: int, tip: int) -> Iterator[Any]:
+        """Sizes of the vector between two images."""
+
+    def turnings(self, rate: int) -> Iterator[Any]:
+        """Angular velocities, by the step that finds them."""
+
+    def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Any]:
+        """Own angular velocities that are read off the same places and images."""
+
+    def slidings(self, tail: int, tip: int) -> Iterator[Any]:
+        """Velocities along a guide, by their ends in the plan."""
+
+    def length(self, p: int, q: int) -> float:
+        """Distance of two points in metres."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Component(Construction):
+    """A component of an acceleration: its index, the step of its vector, and the triangle's last.
+
+    ``vector`` is the stable value; ``read`` reads the same off the triangle on the mechanism, None
+    where no triangle is drawn.
+    """
+
+    sign: ClassVar[str]
+    look: ClassVar[str]
+    laid_off_key: ClassVar[str]
+    laid_off_reason: ClassVar[str]
+    follows: ClassVar[bool] = False
+    gives_way: ClassVar[bool] = False
+
+    index: str
+    vector: int | None = None
+    read: int | None = None
+
+    @property
+    def name(self) -> str:
+        """The component's name: a, its index, its sign."""
+        return f"a_{self.index}^{self.sign}"
+
+    @property
+    def symbol(self) -> str:
+        """Markup of its symbol."""
+        return symbol(self.name)
+
+    # --- its triangle ----------------------------------------------------------------------------
+
+    def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
+        """The sides of its triangle that must be long enough to be drawn."""
+        raise NotImplementedError
+
+    def room(self, canvas: Canvas | Measured) -> Any:
+        """By how much its shortest side is longer than what is drawn at all, in mm."""
+        return smaller(*(canvas.size(side) for side in self.sides(canvas))) - TINY
+
+    def is_hidden(self, drawing: Drawing) -> bool:
+        """Whether its triangle is not drawn, or too small to be."""
+        if any(number not in drawing.trace.values for _, number in self.given()):
+            return True
+        return bool(self.room(Measured(drawing)) < 0)
+
+    def letter(self, drawing: Drawing, role: str) -> str:
+        """The letter of a corner: with its index only where another triangle has the same."""
+        steps = drawing.trace.program.steps
+        own: str = steps[getattr(self, role)].name
+        base, count = own.partition("_")[0], 0
+        for number, other in drawing.normals:
+            kind = construction(other)
+            if other.name.partition("_")[0] == base and kind and not kind.is_hidden(drawing):
+                count += number in drawing.trace.values
+        return base if count == 1 else own
+
+    def is_computed(self, scales: Scales | Drawn) -> bool:
+        """Whether sheets give it by number: no triangle holds, or has room, at these scales."""
+        raise NotImplementedError
+
+    # --- in words and figures --------------------------------------------------------------------
+
+    def size(self, drawing: Drawing) -> float:
+        """Its magnitude on a sheet, in m/s²."""
+        assert self.vector is not None
+        return float(abs(drawing.trace.values[self.vector]))
+
+    def is_drawn(self, drawing: Drawing) -> bool:
+        """Whether its triangle is drawn on a sheet, and is not too short for it."""
+        if self.read not in drawing.trace.values:
+            return False
+        return not is_short(drawing, self.size(drawing), drawing.plane)
+
+    def is_left_out(self, drawing: Drawing) -> bool:
+        """Whether it is too short to be drawn in the plan, though not zero."""
+        size = self.size(drawing)
+        return bool(drawing.settled(size)) and is_short(drawing, size, drawing.plane)
+
+    def formula(self, drawing: Drawing) -> str:
+        """Markup of what it is computed from."""
+        raise NotImplementedError
+
+    def left_out(self, drawing: Drawing) -> str:
+        """What is said of one that is too short to be drawn: what it is, how long it would be."""
+        drawn = plan_amount(drawing, drawing.plane, self.size(drawing))
+        return f"{self.symbol} = {self.formula(drawing)} ({drawn})"
+
+    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+        """What to draw, in full the ``first`` time: the kind of the sentence, and its markup."""
+        raise NotImplementedError
+
+    def laid_alone(self, drawing: Drawing, **fields: str) -> str:
+        """What is said of it where it leads to a point that is known; nothing where it is clear."""
+        return ""
+
+    @classmethod
+    def section(cls, scales: Scales) -> str:
+        """The section of the calculation that holds its relations."""
+        raise NotImplementedError
+
+    def relation(self, drawing: Drawing) -> Relation:
+        """Its line on the calculation page."""
+        raise NotImplementedError
+
+    # --- what students make of it ----------------------------------------------------------------
+
+    def sizes(self, own: OwnSizes) -> Iterator[Size]:
+        """Its size by each relation to sizes that a student has."""
+        raise NotImplementedError
+
+    def power_of(self, args: tuple[int, ...]) -> int:
+        """With which power of a rate or speed, given by the steps that it is read off, it goes."""
+        raise NotImplementedError
+
+    def as_measured(self, found: Mapping[int, Any], key: Mapping[int, Any]) -> Any:
+        """Its vector from own values as they are measured; None where the construction says it."""
+        return None
+
+
+@dataclass(frozen=True)
+class Measured:
+    """The values of a sheet, and how long they are drawn."""
+
+    drawing: Drawing
+
+    def value(self, number: int) -> Any:
+        """The value of a step."""
+        return self.drawing.trace.values[number]
+
+    def size(self, way: Any) -> Any:
+        """How long a way of the mechanism is drawn, in mm."""
+        return abs(way) * (1000 / self.drawing.scales.kL)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LaidOff(Construction):
+    """A component laid off in the plan from a known point, or back from the tip that it ends in."""
+
+    gives: ClassVar[tuple[str, ...]] = ("corner",)
+    laid_off: ClassVar[frozenset[str]] = frozenset({"corner"})
+
+    component: Component
+    start: int
+    corner: int
+    back: bool = False
+
+    def reason(self, role: str) -> str:
+        """Why it is laid off as it is."""
+        return self.component.laid_off_reason
+
+    def symbols(self) -> Mapping[str, str]:
+        """The letters of its component."""
+        return self.component.symbols()
+
+    def clause(self, drawing: Drawing) -> str:
+        """What is said of it within the sentence of the point that is found from its end."""
+        start = drawing.trace.program.steps[self.start]
+        before = construction(start)
+        if self.component.follows and isinstance(before, LaidOff) and before.is_short(drawing):
+            start = drawing.trace.program.steps[before.start]
+        key = self.component.laid_off_key
+        key = f"lay-back-{key}" if self.back else f"lay-off-{key}" if key else "lay-off"
+        fields = {**self.symbols(), "vector": self.component.symbol, "s": symbol(start.name)}
+        return drawing.words(f"step.{key}", **fields)
+
+    def sentence(self, drawing: Drawing) -> str:
+        """What is said where it leads to a point that is known: what is left lies along a guide.
+
+        Nothing where a line is drawn from its end: the point on that line tells of it.
+        """
+        steps = drawing.trace.program.steps
+        users = [steps[user] for user in drawing.children.get(self.corner, ())]
+        left = [user for user in users if user.arrow and user.says.get("kind") == "r"]
+        if self.back or not left:
+            return ""
+        if not all(user.arrow or user.part is Part.RESULT for user in users):
+            return ""
+        end = symbol(steps[left[0].args[1]].name)
+        fields = {"s": symbol(steps[self.start].name), "r": symbol(left[0].says["symbol"])}
+        return self.component.laid_alone(drawing, q=end, **fields)
+
+    def is_short(self, drawing: Drawing) -> bool:
+        """Whether it is laid off from a point with a name, and too short to be drawn."""
+        steps = drawing.trace.program.steps
+        if not steps[self.start].name:
+            return False
+        return drawn_between(drawing, self.start, self.corner, steps[self.corner].plane) < TINY
+
+
+def laid_off(program: Program, number: int) -> LaidOff | None:
+    """The component at whose end a step lies in the plan; None where it is the end of none."""
+    kind = construction(program.steps[number])
+    return kind if isinstance(kind, LaidOff) and kind.corner == number else None
+
+
+def index_before(program: Program, number: int) -> str:
+    """The index of the component that ends in a point of a plan; nothing where none does."""
+    laid = laid_off(program, number)
+    return laid.component.index if laid else str(program.steps[number].says.get("i", ""))
+
+
+def component_of(program: Program, number: int) -> Component | None:
+    """The component of whose vector a step holds the value; None for any other."""
+    kind = construction(program.steps[number])
+    return kind if isinstance(kind, Component) and kind.vector == number else None
+
+
+def is_hidden(drawing: Drawing, number: int) -> bool:
+    """Whether a step is part of a triangle on the mechanism that is too small to be drawn."""
+    kind = construction(drawing.trace.program.steps[number])
+    return isinstance(kind, Component) and kind.is_hidden(drawing)
+
+
+def components_on(drawing: Drawing) -> Iterator[Component]:
+    """The components of a sheet, in the order of the work."""
+    for number, _, _ in drawing.steps(Plane.NUMBERS):
+        found = component_of(drawing.trace.program, number)
+        if found is not None:
+            yield found
+
+
+# --- drawn, or given by number -------------------------------------------------------------------
+
+
+class Drawn(NamedTuple):
+    """What decides which components are drawn, as scales say it: all, where it is left out."""
+
+    triangles: bool = True
+    apart: float = 0.0
+
+
+def as_drawn(trace: Trace, scales: Scales | Drawn) -> Trace:
+    """A trace without the steps that only the triangles of components given by number need."""
+    steps, left = trace.program.steps, dict(trace.values)
+    kinds = (each for each in constructions(trace.program, Component))
+    waiting = [c.read for c in kinds if c.read is not None and c.is_computed(scales)]
+    while waiting:
+        number = waiting.pop()
+        used = any(number in steps[other].args for other in left)
+        if number in left and steps[number].hand and not used:
+            del left[number]
+            waiting += steps[number].args
+    return Trace(trace.program, left, trace.margins)
+
+
+def may_give_way(program: Program) -> bool:
+    """Whether a program has triangles that give way where they leave too little room."""
+    return any(component.gives_way for component in constructions(program, Component))

@@ -1,0 +1,125 @@
+"""Curves on the mechanism: paths, centrodes and circles, as much of them as lies in a field."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import cos, hypot, pi, sin
+from typing import TYPE_CHECKING
+
+from graphkin.construction.core.solution import Curve
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import XY, Field
+from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.marks import Polyline
+from graphkin.drawing.scale import Extent, extent_of
+from graphkin.drawing.style import CENTRODES
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.plane import Circle, cross
+from graphkin.text import Words
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+CHORDS, FINE = 240, 0.02
+"""Straight pieces of a small circle, and how far (mm) those of a large one may leave it."""
+UNSEEN = 0.01
+"""How far, in mm, a broken line may pass by corners that are left out."""
+ROOMY = 3.5
+"""A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
+STRAIGHT = 1e-6
+"""How far aside, in parts of its length, a curve may lead that counts as straight."""
+
+
+def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
+    """Points around a circle, the first again at the end, close enough for so many mm a metre."""
+    chords = max(CHORDS, int(pi * (circle.radius * mm / FINE / 2) ** 0.5))
+    turns = (2 * pi * i / chords for i in range(chords + 1))
+    return [circle.centre + circle.radius * complex(cos(a), sin(a)) for a in turns]
+
+
+def clipped_path(
+    points: Sequence[XY], rect: Rect, cls: str, name: str, step: int | None = None
+) -> Iterator[Polyline]:
+    """The parts of a broken line that lie in a rectangle, without corners that nobody sees."""
+    from shapely import LineString, box
+
+    if len(points) < 2:
+        return
+    line, field = LineString(points).simplify(UNSEEN, preserve_topology=False), box(*rect)
+    found = line if field.covers(line) else line.intersection(field)
+    for part in getattr(found, "geoms", [found]):
+        if part.geom_type == "LineString" and len(part.coords) > 1:
+            yield Polyline(tuple((x, y) for x, y in part.coords), cls, name, step)
+
+
+def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
+    """The points of curves for which the drawing makes room.
+
+    Paths and centrodes of the mechanism's size are drawn whole; of wider ones, and of straight
+    ones, where they touch. Of a locus what lies in the field will do.
+    """
+    found: list[complex] = []
+    most = ROOMY * max(mechanism.width, mechanism.height)
+    for curve in curves:
+        if curve.kind == "locus":
+            continue
+        points = [point for run in curve.runs for point in run]
+        box = extent_of(points) if points else mechanism
+        whole = max(box.width, box.height) <= most and not is_straight(points)
+        if curve.kind == "trajectory" or whole:
+            found += points
+        elif curve.now is not None and abs(curve.now - mechanism.middle) <= most:
+            found.append(curve.now)
+    return found
+
+
+def is_straight(points: Sequence[complex]) -> bool:
+    """Whether points all lie on one line, as a rail that a wheel rolls on."""
+    if len(points) < 2:
+        return False
+    start, far = points[0], max(points, key=lambda point: abs(point - points[0]))
+    aside = (abs(cross(far - start, point - start)) for point in points)
+    return bool(max(aside) <= STRAIGHT * abs(far - start) ** 2)
+
+
+def draw_curves(board: FieldContent, drawing: Drawing, field: Field, rect: Rect) -> None:
+    """Paths of points and centrodes, each with its name."""
+    for curve in drawing.curves:
+        name = f"{curve.kind} {curve.of}"
+        parts = [
+            part
+            for run in curve.runs
+            for part in clipped_path([field(point) for point in run], rect, curve.kind, name)
+        ]
+        board.marks += parts
+        if parts:
+            subject = middle_of(max(parts, key=length), share=SHARES[curve.kind])
+            words = name_of(drawing.words, curve)
+            cls = CENTRODES.get(curve.kind, "")
+            board.labels.append(Label(words, cls, subject, 2.5, name, led=True))
+
+
+SHARES = {"fixed-centrode": 0.5, "moving-centrode": 0.3, "trajectory": 0.15, "locus": 0.6}
+"""How far along its longest part a curve is named, so that names do not meet."""
+
+
+def name_of(words: Words, curve: Curve) -> str:
+    """What is written beside a curve."""
+    return words(f"page.{curve.kind}", of=symbol(curve.of))
+
+
+def length(part: Polyline) -> float:
+    """Length of a broken line in mm."""
+    ends = zip(part.points, part.points[1:], strict=False)
+    return sum(hypot(x - u, y - v) for (x, y), (u, v) in ends)
+
+
+def middle_of(part: Polyline, share: float) -> XY:
+    """The place on a broken line that a share of its length lies before."""
+    left = share * length(part)
+    for (x, y), (u, v) in zip(part.points, part.points[1:], strict=False):
+        step = hypot(x - u, y - v)
+        if step >= left > 0:
+            return x + (u - x) * left / step, y + (v - y) * left / step
+        left -= step
+    return part.points[-1]

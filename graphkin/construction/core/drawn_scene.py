@@ -1,0 +1,289 @@
+"""What a sheet is drawn from: the scene, the trace of the steps it needs, scales and words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from graphkin.construction.core.amounts import OnPaper
+from graphkin.construction.core.curve_marks import shown
+from graphkin.construction.core.link_poses import LinkPoses
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.run import Trace
+from graphkin.construction.core.solution import Curve, Verdict
+from graphkin.drawing.scale import Extent, Scales, extent_of
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+from graphkin.scene.model import FRAME, Scene, Slide
+from graphkin.text import Words
+
+METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
+"""The units in which a scene may write lengths."""
+ENDLESS = 1e9
+"""A centre so many mechanisms away counts as at infinity."""
+TAGS = "¹²"
+"""What the points of two trial plans bear behind their names."""
+NOISE = 1e-9
+"""A quantity this small beside the largest of its kind is rounding and shown as nought."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
+
+    ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``curves``
+    are those over the whole motion. ``computed`` says by the symbol why a quantity is computed,
+    not measured.
+    """
+
+    kind: str
+    scene: Scene
+    trace: Trace
+    scales: Scales
+    verdict: Verdict
+    words: Words
+    again: bool = False
+    curves: tuple[Curve, ...] = ()
+    computed: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def plane(self) -> Plane:
+        """The plan that this sheet shows."""
+        return Plane.VELOCITIES if self.kind == "velocity" else Plane.ACCELERATIONS
+
+    @property
+    def pole(self) -> str:
+        """Name of the plan's pole."""
+        return "o" if self.kind == "velocity" else "o′"
+
+    def steps(self, *planes: Plane) -> Iterator[tuple[int, Step, Any]]:
+        """The steps of some planes that were run, in order, with their values."""
+        for number, value in self.trace.values.items():
+            step = self.trace.program.steps[number]
+            if step.plane in planes:
+                yield number, step, value
+
+    @cached_property
+    def normals(self) -> tuple[tuple[int, Step], ...]:
+        """The steps of the triangles on the mechanism that were run."""
+        on_it = self.steps(Plane.MECHANISM)
+        return tuple((number, step) for number, step, _ in on_it if step.part is Part.NORMAL)
+
+    def mechanism_steps(self) -> Iterator[tuple[int, Step, Any]]:
+        """The steps that this sheet draws on the mechanism."""
+        return iter(self.on_mechanism)
+
+    @cached_property
+    def on_mechanism(self) -> tuple[tuple[int, Step, Any], ...]:
+        """The same, gathered once."""
+        own = (
+            (Part.POSITION, Part.NORMAL, Part.POLE)
+            if self.kind == "acceleration"
+            else (Part.POSITION, Part.CENTRE)
+        )
+        arrows = Part.ACCELERATION if self.kind == "acceleration" else Part.VELOCITY
+        parts = (*own, arrows)
+        return tuple(drawn for drawn in self.steps(Plane.MECHANISM) if drawn[1].part in parts)
+
+    def place(self, centre: Ratio) -> complex | None:
+        """The point of a centre or pole; None at infinity, or as far away as makes no odds."""
+        if abs(centre.size) * ENDLESS * self.reach <= abs(centre.shift):
+            return None
+        return complex(centre.start + centre.shift / centre.size)
+
+    def is_everywhere(self, centre: Ratio) -> bool:
+        """True when every point is a centre or pole: the link stands still."""
+        least = NOISE * (self.largest or 1.0)
+        return bool(abs(centre.size) <= least and abs(centre.shift) <= least * self.reach)
+
+    @cached_property
+    def standing(self) -> LinkPoses:
+        """Where the links, guides and wheels stand."""
+        return LinkPoses(self.scene, self.trace)
+
+    @cached_property
+    def reach(self) -> float:
+        """The largest distance in the mechanism, in metres."""
+        box = extent_of([*self.positions.values(), *self.corners()])
+        return max(box.width, box.height)
+
+    @property
+    def positions(self) -> Mapping[str, complex]:
+        """Where each point of the mechanism stands, in metres."""
+        return self.standing.positions
+
+    def corners(self) -> Iterator[complex]:
+        """The corners of the boxes that wheels take up, contacts, and where blocks are drawn."""
+        for disc in self.standing.discs:
+            yield disc.centre + disc.outer * (1 + 1j)
+            yield disc.centre - disc.outer * (1 + 1j)
+        yield from (touch.at for touch in self.standing.touches)
+        ways = self.standing.guideways
+        yield from (self.standing.beside_wheels(way) for way in ways if way.slide.on == FRAME)
+
+    def guide(self, slide: Slide) -> tuple[complex, complex] | None:
+        """A point and the unit direction of the line that a guide of the frame keeps a block on.
+
+        None for a guide that moves.
+        """
+        along = self.standing.direction(slide) if slide.on == FRAME else None
+        if along is None:
+            return None
+        start = self.standing.carried(FRAME, slide.along[0] if slide.along else slide.through)
+        assert start is not None
+        return start + 1j * along * float(slide.offset.si(self.scene.values)), along
+
+    @cached_property
+    def pivots(self) -> Mapping[str, str]:
+        """For each block that an arc puts on its guide, the point that the arc is about."""
+        return {
+            link.name: step.says["p"]
+            for _, step, _ in self.steps(Plane.MECHANISM)
+            if step.action is not None and step.action.key == "arc-cuts-line"
+            for link in self.scene.links.values()
+            if link.slides and step.name in link.points
+        }
+
+    @cached_property
+    def children(self) -> Mapping[int, tuple[int, ...]]:
+        """The steps that use each step, among those that were run."""
+        found: dict[int, list[int]] = {}
+        for number in self.trace.values:
+            for arg in self.trace.program.steps[number].args:
+                found.setdefault(arg, []).append(number)
+        return {number: tuple(users) for number, users in found.items()}
+
+    @cached_property
+    def results(self) -> Mapping[int, int]:
+        """For the last step of a hand's way, the composite step that it gives."""
+        steps = self.trace.program.steps
+        return {
+            hand: number
+            for number in self.trace.values
+            if (hand := steps[number].by_hand) is not None
+        }
+
+    def number_of(self, step: Step) -> int:
+        """The number of a step in its program."""
+        return self.numbers[id(step)]
+
+    @cached_property
+    def numbers(self) -> Mapping[int, int]:
+        """The number of each step by its identity."""
+        return {id(step): number for number, step in enumerate(self.trace.program.steps)}
+
+    @cached_property
+    def joins(self) -> Mapping[tuple[int, int], Step]:
+        """The arrows of the plans by the points that they join, whether or not they were run."""
+        return {
+            (step.args[0], step.args[1]): step
+            for step in self.trace.program.steps
+            if step.arrow and step.action is not None and step.action.key == "join"
+        }
+
+    @cached_property
+    def tags(self) -> Mapping[int, str]:
+        """The tag ¹ or ² of each step of the plan that only a trial plan uses."""
+        found: dict[int, str] = {}
+        steps = self.trace.program.steps
+        own = [number for number, _, _ in self.steps(self.plane)]
+        for number in reversed(own):
+            if steps[number].name:
+                tag = steps[number].name[-1]
+                found |= {number: tag} if tag in TAGS else {}
+                continue
+            users = [*self.children.get(number, ()), self.results.get(number, -1)]
+            users = [user for user in users if user in own]
+            tags = {found.get(child, "") for child in users}
+            if len(tags) == 1 and tags != {""}:
+                found[number] = tags.pop()
+        return found
+
+    def settled(self, value: float) -> float:
+        """A magnitude of the plan, or nought where it is only rounding."""
+        return 0.0 if abs(value) < NOISE * self.natural else value
+
+    @cached_property
+    def natural(self) -> float:
+        """A magnitude as large as the plan's own: its largest vector, or as much acceleration as
+        its velocities give over the size of the mechanism."""
+        if self.plane is Plane.VELOCITIES:
+            return self.largest
+        return max(self.largest, self.longest(Plane.VELOCITIES) ** 2 / self.reach)
+
+    @cached_property
+    def largest(self) -> float:
+        """The largest vector of the plan."""
+        return self.longest(self.plane)
+
+    def longest(self, plane: Plane) -> float:
+        """The largest vector of a plan."""
+        vectors = (v for _, s, v in self.steps(plane) if s.arrow and isinstance(v, Vector))
+        return max((abs(v.tip - v.tail) for v in vectors), default=0.0)
+
+    def turning(self, link: str) -> float | None:
+        """Angular velocity or acceleration of a link on this sheet; nought for mere rounding."""
+        quantity = "omega" if self.kind == "velocity" else "epsilon"
+        value = self.trace.value(quantity, link)
+        if value is None:
+            return None
+        fastest = self.fastest
+        alike = (abs(epsilon) for epsilon in self.all_of("epsilon"))
+        largest = fastest if quantity == "omega" else max(fastest**2, *alike)
+        return 0.0 if abs(value) < NOISE * largest else float(value)
+
+    @cached_property
+    def fastest(self) -> float:
+        """The largest angular velocity, or what the largest velocity gives over the mechanism."""
+        turning = (abs(omega) for omega in self.all_of("omega"))
+        return max(self.longest(Plane.VELOCITIES) / self.reach, *turning)
+
+    def all_of(self, quantity: str) -> list[float]:
+        """The values of a quantity on this sheet, of the links that have it."""
+        targets, values = self.trace.program.targets, self.trace.values
+        numbers = (number for (what, _), number in targets.items() if what == quantity)
+        return [0.0, *(values[number] for number in numbers if number in values)]
+
+    def length(self, metres: float) -> float:
+        """A length in the scene's own unit."""
+        return metres / METRES[self.scene.units["length"]]
+
+    def on_paper(self, metres: float) -> OnPaper:
+        """How long a length of the mechanism is drawn."""
+        return OnPaper(1000 * metres / self.scales.kL)
+
+    def at_scale(self, plane: Plane, value: complex) -> complex:
+        """A value of a plan in metres of the mechanism, drawn side by side with it."""
+        if plane is Plane.VELOCITIES:
+            return value * self.scales.metres("velocity")
+        return value * self.scales.metres("acceleration") if plane is Plane.ACCELERATIONS else value
+
+    def plan_extent(self) -> Extent:
+        """The box of the plan at the mechanism's scale."""
+        return extent_of(
+            [
+                self.at_scale(self.plane, point)
+                for _, _, value in self.steps(self.plane)
+                for point in ends(value)
+            ]
+        )
+
+    def mechanism_extent(self) -> Extent:
+        """The box of the mechanism and what is drawn on it; centres and poles do not count."""
+        points = [*self.positions.values(), *self.corners()]
+        points += shown(self.curves, extent_of(points))
+        for _, step, value in self.mechanism_steps():
+            is_point = step.name or isinstance(value, Vector)  # the others are directions
+            if step.part not in (Part.CENTRE, Part.POLE) and is_point:
+                points += ends(value)
+        return extent_of(points)
+
+
+def ends(value: Any) -> tuple[complex, ...]:
+    """The points that a drawn value takes up by itself; lines and arcs take up none."""
+    if isinstance(value, Vector):
+        return value.tail, value.tip
+    if isinstance(value, Line | Circle | Ratio) or not isinstance(value, complex):
+        return ()
+    return (value,)

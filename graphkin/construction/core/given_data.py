@@ -1,0 +1,189 @@
+"""What is given, in words: parameters, drivers, lengths, points, sides, guides and wheels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.construction.core.amounts import in_degrees, written
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_pairs import closures, of_guide, tracks, wheels
+from graphkin.construction.core.line_words import axis_of
+from graphkin.construction.core.parameter_words import (
+    after_parameter,
+    is_derived,
+    other_parameters,
+    reckoned,
+)
+from graphkin.construction.core.relation import figure
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.scene.model import (
+    FRAME,
+    Angled,
+    At,
+    Driver,
+    OnLine,
+    Polar,
+    Scene,
+    Side,
+    Triangle,
+)
+from graphkin.scene.quantity import Quantity
+from graphkin.text import MINUS, Words
+
+
+def given(drawing: Drawing, *, solved: bool = True) -> list[str]:
+    """The data of a scene as short pieces of markup, in the order of the scene.
+
+    Unless ``solved``, without the numbers that a student reckons from the parameters.
+    """
+    scene, words = drawing.scene, drawing.words
+    return [
+        *other_parameters(scene, words),
+        *(
+            piece
+            for driver in scene.drivers
+            for piece in of_driver(scene, words, driver, solved=solved)
+        ),
+        *lengths(scene, words),
+        *fixed_points(scene, words),
+        *plates(drawing),
+        *sides(scene, words),
+        *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
+        *wheels(scene, words),
+        *tracks(drawing),
+        *closures(drawing),
+        *of_scales(drawing),
+        *(escape(note) for note in [scene.notes.get(words.language)] if note),
+    ]
+
+
+def of_scales(drawing: Drawing) -> Iterator[str]:
+    """What the scene says of the scale factors of the plans, so that a student can follow it."""
+    scales, words = drawing.scales, drawing.words
+    if scales.times != 1:
+        m = scales.times ** (2 if drawing.kind == "acceleration" else 1)
+        yield words(f"page.enlarged_{drawing.kind}", m=words.decimal(f"{m:g}"))
+    if scales.apart:
+        yield words("page.apart", ka=figure(drawing, scales.ka / 1000))
+
+
+def of_driver(scene: Scene, words: Words, driver: Driver, *, solved: bool = True) -> Iterator[str]:
+    """Position, speed and acceleration of a driver."""
+    speed = "*v*"
+    if driver.kind == "turn":
+        speed = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
+    index = f"_{{{driver_index(driver)}}}"
+    if solved or not reckoned(scene, driver.position):
+        angle = in_degrees(scene, words, driver.position)
+        place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
+        yield f"{angle_symbol(scene, driver)} = {place}"
+    steady = driver.acceleration.is_zero()
+    rates = [(f"{speed}{index}", driver.speed, [words("page.constant")] if steady else [])]
+    if not steady:
+        rate = "*ε*" if driver.kind == "turn" else "*a*"
+        rates.append((f"{rate}{index}", driver.acceleration, []))
+    for name, quantity, constant in rates:
+        if not solved and is_derived(quantity):
+            continue  # its law tells its sense, too
+        size, sense = with_sense(scene, words, driver, quantity)
+        told = [size] if solved or not reckoned(scene, quantity) else []
+        parts = [name, *told, *constant]
+        if len(parts) > 1:
+            yield " = ".join(parts) + (f", {sense}" if sense else "")
+        elif sense:
+            yield f"{name}: {sense}"
+
+
+def driver_index(driver: Driver) -> str:
+    """Markup of a driver's index: its link, and the one it moves against where that moves."""
+    index = escape(driver.link)
+    return index if driver.against == FRAME else f"{index}/{escape(driver.against)}"
+
+
+def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -> tuple[str, str]:
+    """A driver's speed or acceleration; of a crank the magnitude, and its sense in words."""
+    value = float(quantity.si(scene.values))
+    if driver.kind != "turn" or not value:
+        return after_parameter(scene, words, quantity), ""
+    if value > 0:
+        return after_parameter(scene, words, quantity), words("page.turning_anticlockwise")
+    size = written(scene, words, quantity).removeprefix(MINUS)
+    return size, words("page.turning_clockwise")
+
+
+def angle_symbol(scene: Scene, driver: Driver) -> str:
+    """Symbol of a driver's position, with its link's name where several drive or one moves."""
+    many = len(scene.drivers) > 1 or driver.against != FRAME
+    index = f"_{{{driver_index(driver)}}}" if many else ""
+    return ("*φ*" if driver.kind == "turn" else "*s*") + index
+
+
+def lengths(scene: Scene, words: Words) -> Iterator[str]:
+    """The lengths of bars, those of equal length together."""
+    equal: dict[str, list[str]] = {}
+    for link in (scene.frame, *scene.links.values()):
+        for placing in link.placings:
+            for p, q, length in placing.lengths():
+                equal.setdefault(after_parameter(scene, words, length), []).append(bar(p, q))
+    for text, bars in equal.items():
+        yield " = ".join([*bars, text])
+
+
+def fixed_points(scene: Scene, words: Words) -> Iterator[str]:
+    """The coordinates of the frame's points."""
+    for placing in scene.frame.placings:
+        if isinstance(placing, At):
+            yield f"{coordinates(scene, words, placing)} {placing.x.unit}"
+
+
+def plates(drawing: Drawing) -> Iterator[str]:
+    """Points of links that are given by coordinates or by an angle."""
+    scene, words = drawing.scene, drawing.words
+    for link in (scene.frame, *scene.links.values()):
+        fixed = link is scene.frame
+        places = [placing for placing in link.placings if isinstance(placing, At)]
+        if not fixed and len(places) > 1:
+            points = ", ".join(coordinates(scene, words, placing) for placing in places)
+            yield f"{points} {places[0].x.unit}, {words('page.on_link', k=escape(link.name))}"
+        for placing in link.placings:
+            point = symbol(placing.point)
+            if isinstance(placing, Polar):
+                key = "page.polar_frame" if fixed else "page.polar"
+                fields = {"bar": bar(placing.start, placing.point), "axis": axis_of(drawing, link)}
+                yield words(key, angle=written(scene, words, placing.angle), **fields)
+            elif isinstance(placing, Angled):
+                turn = written(scene, words, placing.angle)
+                yield f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point} = {turn}"
+
+
+def coordinates(scene: Scene, words: Words, placing: At) -> str:
+    """A point with its coordinates."""
+    x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
+    return f"{symbol(placing.point)} ({x}; {y})"
+
+
+def sides(scene: Scene, words: Words) -> Iterator[str]:
+    """The sides on which points lie, of plates and of closures."""
+    for link in (scene.frame, *scene.links.values()):
+        for placing in link.placings:
+            if isinstance(placing, Triangle):
+                yield side(words, placing.point, placing.first, placing.second, placing.side)
+            elif isinstance(placing, OnLine):
+                key = "page.on_line" if lies_between(placing) else "page.beyond"
+                fields = {"point": symbol(placing.point), "start": symbol(placing.start)}
+                yield words(key, bar=bar(placing.first, placing.second), **fields)
+    for point, branch in scene.branches.items():
+        if isinstance(branch, Side):
+            yield side(words, point, branch.first, branch.second, branch.side)
+
+
+def lies_between(placing: OnLine) -> bool:
+    """True for a point on the bar itself, false for one on the bar produced."""
+    return (placing.start == placing.first) is (placing.sense > 0)
+
+
+def side(words: Words, point: str, p: str, q: str, sign: int) -> str:
+    """Words for the side of a directed line."""
+    key = "page.left_handed" if sign > 0 else "page.right_handed"
+    return words(key, point=symbol(point), p=symbol(p), q=symbol(q))

@@ -1,0 +1,234 @@
+"""What is given of slides, wheels and closures, in words."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterator
+from math import degrees
+
+from graphkin.construction.core.amounts import written
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.line_words import axis_of, straight
+from graphkin.construction.core.parameter_words import after_parameter
+from graphkin.construction.rolling.wheel_actions import counted_link
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.scene.contact_letters import contact_letters
+from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
+from graphkin.scene.quantity import shortest
+from graphkin.text import MINUS, Words
+
+SWINGS = ("swing", "swing-through")
+"""Actions that lay a lever through a pin."""
+WHEELS = {
+    (False, False): "page.wheel",
+    (False, True): "page.wheel_teeth",
+    (True, False): "page.ring",
+    (True, True): "page.ring_teeth",
+}
+"""The sentences of wheels and of rings, without teeth and with them."""
+GUIDES = {
+    (False, False): "page.guide",
+    (False, True): "page.guide_beside",
+    (True, False): "page.slot",
+    (True, True): "page.slot_beside",
+}
+"""The sentences of blocks on guides and of pins in slots, on the line and beside it."""
+ROLLS = {
+    (False, False): "page.rolls_wheel",
+    (False, True): "page.meshes",
+    (True, False): "page.rolls_fixed",
+    (True, True): "page.meshes_fixed",
+}
+"""The sentences of wheels on moving and on fixed ones, without teeth and with them."""
+
+
+def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
+    """Words for a block's guide, for which of the two crossings it stands at, and what is plus."""
+    fields = {"point": symbol(link.points[0]), "way": which_way(drawing, link, slide)}
+    fields["line"] = bar(*slide.along) if slide.along else straight(drawing, slide)
+    fields["positive"] = positive(drawing, link, slide)
+    beside = not slide.offset.is_zero()
+    return drawing.words(GUIDES[slide.pin, beside], **fields, **aside(drawing, slide))
+
+
+def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
+    """Words for the one of two closures at which a block stands, seen from a known pin."""
+    words, branch, line = drawing.words, drawing.scene.branches.get(link.name), drawing.guide(slide)
+    if not isinstance(branch, Way) or slide is not link.slides[0]:
+        return ""
+    if line and link.name in drawing.pivots:
+        side = words(f"page.{heading(line[1] * branch.way)}")
+        return words("page.way", side=side, pivot=symbol(drawing.pivots[link.name]))
+    if is_led(drawing, link, slide):
+        p, q = (symbol(point) for point in slide.along or ())
+        key = "half_line" if branch.way > 0 else "half_line_back"
+        return words(f"page.{key}", p=p, q=q)
+    return words("page.forward" if branch.way > 0 else "page.backward")
+
+
+def is_led(drawing: Drawing, link: Link, slide: Slide) -> bool:
+    """True where a guide is led through its block's known point from the end at which it begins."""
+    if not slide.along or not slide.offset.is_zero():
+        return False
+    ends = slide.along[0], link.points[0]
+    steps = drawing.trace.program.steps
+    swings = (step.says for step in steps if step.action and step.action.key in SWINGS)
+    return any((says["p"], says["q"]) == ends for says in swings)
+
+
+def positive(drawing: Drawing, link: Link, slide: Slide) -> str:
+    """Words for the positive sense of a guide that the data or the answers count along."""
+    scene, words = drawing.scene, drawing.words
+    driven = any(d.kind == "slide" and d.link == link.name for d in scene.drivers)
+    if slide is not link.slides[0] or not (driven or link.name in scene.ask.slides):
+        return ""
+    if slide.along:
+        p, q = (symbol(point) for point in slide.along)
+        return words("page.positive_along", p=p, q=q)
+    ways = (way.along for way in drawing.standing.guideways if way.slide is slide)
+    return "".join(counted_from(words, slide, way) for way in ways)
+
+
+def counted_from(words: Words, path: Slide | Rolling, way: complex) -> str:
+    """Words for where a line is counted from, and in which direction, as it stands."""
+    start = path.through
+    where = symbol(start) if isinstance(start, str) else words("page.that_point")
+    return words("page.positive", through=where, way=words(f"page.to_{heading(way)}"))
+
+
+def aside(drawing: Drawing, slide: Slide) -> dict[str, str]:
+    """How far a block's point stays from the line it slides along, and on which side."""
+    words, line = drawing.words, drawing.guide(slide)
+    amount = written(drawing.scene, words, slide.offset).removeprefix(MINUS)
+    sign = 1 if float(slide.offset.si(drawing.scene.values)) > 0 else -1
+    if line:
+        return {"offset": amount, "side": words(f"page.{heading(1j * line[1] * sign)}")}
+    return {"offset": amount, "side": words("page.left" if sign > 0 else "page.right")}
+
+
+def wheels(scene: Scene, words: Words) -> Iterator[str]:
+    """The wheels: centre and radius, of gears the number of teeth and the module."""
+    for link in (scene.frame, *scene.links.values()):
+        for wheel in link.wheels:
+            yield words(
+                WHEELS[wheel.inside, wheel.teeth is not None],
+                **of_wheel(scene, words, wheel),
+                k=link_name(words, link.name),
+            )
+
+
+def of_wheel(scene: Scene, words: Words, wheel: Wheel) -> dict[str, str]:
+    """The words for a wheel's centre and size."""
+    assert wheel.radius is not None
+    fields = {"centre": symbol(wheel.centre)}
+    if wheel.teeth is None:
+        return {**fields, "radius": after_parameter(scene, words, wheel.radius, "r")}
+    teeth = after_parameter(scene, words, wheel.teeth, "z")
+    return {**fields, "teeth": teeth, "module": module(scene, words, wheel)}
+
+
+def module(scene: Scene, words: Words, wheel: Wheel) -> str:
+    """The module of a gear: its pitch circle's diameter over its number of teeth."""
+    assert wheel.radius is not None and wheel.teeth is not None
+    size = 2 * wheel.radius.number(scene.values) / wheel.teeth.number(scene.values)
+    return f"{words.decimal(shortest(size))} {wheel.radius.unit}"
+
+
+def link_name(words: Words, name: str) -> str:
+    """The name of a link, of the frame in words."""
+    return words("page.fixed") if name == FRAME else escape(name)
+
+
+def tracks(drawing: Drawing) -> Iterator[str]:
+    """What rolls on what in which point, and the start it counts from; that there is no slip."""
+    scene, words = drawing.scene, drawing.words
+    letters = contact_letters(scene)
+    for link in scene.links.values():
+        for rolling, letter in zip(link.rolls, letters.get(link.name, ()), strict=True):
+            fields = {"k": escape(link.name), "touch": symbol(letter)}
+            if rolling.angle is None:
+                toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
+                start = start_on_wheel(drawing, link, rolling)
+                key = ROLLS[rolling.on == FRAME, toothed]
+                yield words(key, other=escape(rolling.on), start=start, **fields)
+            else:
+                fields["side"] = words("page.beneath") if rolling.side < 0 else ""
+                fields["start"] = start_on_track(drawing, link, rolling)
+                fields["positive"] = positive_track(drawing, link, rolling)
+                key = "page.rack" if any(w.teeth for w in link.wheels) else "page.rolls"
+                yield words(key, line=straight(drawing, rolling), **fields)
+    if any(link.rolls for link in scene.links.values()):
+        yield words("page.no_slip")
+    yield from whole_turns(drawing)
+
+
+def whole_turns(drawing: Drawing) -> Iterator[str]:
+    """How far links have turned since the start, where wheels depend on it and pins do not say."""
+    scene, words = drawing.scene, drawing.words
+    rolls = [rolling for link in scene.links.values() for rolling in link.rolls]
+    steps = drawing.trace.program.steps
+    counted = {counted_link(steps[number]) for number in drawing.trace.values}
+    for link in scene.links.values():
+        if link.name not in counted:
+            continue
+        stated = next((each.turns[link.name] for each in rolls if link.name in each.turns), None)
+        turns = "0" if stated is None else words.decimal(stated.written(scene.values))
+        key = "page.turned_half" if turns == "0" else "page.turned_whole"
+        yield words(key, axis=axis_of(drawing, link), turns=turns)
+
+
+def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for where a wheel touches a straight track at the start, and how it then stands."""
+    named, words = rolling.through, drawing.words
+    through = symbol(named) if isinstance(named, str) else words("page.that_point")
+    angles = stands(drawing, link, rolling)
+    return words("page.start", through=through, angles=angles)
+
+
+def start_on_wheel(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for the angles of a wheel, of the one it rolls on and of their arm at the start."""
+    scene, found = drawing.scene, []
+    on = scene.link(rolling.on)
+    centres = {wheel.centre for each in (link, on) for wheel in each.wheels}
+    for each in scene.links.values():
+        arm = len(centres & set(each.points)) > 1
+        if each.name in (link.name, on.name) or arm:
+            found.append(stands(drawing, each, rolling))
+    return drawing.words("page.counted", angles=drawing.words("list_mark").join(found))
+
+
+def stands(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for the angle of a link where a rolling starts; nought where none is written."""
+    angle = rolling.start.get(link.name)
+    turn = written(drawing.scene, drawing.words, angle) if angle else "0°"
+    return drawing.words("page.stands", axis=axis_of(drawing, link), angle=turn)
+
+
+def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+    """Words for the positive sense of a track along which a driver rolls a wheel."""
+    if not any(d.kind == "roll" and d.link == link.name for d in drawing.scene.drivers):
+        return ""
+    touches = (touch for touch in drawing.standing.touches if touch.rolling is rolling)
+    return "".join(counted_from(drawing.words, rolling, touch.along) for touch in touches)
+
+
+def closures(drawing: Drawing) -> Iterator[str]:
+    """Which of the ways in which a group of higher class closes is meant."""
+    scene, steps = drawing.scene, drawing.trace.program.steps
+    groups = [step.says for step in steps if step.action and step.action.key == "close"]
+    for name, branch in scene.branches.items():
+        if isinstance(branch, Closure):
+            says = next(says for says in groups if name in says["list"].split(", "))
+            yield drawing.words(
+                "page.closure",
+                list=escape(says["list"]),
+                number=str(branch.number),
+                axis=axis_of(drawing, scene.link(says["a"])),
+            )
+
+
+def heading(way: complex) -> str:
+    """Which side of a point a direction leads to: the nearest of right, above, left, below."""
+    sides = ("right", "above", "left", "below")
+    return sides[round(degrees(phase(way)) / 90) % 4]

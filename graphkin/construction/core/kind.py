@@ -1,0 +1,66 @@
+"""What every kind of construction has: the faces that pages, marking and reports ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar, TypeVar
+
+from graphkin.construction.core.program import Program, Roles, Step
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
+K = TypeVar("K", bound="Construction")
+
+
+class Construction(Roles):
+    """One construction: its roles are fields, and beside them stands all that is known of it.
+
+    ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,
+    ``laid_off`` the roles of points that are laid off from the first value of their step, ``slips``
+    by what a student's slip multiplies its result.
+    """
+
+    reasons: ClassVar[Mapping[str, str]] = {}
+    lines: ClassVar[Mapping[str, str]] = {}
+    laid_off: ClassVar[frozenset[str]] = frozenset()
+    slips: ClassVar[Mapping[str, complex]] = {}
+
+    def reason(self, role: str) -> str:
+        """The key of the reason behind the step of a role; nothing where it needs none."""
+        return self.reasons.get(role, "")
+
+    @property
+    def title(self) -> str:
+        """What the construction is called in a report."""
+        return ""
+
+    def symbols(self) -> Mapping[str, str]:
+        """The letters that reasons and names of lines speak of."""
+        return {}
+
+    def line_name(self, steps: Sequence[Step], role: str) -> str:
+        """What a role's line is called in a report; nothing for other roles."""
+        letters = {each: steps[number].name for each, number in self.given()}
+        return self.lines.get(role, "").format_map({**vars(self), **letters})
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the step of a role."""
+
+    def is_hidden(self, drawing: Drawing) -> bool:
+        """Whether it is too small on a sheet to be drawn."""
+        return False
+
+
+def construction(step: Step) -> Construction | None:
+    """The construction that a step is part of; None for a step by itself."""
+    return step.of if isinstance(step.of, Construction) else None
+
+
+def constructions(program: Program, kind: type[K]) -> Iterator[K]:
+    """The constructions of a kind in a program, each once, in the order of the work."""
+    seen: set[int] = set()
+    for step in program.steps:
+        if isinstance(step.of, kind) and id(step.of) not in seen:
+            seen.add(id(step.of))
+            yield step.of

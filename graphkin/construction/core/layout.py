@@ -1,0 +1,170 @@
+"""Where drawings stand on an A3 sheet, and how far construction lines and arcs are drawn.
+
+The layout is made once from a trace; the marks then follow the values alone, so that a value that
+moves takes with it exactly what depends on it.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import degrees
+from typing import Any
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.program import Part, Plane
+from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, MARGIN, WIDTH, Rect
+from graphkin.drawing.field import Field
+from graphkin.drawing.scale import Extent
+from graphkin.numbers.plane import Circle, Line, Ratio
+from graphkin.text.errors import PageError, Problem
+
+BEYOND = 7.0
+"""How far a construction line is drawn beyond the last point on it, in mm."""
+LEAST = 110.0
+"""Width that a plan's field gets where the mechanism leaves it, in mm."""
+LEAST_FIELD = 42.0
+"""Width that every field has, in mm, so that its caption stands above it in two lines."""
+GROUND = 15.0
+"""Room below a mechanism for the ground of its pivots and a line of notes, in mm."""
+FAR = 100.0
+"""A place so many mechanisms away lies beyond the edge of every field."""
+SWEEP = 7.0
+"""Half the length of a compass arc drawn where it is needed, in mm."""
+
+Spans = Mapping[int, tuple[float, float]]
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The two fields, and the part of each line (mm from its anchor) or arc (degrees) drawn."""
+
+    mechanism: Field
+    plan: Field
+    spans: Spans
+
+
+def lay_out(drawing: Drawing) -> Layout:
+    """Fields side by side, poles and centres inside where there is room for them."""
+    mechanism, plan = drawing.mechanism_extent(), drawing.plan_extent()
+    mm = 1000 / drawing.scales.kL
+    split = AREA[0] + shared_width(mechanism.width * mm, plan.width * mm)
+    left = (AREA[0], AREA[1], split, AREA[3])
+    right = (split, AREA[1], AREA[2], AREA[3])
+    wider = with_poles(drawing, mechanism, mm, left)
+    metres = drawing.scales.metres(drawing.kind)
+    fields = Layout(
+        Field(left, mm, wider.middle, raised(left, wider.height * mm)),
+        Field(right, mm * metres, plan.middle / metres, centre(right)),
+        {},
+    )
+    return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
+
+
+def shared_width(mechanism: float, plan: float) -> float:
+    """Width of the mechanism's field: each drawing gets what it needs and half of what is left."""
+    spare = WIDTH - mechanism - plan
+    if spare < -1e-6:
+        raise PageError(
+            Problem(
+                "sheet",
+                f"does not fit: the drawings are {-spare:.0f} mm wider than the sheet",
+                "a larger kL",
+                "leave [sheet] scale out, or give a larger number",
+            )
+        )
+    fair = mechanism + 2 * MARGIN + spare * 0.5
+    whole = AREA[2] - AREA[0]
+    most = max(whole - LEAST, mechanism + 2 * MARGIN)
+    return min(max(min(fair, most), LEAST_FIELD), whole - LEAST_FIELD)
+
+
+def centre(rect: Rect) -> tuple[float, float]:
+    """The middle of a rectangle."""
+    return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
+
+
+def raised(rect: Rect, height: float) -> tuple[float, float]:
+    """The middle of a drawing in a field: half of what is spare above it, half below.
+
+    Fixed pivots need the room below for their ground, and notes for themselves: they get it first.
+    """
+    spare = max(HEIGHT - height, 0.0)
+    below = ABOVE + max(spare / 2, min(spare, GROUND - ABOVE))
+    return centre(rect)[0], rect[3] - below - height / 2
+
+
+def with_poles(drawing: Drawing, extent: Extent, mm: float, rect: Rect) -> Extent:
+    """The box of the mechanism, grown by each centre and pole for which the field has room."""
+    room = rect[2] - rect[0] - 1.4 * MARGIN, rect[3] - rect[1] - 1.4 * MARGIN
+    for _, step, value in drawing.mechanism_steps():
+        if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
+            point = drawing.place(value)
+            grown = extent.grown([point]) if point is not None else extent
+            if grown.width * mm <= room[0] and grown.height * mm <= room[1]:
+                extent = grown
+    return extent
+
+
+def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:
+    """How much of each line and arc is drawn: from the points on it, and a little beyond."""
+    found: dict[int, tuple[float, float]] = {}
+    for number, step, value in drawing.steps(Plane.MECHANISM, drawing.plane):
+        mm = (fields.mechanism if step.plane is Plane.MECHANISM else fields.plan).mm
+        points = points_on(drawing, number)
+        if isinstance(value, Line):
+            points += far_points(drawing, number, value)
+            found[number] = line_span(value, points, mm)
+        elif isinstance(value, Circle) and points:
+            found[number] = arc_span(value, points, mm)
+    return found
+
+
+def points_on(drawing: Drawing, number: int) -> list[complex]:
+    """The points that were found on a line or an arc, and those that it joins."""
+    points: list[Any] = []
+    for child in drawing.children.get(number, ()):
+        value: Any = drawing.trace.values[drawing.results.get(child, child)]
+        points.append(drawing.place(value) if isinstance(value, Ratio) else value)
+    for arg in joined(drawing, number):
+        value = drawing.trace.values[arg]
+        points.append(drawing.place(value) if isinstance(value, Ratio) else value)
+    return [point for point in points if isinstance(point, complex)]
+
+
+def joined(drawing: Drawing, number: int) -> list[int]:
+    """The steps of the centres, or of the two trials of a point, that a line joins."""
+    step, values = drawing.trace.program.steps[number], drawing.trace.values
+    if not isinstance(values[number], Line):
+        return []
+    trials = step.action is not None and step.action.key == "line-through"
+    return [arg for arg in step.args if trials or isinstance(values[arg], Ratio)]
+
+
+def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:
+    """A place far along each ray to a centre at infinity, so that it reaches its field's edge."""
+    found = []
+    for _, step, value in drawing.mechanism_steps():
+        if step.part is not Part.CENTRE or step.by_hand is None or not isinstance(value, Ratio):
+            continue
+        if number not in drawing.trace.program.steps[step.by_hand].args:
+            continue
+        if drawing.place(value) is None and not drawing.is_everywhere(value):
+            way = value.shift / value.size if value.size else value.shift
+            found.append(line.point + way / abs(way) * FAR * drawing.reach)
+    return found
+
+
+def line_span(line: Line, points: Sequence[complex], mm: float) -> tuple[float, float]:
+    """The part of a line from its anchor to the points on it, in mm, a little beyond each end."""
+    unit = line.along / abs(line.along)
+    along = [0.0, *(((p - line.point) * unit.conjugate()).real * mm for p in points)]
+    return min(along) - BEYOND, max(along) + BEYOND
+
+
+def arc_span(circle: Circle, points: Sequence[complex], mm: float) -> tuple[float, float]:
+    """The part of a circle about the points on it, in degrees."""
+    half = min(degrees(SWEEP / (circle.radius * mm)), 60.0)
+    angles = [degrees(phase(point - circle.centre)) for point in points]
+    return min(angles) - half, max(angles) + half

@@ -1,0 +1,273 @@
+"""Where the bodies of a mechanism stand: the axes of links, guides, wheels and contacts, in metres.
+
+A step of the trace says it where there is one; else it follows from the points that are placed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphkin.construction.core.bodies import Disc, Guideway, Touch
+from graphkin.construction.core.program import CONTACT
+from graphkin.construction.core.run import Trace
+from graphkin.numbers.plane import Line, cross, dot
+from graphkin.scene.model import FRAME, Apart, At, Link, Polar, Rolling, Scene, Slide, Wheel
+from graphkin.scene.quantity import Quantity
+
+CLEAR = 1.6
+"""How far from a contact the guide of its track is drawn, in radii of the wheel."""
+ALONG = 1e-6
+"""Sine of the angle below which two directions are one."""
+APART = 1e-9
+"""Points nearer than this, in parts of the largest distance, are the same."""
+
+
+@dataclass(frozen=True)
+class LinkPoses:
+    """The bodies of one scene as a trace has placed them."""
+
+    scene: Scene
+    trace: Trace
+
+    def si(self, quantity: Quantity) -> float:
+        """A quantity of the scene in SI."""
+        return float(quantity.si(self.scene.values))
+
+    @cached_property
+    def positions(self) -> Mapping[str, complex]:
+        """Where each point that a link owns stands."""
+        links = (self.scene.frame, *self.scene.links.values())
+        owned = {point for link in links for point in link.points}
+        return {name: place for name, place in self.known.items() if name in owned}
+
+    @cached_property
+    def known(self) -> Mapping[str, complex]:
+        """Where every point of the program stands that the trace has placed."""
+        return {
+            of: complex(self.trace.values[number])
+            for (quantity, of), number in self.trace.program.targets.items()
+            if quantity == "position" and number in self.trace.values
+        }
+
+    @cached_property
+    def places(self) -> Mapping[str, complex]:
+        """Where every point of the drawing stands, by its letters: A, A3 under it, a contact."""
+        found = dict(self.positions)
+        for point, place in self.known.items():
+            found.setdefault(lettered(point), place)
+            if "@" not in point:
+                for link in (FRAME, *self.scene.links):
+                    found.setdefault(lettered(f"{point}@{link}"), place)
+        return found
+
+    def spot(self, letters: str) -> complex:
+        """Where a point of the drawing stands."""
+        return self.places[letters]
+
+    def name_at(self, place: complex) -> str:
+        """The name of a point of the drawing that no link owns, where it stands; else nothing."""
+        near = APART * self.size
+        found = (n for n in self.known if n.startswith(CONTACT) and "@" not in n)
+        return next((lettered(n) for n in found if abs(self.known[n] - place) <= near), "")
+
+    @cached_property
+    def size(self) -> float:
+        """The largest distance between points, along x or y; 1 where they all fall together."""
+        xs = [p.real for p in self.positions.values()] or [0.0]
+        ys = [p.imag for p in self.positions.values()] or [0.0]
+        return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+
+    def axis(self, link: str, asking: frozenset[str] = frozenset()) -> complex | None:
+        """Unit direction of a link's x axis; None where nothing tells it."""
+        if link == FRAME:
+            return 1 + 0j
+        stated = self.trace.value("axis", link)
+        if stated is not None:
+            return complex(stated)
+        found = self.axis_by_points(link)
+        if found is None and link not in asking:
+            found = self.axis_by_guides(link, asking | {link})
+        return found
+
+    def axis_by_points(self, link: str) -> complex | None:
+        """The direction from two placed points whose places in the link are written as such."""
+        places = written_places(self, self.scene.link(link))
+        known = [(self.positions[p], z) for p, z in places.items() if p in self.positions]
+        for i, (here, local) in enumerate(known):
+            for there, other in known[i + 1 :]:
+                if abs(other - local) > 0 and abs(there - here) > APART * self.size:
+                    way = (there - here) / (other - local)
+                    return way / abs(way)
+        return None
+
+    def axis_by_guides(self, link: str, asking: frozenset[str]) -> complex | None:
+        """The direction from the guide that a block lies along, or from a block on its guide."""
+        for slide in self.scene.link(link).slides[:1]:
+            way = self.direction(slide, asking)
+            if way is not None:
+                return way
+        for other in self.scene.links.values():
+            for slide in other.slides[:1]:
+                if slide.on != link or slide.angle is None or other.name in asking:
+                    continue
+                way = self.axis(other.name, asking)
+                if way is not None:
+                    return way / complex(slide.angle.direction(self.scene.values))
+        return None
+
+    def direction(self, slide: Slide, asking: frozenset[str] = frozenset()) -> complex | None:
+        """Unit direction of a guide in the plane."""
+        if slide.along:
+            start, end = (self.positions.get(point) for point in slide.along)
+            if start is None or end is None or start == end:
+                return None
+            return (end - start) / abs(end - start)
+        base = self.axis(slide.on, asking)
+        if base is None or slide.angle is None:
+            return None
+        return base * complex(slide.angle.direction(self.scene.values))
+
+    def carried(self, link: str, through: str | tuple[Quantity, Quantity] | None) -> complex | None:
+        """Where a point of a link stands that is named, or written as coordinates."""
+        if isinstance(through, str):
+            return self.positions.get(through)
+        axis = self.axis(link)
+        if axis is None or through is None:
+            return None
+        local = complex(*(self.si(q) for q in through))
+        if link == FRAME:
+            return local
+        for point, place in written_places(self, self.scene.link(link)).items():
+            if point in self.positions:
+                return self.positions[point] + axis * (local - place)
+        return None
+
+    def guideway(self, block: Link, slide: Slide) -> Guideway | None:
+        """The guide of a block in the plane; None where nothing tells how it lies."""
+        at = self.positions.get(block.points[0]) if block.points else None
+        if at is None:
+            return None
+        along, offset = self.direction(slide), self.si(slide.offset)
+        stated = self.trace.value("guide", block.name)
+        if along is None and isinstance(stated, Line) and len(block.slides) == 1:
+            along = complex(stated.along / abs(stated.along))
+        if along is None:
+            return None
+        zero = self.carried(slide.on, slide.along[0] if slide.along else slide.through)
+        if zero is None:
+            zero = at - 1j * offset * along
+        return Guideway(block.name, slide, zero, along, at, offset)
+
+    @cached_property
+    def guideways(self) -> tuple[Guideway, ...]:
+        """Every guide in the plane, in the order written."""
+        found = (
+            self.guideway(link, slide)
+            for link in self.scene.links.values()
+            for slide in link.slides
+        )
+        return tuple(way for way in found if way is not None)
+
+    @cached_property
+    def discs(self) -> tuple[Disc, ...]:
+        """Every wheel in the plane, the largest first."""
+        found = [
+            self.disc(link.name, wheel)
+            for link in (self.scene.frame, *self.scene.links.values())
+            for wheel in link.wheels
+            if wheel.centre in self.positions and wheel.radius is not None
+        ]
+        return tuple(sorted(found, key=lambda disc: -disc.radius))
+
+    def disc(self, link: str, wheel: Wheel) -> Disc:
+        """A wheel in the plane."""
+        assert wheel.radius is not None
+        radius = self.si(wheel.radius)
+        teeth = float(wheel.teeth.number(self.scene.values)) if wheel.teeth else 0.0
+        module = 2 * radius / teeth if teeth else 0.0
+        return Disc(link, wheel, self.positions[wheel.centre], radius, module)
+
+    @cached_property
+    def touches(self) -> tuple[Touch, ...]:
+        """Every place where a wheel touches its track."""
+        found = []
+        for link in self.scene.links.values():
+            own = [disc for disc in self.discs if disc.link == link.name]
+            for rolling in link.rolls:
+                touch = self.on_line(own, rolling) if rolling.angle else self.on_wheel(own, rolling)
+                if touch is not None:
+                    found.append(touch)
+        return tuple(found)
+
+    def beside_wheels(self, way: Guideway) -> complex:
+        """Where a block of the frame is drawn: at its point, but clear of a wheel on its link."""
+        for touch in self.touches:
+            if touch.rolling.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
+                continue
+            gap = float(dot(way.at - touch.at, way.along))
+            if abs(gap) < CLEAR * touch.disc.radius:
+                side = -1 if gap < 0 else 1
+                return way.at + (side * CLEAR * touch.disc.radius - gap) * way.along
+        return way.at
+
+    def on_line(self, own: list[Disc], rolling: Rolling) -> Touch | None:
+        """A straight track: the foot of the perpendicular from the centre of the wheel."""
+        axis, zero = self.axis(rolling.on), self.carried(rolling.on, rolling.through)
+        if axis is None or zero is None or rolling.angle is None or not own:
+            return None
+        along = axis * complex(rolling.angle.direction(self.scene.values))
+
+        def miss(disc: Disc) -> float:
+            return float(abs(abs(cross(along, disc.centre - zero)) - disc.radius))
+
+        disc = min(own, key=miss)
+        at = zero + dot(disc.centre - zero, along) * along
+        return Touch(rolling, disc, at, along, zero)
+
+    def on_wheel(self, own: list[Disc], rolling: Rolling) -> Touch | None:
+        """A circular track: on the line of the centres, of the two wheels that touch."""
+        others = [disc for disc in self.discs if disc.link == rolling.on]
+        pairs = [(one, other) for one in own for other in others]
+        if not pairs:
+            return None
+
+        def miss(pair: tuple[Disc, Disc]) -> float:
+            one, other = pair
+            reach = one.radius + other.radius
+            if one.wheel.inside or other.wheel.inside:
+                reach = abs(one.radius - other.radius)
+            return abs(abs(other.centre - one.centre) - reach)
+
+        one, other = min(pairs, key=miss)
+        apart = other.centre - one.centre
+        if abs(apart) <= APART * self.size:
+            return None
+        way = -apart / abs(apart) if other.wheel.inside else apart / abs(apart)
+        return Touch(rolling, one, one.centre + one.radius * way, 1j * way, None, other)
+
+
+def lettered(point: str) -> str:
+    """The letters of a point on the drawing: A3 for A@3, the point of link 3 under A.
+
+    A comma keeps the link apart where the point's own name ends in digits or the link has a word.
+    """
+    name, _, link = point.removeprefix(CONTACT).partition("@")
+    apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
+    return name + apart + link
+
+
+def written_places(standing: LinkPoses, link: Link) -> dict[str, complex]:
+    """The points of a link that are written by coordinates, or on its axis, in its own axes."""
+    places: dict[str, complex] = {}
+    for placing in link.placings:
+        match placing:
+            case At(point, x, y):
+                places[point] = complex(standing.si(x), standing.si(y))
+            case Apart(point, start, length) if start in places:
+                places[point] = places[start] + standing.si(length)
+            case Polar(point, start, length, angle) if start in places:
+                way = complex(angle.direction(standing.scene.values))
+                places[point] = places[start] + standing.si(length) * way
+    return places

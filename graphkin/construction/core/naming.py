@@ -1,0 +1,138 @@
+"""What steps are called in sentences and relations: their vectors, guides and drawn lengths."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from graphkin.construction.core.amounts import OnPaper, in_mm
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.program import Plane, Step
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.plane import dot
+
+NAUGHT = 1e-6
+"""A vector drawn shorter than this, in mm, is none."""
+WELL_KNOWN = {"omega": "speed", "v": "speed", "epsilon": "acceleration", "a": "acceleration"}
+"""The names of given rates of drivers, and which of their rates it is."""
+
+
+def has_plan(drawing: Drawing) -> bool:
+    """Whether anything is drawn in the plan of a sheet: paths and fixed centres need none."""
+    return any(True for _ in drawing.steps(drawing.plane))
+
+
+def called(drawing: Drawing) -> str:
+    """What a sheet is called by: its plan, or the mechanism alone where it has none."""
+    return drawing.kind if has_plan(drawing) else "mechanism"
+
+
+def way_of(drawing: Drawing, name: str) -> str:
+    """A guide by its block, or a straight track by its wheel."""
+    link = drawing.scene.links.get(name)
+    rolls = link is not None and not link.slides
+    return drawing.words("page.track_of" if rolls else "page.guide_of", g=escape(name))
+
+
+def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
+    """The arrow between two points of a plan, or others on which they fall, whichever its sense."""
+    found = drawing.joins.get((tail, tip)) or drawing.joins.get((tip, tail))
+    if found:
+        return found
+    ends = {fallen(drawing, tail), fallen(drawing, tip)}
+    joins = drawing.joins.items()
+    return next((step for pair, step in joins if {fallen(drawing, n) for n in pair} == ends), None)
+
+
+def fallen(drawing: Drawing, number: int) -> int:
+    """The image on which that of a point of a link that only shifts falls, or the image itself."""
+    step = drawing.trace.program.steps[number]
+    return step.args[0] if step.action is not None and step.action.key == "alike" else number
+
+
+def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
+    """Markup of the vector between two points of a plan."""
+    found = arrow_of(drawing, tail, tip)
+    return symbol(found.says["symbol"]) if found else default
+
+
+def segment_of(drawing: Drawing, step: Step) -> str:
+    """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
+    ends = [drawing.trace.program.steps[arg].name for arg in step.args]
+    if step.action is None or step.action.key != "join":
+        return ""  # a component, whose corner has no letter
+    return "".join(symbol(end) for end in ends) if all(ends) else ""
+
+
+def scale_of(drawing: Drawing, plane: Plane) -> float:
+    """What a metre of paper stands for in a plan."""
+    return drawing.scales.kv if plane is Plane.VELOCITIES else drawing.scales.ka
+
+
+def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:
+    """How long a vector of a given size is drawn in a plan."""
+    return OnPaper(float(1000 * size / scale_of(drawing, plane)))
+
+
+def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> OnPaper:
+    """How long a vector of a plan is drawn."""
+    values = drawing.trace.values
+    return drawn_in(drawing, plane, abs(values[tip] - values[tail]))
+
+
+def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
+    """Markup of an angular velocity or acceleration by the step that holds it."""
+    step = drawing.trace.program.steps[number]
+    if step.name in drawing.scene.links:
+        return symbol(f"{letter}_{step.name}")
+    if step.given is not None and step.name in WELL_KNOWN:
+        return symbol(f"{letter}_{drawing.scene.drivers[int(step.says['d'])].link}")
+    return f"*{letter}*"
+
+
+def index_of(drawing: Drawing, says: Mapping[str, str]) -> str:
+    """Index of a motion about a pin: B about a fixed pivot, BA about a moving one."""
+    if "i" in says:
+        return says["i"]
+    return says["q"] + ("" if says["p"] in drawing.scene.frame.points else says["p"])
+
+
+def is_driven(drawing: Drawing, number: int) -> bool:
+    """True for a rate that the scene gives."""
+    step = drawing.trace.program.steps[number]
+    return step.given is not None and step.name in WELL_KNOWN
+
+
+def drawn_amount(drawing: Drawing, metres: float) -> str:
+    """How long a length of the mechanism is drawn."""
+    return f"{in_mm(drawing.words, drawing.on_paper(metres))} mm"
+
+
+def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
+    """How a vector of a given size is drawn in a plan."""
+    return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
+
+
+def height_above(drawing: Drawing, step: Step) -> float:
+    """The offset of a guide that turns about a pivot, in metres, without its sign."""
+    return abs(float(drawing.trace.values[step.args[2]]))
+
+
+def share_of(drawing: Drawing, start: complex, end: complex, point: complex) -> float:
+    """Where a point of a line stands between two others."""
+    way = end - start
+    return float(dot(way, point - start) / dot(way, way))
+
+
+def beyond(drawing: Drawing, step: Step) -> str:
+    """The end of its bar beyond which a point of the line lies; nothing for one between them."""
+    first, second = step.says["p"], step.says["q"]
+    spot = drawing.standing.spot
+    share = share_of(drawing, spot(first), spot(second), spot(step.says["r"]))
+    return first if share < 0 else second if share > 1 else ""
+
+
+def names_in(says: Mapping[str, str]) -> dict[str, str]:
+    """The names of a step as markup."""
+    found = {key: symbol(str(value)) for key, value in says.items()}
+    return found | {key: escape(says[key]) for key in ("j", "k", "g", "h", "l") if key in says}

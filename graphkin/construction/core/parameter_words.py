@@ -1,0 +1,154 @@
+"""The parameters of a scene as a sheet prints them: once, with the unit that their use gives."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from graphkin.construction.core.amounts import written
+from graphkin.drawing.richtext import escape
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import Scene
+from graphkin.scene.quantity import LENGTHS, Quantity, shortest
+from graphkin.text import Words
+from graphkin.text.errors import SceneError
+
+
+def parameters(scene: Scene, words: Words) -> list[str]:
+    """The parameters that are put into an expression, as set; the data tell what others give."""
+    return [parameter(scene, words, name) for name in scene.values if name in put_in(scene)]
+
+
+def variant(scene: Scene, words: Words) -> list[str]:
+    """The parameters that tell a variant from others: those with a range, and those put in."""
+    ranged = {name for name, each in scene.parameters.items() if each.minimum is not None}
+    return [
+        parameter(scene, words, name) for name in scene.values if name in ranged | put_in(scene)
+    ]
+
+
+def other_parameters(scene: Scene, words: Words) -> list[str]:
+    """The parameters put into an expression that no driver or length shows by itself."""
+    shown = {name for quantity in shown_quantities(scene) if (name := lone(scene, quantity))}
+    put = put_in(scene)
+    return [parameter(scene, words, name) for name in scene.values if name in put - shown]
+
+
+def put_in(scene: Scene) -> set[str]:
+    """The parameters that are put into an expression: those by which the drivers are reckoned."""
+    rates = (q for d in scene.drivers for q in (d.position, d.speed, d.acceleration))
+    return {name for rate in rates if not lone(scene, rate) for name in rate.uses()}
+
+
+def parameter(scene: Scene, words: Words, name: str) -> str:
+    """A parameter as set; t is the moment of laws of time, in seconds."""
+    unit = "s" if name == TIME else unit_of(scene, name)
+    printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    space = " " if printed and printed != "°" else ""
+    return f"*{escape(name)}* = {words.decimal(shortest(scene.values[name]))}{space}{printed}"
+
+
+def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str = "") -> str:
+    """A quantity as printed, after the parameter that it is where others hang on that: a = 80 mm.
+
+    ``letter`` is the symbol that stands before it already.
+    """
+    name, text = lone(scene, quantity), written(scene, words, quantity).rstrip()
+    told = name in put_in(scene) and name != letter
+    return f"*{escape(name)}* = {text}" if told else text
+
+
+def lone(scene: Scene, quantity: Quantity) -> str:
+    """The parameter that a quantity is without more; nothing where it is another expression."""
+    return quantity.text if quantity.text in scene.values and quantity.text != TIME else ""
+
+
+def reckoned(scene: Scene, quantity: Quantity) -> bool:
+    """Whether a relation of its own tells how a driver's quantity follows from the parameters."""
+    derived = is_derived(quantity) and not quantity.is_zero()
+    return derived or (bool(quantity.uses()) and not lone(scene, quantity))
+
+
+def is_derived(quantity: Quantity) -> bool:
+    """Whether a rate follows from the law of time of a position or a speed."""
+    return "/dt" in quantity.text
+
+
+def shown_quantities(scene: Scene) -> Iterator[Quantity]:
+    """The quantities of the data beside which their parameter is printed."""
+    for driver in scene.drivers:
+        yield driver.position
+        for rate in (driver.speed, driver.acceleration):
+            if driver.kind != "turn" or float(rate.si(scene.values)) > 0:
+                yield rate  # of a turning that is negative the sense stands in words
+    for link in (scene.frame, *scene.links.values()):
+        for placing in link.placings:
+            yield from (length for _, _, length in placing.lengths())
+        for wheel in link.wheels:
+            size = wheel.teeth or wheel.radius
+            yield from () if size is None else (size,)
+
+
+def unit_of(scene: Scene, name: str) -> str:
+    """The unit of a parameter, where what grows as it does has one; nothing for a mere number.
+
+    A fixed length of which others are multiples has the unit of these, what is put into sines
+    that of angles.
+    """
+    if any(is_angle(quantity.text, name) for quantity in quantities(scene)):
+        return scene.units["angle"]
+    fixed = name in scene.parameters and scene.parameters[name].minimum is None
+    units = {
+        quantity.unit
+        for quantity in quantities(scene)
+        if name in quantity.uses()
+        and (grows_alike(scene, quantity, name) or (fixed and is_multiple(scene, quantity, name)))
+    }
+    return units.pop() if len(units) == 1 else ""
+
+
+def is_angle(text: str, name: str) -> bool:
+    """Whether an expression takes the sine, cosine or tangent of just a parameter."""
+    return re.search(rf"\b(?:sin|cos|tan)\(\s*{re.escape(name)}\s*\)", text) is not None
+
+
+def grows_alike(scene: Scene, quantity: Quantity, name: str) -> bool:
+    """Whether a quantity grows, or shrinks, by as much as a parameter grows."""
+    slope = slope_of(scene, quantity, name)
+    return slope is not None and abs(slope) == 1
+
+
+def is_multiple(scene: Scene, quantity: Quantity, name: str) -> bool:
+    """Whether a length grows in proportion to a parameter."""
+    slope = slope_of(scene, quantity, name)
+    if slope is None or quantity.unit not in LENGTHS:
+        return False
+    whole = float(quantity.number(scene.values))
+    value = float(Fraction(str(scene.values[name])))
+    return abs(slope * value - whole) <= 1e-9 * abs(whole)
+
+
+def slope_of(scene: Scene, quantity: Quantity, name: str) -> float | None:
+    """By how much a quantity grows with a parameter; None where that cannot be told."""
+    try:
+        return float(quantity.derivative(name).number(scene.values))
+    except SceneError:
+        return None
+
+
+def quantities(scene: Scene) -> Iterator[Quantity]:
+    """Every quantity by which a scene says how its links, drivers and pairs are."""
+    yield from within((scene.frame, *scene.links.values(), *scene.drivers))
+
+
+def within(part: Any) -> Iterator[Quantity]:
+    """The quantities within a part of a scene."""
+    if isinstance(part, Quantity):
+        yield part
+    elif isinstance(part, dict):
+        yield from within(tuple(part.values()))
+    elif isinstance(part, tuple | list):
+        for each in part:
+            yield from within(each)

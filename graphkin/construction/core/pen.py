@@ -1,0 +1,342 @@
+"""The pen: it writes steps down, one after the other, and knows what each point has become."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any, TypeVar
+
+from graphkin.construction.core.bases import Base
+from graphkin.construction.core.branches import block_of, side_of, way_of
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.program import (
+    CONTACT,
+    Drive,
+    Given,
+    Part,
+    Plane,
+    Program,
+    Roles,
+    Step,
+    Target,
+)
+from graphkin.construction.core.run import StepFailed, evaluate
+from graphkin.construction.core.vocabulary import Action, pole
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.whole_turns import turned
+from graphkin.structure.groups import Dyad
+from graphkin.structure.pairs import Sliding, turns
+from graphkin.structure.turn_counting import counted_near
+from graphkin.text.errors import ClosureError
+
+Says = dict[str, Any]
+"""The names that a sentence needs."""
+
+R = TypeVar("R", bound=Roles)
+
+PRIME = "\N{PRIME}"
+
+
+class Pen:
+    """Writes a program: every call adds one step and returns its number."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.steps: list[Step] = []
+        self.targets: dict[Target, int] = {}
+        self.bases: dict[str, Base] = {}
+        self.leads: dict[str, str] = {}
+        self.arrows: set[str] = set()
+        self.chosen: dict[tuple[str, str], int] = {}
+        self.drives: dict[int, Drive] = {}
+        self.turning: dict[str, bool] = {FRAME: False}
+        self.near = counted_near(scene)
+        self.scale_step: int | None = None
+        self.shared: dict[tuple[Any, ...], int] = {}
+        self.peeked: dict[int, Any] = {}
+        self.layer: dict[Target, int] | None = None
+        self.tag = ""
+        self.part, self.plane, self.hand = Part.SHAPE, Plane.NUMBERS, False
+        self.effect: Effect | None = None
+
+    @contextmanager
+    def on(self, part: Part, plane: Plane) -> Iterator[None]:
+        """Work at one part of the task, in one drawing."""
+        before = self.part, self.plane
+        self.part, self.plane = part, plane
+        yield
+        self.part, self.plane = before
+
+    @contextmanager
+    def calls_for(self, effect: Effect | None) -> Iterator[None]:
+        """Steps that an effect of the motion calls for; None leaves it to the part of the work."""
+        before, self.effect = self.effect, effect
+        yield
+        self.effect = before
+
+    @contextmanager
+    def hands_way(self) -> Iterator[None]:
+        """Steps that only the hand's way of a composite step needs."""
+        before, self.hand = self.hand, True
+        yield
+        self.hand = before
+
+    @contextmanager
+    def trial(self, tag: str) -> Iterator[dict[Target, int]]:
+        """Work at a trial plan: its points bear a tag, its quantities are gathered apart."""
+        self.layer, self.tag = {}, tag
+        yield self.layer
+        self.layer, self.tag = None, ""
+
+    def draw(
+        self,
+        action: Action,
+        *args: int,
+        name: str = "",
+        extra: tuple[float, ...] = (),
+        by_hand: int | None = None,
+        **says: Any,
+    ) -> int:
+        """Add a step that follows from earlier ones."""
+        if name and self.plane in (Plane.VELOCITIES, Plane.ACCELERATIONS):
+            name += self.tag
+        return self._add(
+            Step(
+                action,
+                args,
+                self.part,
+                self.plane,
+                name,
+                extra,
+                None,
+                by_hand,
+                self.hand,
+                says=says,
+                effect=self.effect,
+            )
+        )
+
+    def make(self, construction: R) -> R:
+        """Say of steps that are written what construction they are, each in its role."""
+        for role, number in construction.given():
+            self.steps[number] = replace(self.steps[number], of=construction, role=role)
+        return construction
+
+    def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **says: Any) -> int:
+        """Add a step that others will ask for again under a key."""
+        self.shared[key] = self.draw(action, *args, **says)
+        return self.shared[key]
+
+    def choice(self, dyad: Dyad) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Which crossing a dyad takes: a step that holds the sign, or the sign that is stated.
+
+        A block that stays while the link with its guide moves counts the other way.
+        """
+        if dyad.links in self.chosen:
+            return (self.chosen[dyad.links],), ()
+        if dyad.type == "RRR":
+            return (), (side_of(self.scene, dyad),)
+        stays = dyad.type == "RRP" and block_of(dyad) not in dyad.links
+        return (), (-way_of(self.scene, dyad) if stays else way_of(self.scene, dyad),)
+
+    def arrow(self, action: Action, *args: int, name: str, **says: Any) -> int:
+        """Add an arrow: drawn where its ends are, used by no other step, in no trial."""
+        if self.layer is not None:
+            return -1
+        self.arrows.add(name)
+        return self._add(
+            Step(action, args, self.part, self.plane, name, hand=True, arrow=True, says=says)
+        )
+
+    def given(self, form: str, *quantities: Any, name: str = "", **says: Any) -> int:
+        """Add a value that the scene states; the same value is written down once."""
+        key = (form, quantities, name, self.plane, says.get("d"), says.get("k"))
+        if key not in self.shared:
+            given = Given(form, quantities)
+            plane = self.plane if form == "point" else Plane.NUMBERS
+            step = Step(None, (), self.part, plane, name, (), given, says=says)
+            self.shared[key] = self._add(step)
+        return self.shared[key]
+
+    def _add(self, step: Step) -> int:
+        self.steps.append(step)
+        return len(self.steps) - 1
+
+    def want(self, quantity: str, of: str, number: int) -> int:
+        """Say which step carries a quantity of a point or link."""
+        where = self.targets if self.layer is None else self.layer
+        where[quantity, of] = number
+        return number
+
+    def has(self, quantity: str, of: str) -> bool:
+        """True when a quantity has been constructed."""
+        return (quantity, of) in self.targets or (quantity, of) in (self.layer or {})
+
+    def the(self, quantity: str, of: str) -> int:
+        """The step that carries a quantity."""
+        if self.layer and (quantity, of) in self.layer:
+            return self.layer[quantity, of]
+        return self.targets[quantity, of]
+
+    def is_nought(self, number: int) -> bool:
+        """True when a step holds a given rate that is nought whatever the parameters."""
+        given = self.steps[number].given
+        quantities = given.quantities if given is not None else ()
+        return bool(quantities) and all(quantity.is_zero() for quantity in quantities)
+
+    def pole(self, plane: Plane) -> int:
+        """The pole of a plan: o of the velocities, o′ of the accelerations."""
+        key = ("pole", plane)
+        if key not in self.shared:
+            name = "o" if plane is Plane.VELOCITIES else "o" + PRIME
+            part = Part.VELOCITY if plane is Plane.VELOCITIES else Part.ACCELERATION
+            self.shared[key] = self._add(Step(pole, (), part, plane, name))
+        return self.shared[key]
+
+    def turns(self, link: str) -> bool:
+        """False for the frame and for links that slides alone join to it: they only shift."""
+        if link not in self.turning:
+            self.turning[link] = turns(self.scene, link)
+        return self.turning[link]
+
+    def drive(self, driver: Driver) -> Drive:
+        """The given motion of a driver."""
+        number = self.scene.drivers.index(driver)
+        if number not in self.drives:
+            turning = driver.kind == "turn"
+            with self.on(Part.SHAPE, Plane.NUMBERS):
+                self.drives[number] = Drive(
+                    self.given(
+                        "direction" if turning else "length",
+                        driver.position,
+                        name="phi" if turning else "s",
+                        d=number,
+                    ),
+                    self.given("number", driver.speed, name="omega" if turning else "v", d=number),
+                    self.given(
+                        "number", driver.acceleration, name="epsilon" if turning else "a", d=number
+                    ),
+                )
+        return self.drives[number]
+
+    def driven_angle(self, driver: Driver) -> int:
+        """The angle of a turning driver in radians, whole turns counted."""
+        drive, number = self.drive(driver), self.scene.drivers.index(driver)
+        if drive.angle is None:
+            with self.on(Part.SHAPE, Plane.NUMBERS):
+                angle = self.given("number", turned(self.scene, driver), name="angle", d=number)
+            self.drives[number] = drive._replace(angle=angle)
+            return angle
+        return drive.angle
+
+    def turner(self, link: str) -> str | None:
+        """The link from whose points the turning of a link is found; None for a driven one."""
+        while link in self.bases and self.bases[link].end is None and link in self.leads:
+            link = self.leads[link]
+        return link if link in self.bases and self.bases[link].end is not None else None
+
+    def first_slide(self, block: str) -> Sliding:
+        """The first guide of a block."""
+        slide = self.scene.links[block].slides[0]
+        return Sliding(slide, (block, slide.on))
+
+    def seconds(self) -> int:
+        """kL/kv, by which velocities are set on the mechanism; with one crank it is 1/omega."""
+        turning = [driver for driver in self.scene.drivers if driver.kind == "turn"]
+        with self.on(Part.SHAPE, Plane.NUMBERS):
+            if len(turning) == len(self.scene.drivers) == 1:
+                number = self.given("seconds", turning[0].speed)
+            else:
+                number = self.given("one")
+        self.scale_step = number
+        return number
+
+    def peek(self, number: int) -> Any:
+        """Value of a step at the scene's own numbers, for choices that the drawing's shape needs.
+
+        None when the mechanism does not close there.
+        """
+        waiting, wanted = [number], set[int]()
+        while waiting:
+            step = waiting.pop()
+            if step not in wanted and step not in self.peeked:
+                wanted.add(step)
+                waiting += self.steps[step].args
+        if any(is_input(self.steps[step]) for step in wanted):
+            return None
+        for step in sorted(wanted):
+            try:
+                self.peeked[step] = evaluate(
+                    self.steps[step], step, self.peeked, self.scene.values, FLOAT, {}
+                )
+            except (StepFailed, ClosureError):
+                return None
+        return self.peeked[number]
+
+    def program(self) -> Program:
+        """The steps written so far."""
+        drives = tuple(self.drives[number] for number in sorted(self.drives))
+        return Program(tuple(self.steps), dict(self.targets), self.scale_step, drives)
+
+
+def is_input(step: Step) -> bool:
+    """Whether a step's value comes from outside the program."""
+    return step.given is not None and step.given.form == "input"
+
+
+def image(point: str) -> str:
+    """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3.
+
+    Both points of a contact have one image there, for nothing slips.
+    """
+    name, link = ends_of(point)
+    small = name.lower() if name.lower() not in (name, "o") else name.lower() + "_v"
+    return f"{small}_{link}" if link and not point.startswith(CONTACT) else small
+
+
+def second_image(point: str) -> str:
+    """Name of a point's image in the acceleration plan: the small letter with a prime."""
+    small, _, index = image(point).partition("_")
+    link = ends_of(point)[1] if point.startswith(CONTACT) else ""
+    return f"{small}{PRIME}_{index or link}" if index or link else small + PRIME
+
+
+def ends_of(point: str) -> tuple[str, str]:
+    """The name of a point without the mark of a contact, and the link that it is of."""
+    name, _, link = point.removeprefix(CONTACT).partition("@")
+    return name, link
+
+
+def letter(point: str) -> str:
+    """A point as the index of a velocity, or in a bar: a contact's is of both its links."""
+    return ends_of(point)[0] if point.startswith(CONTACT) else owned(point)
+
+
+def owned(point: str) -> str:
+    """A point as the index of a symbol: A, and A3 for the point of link 3 under A.
+
+    A comma keeps the link apart where the point's own name ends in digits or the link has a word.
+    """
+    name, link = ends_of(point)
+    apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
+    return name + apart + link
+
+
+def about(pen: Pen, pin: str, pivot: str) -> str:
+    """Index of a relative acceleration: BA for B about A, and B alone about a fixed pivot."""
+    fixed = pivot in pen.scene.frame.points
+    return owned(pin) if fixed else owned(pin) + owned(pivot)
+
+
+def against(pen: Pen, pin: str, pivot: str) -> str:
+    """Index of a relative velocity: B alone about what is fixed, or touches what is."""
+    rests = pen.the("velocity", pivot) == pen.pole(Plane.VELOCITIES)
+    fixed = pivot in pen.scene.frame.points or (pivot.startswith(CONTACT) and rests)
+    return letter(pin) if fixed else letter(pin) + letter(pivot)
+
+
+def named(pen: Pen, number: int) -> str:
+    """Name of the point of a plan that a step carries."""
+    return pen.steps[number].name

@@ -1,0 +1,151 @@
+"""The marks of a plan's steps: lines with what they are square to, points, poles, arrows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot
+from typing import Any
+
+from graphkin.construction.core.amounts import OnPaper
+from graphkin.construction.core.layout import BEYOND
+from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.plot import TINY, Plot, line_part, middle, note_tiny
+from graphkin.construction.core.program import Plane, Step
+from graphkin.drawing.field import XY
+from graphkin.drawing.labels import Label
+from graphkin.drawing.marks import Arc, CircleMark, LineMark
+from graphkin.drawing.style import BY_SIGN
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbols import PIN, SHORT, arrow
+
+SAME = 0.01
+"""How near to each other, in mm, points of a plan stand that are told to be the same."""
+DOT = 0.7
+"""Radius of a point of a plan in mm."""
+
+
+def put_line(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """A construction line as far as the layout says, with what it is square or parallel to.
+
+    Between its first point and the one that was found on it an arrow lies; it is drawn beyond.
+    """
+    name, ends = line_name(step), [part for part in beyond(plot, number, value) if part]
+    for part in ends:
+        plot.board.marks.append(LineMark(*part[0], *part[1], "construction", name, number))
+    markup = line_label(plot, step)
+    if markup and ends:
+        plot.board.labels.append(
+            Label(markup, "construction", ends[-1], 2.5, name, number, priority=-1)
+        )
+
+
+def beyond(plot: Plot, number: int, value: Any) -> list[tuple[XY, XY] | None]:
+    """The parts of a line before its first point and after its last, in this order."""
+    low, high = plot.layout.spans[number]
+    if high - low <= 2 * BEYOND + TINY:
+        return [line_part(plot, value, low, high)]
+    first = line_part(plot, value, low, low + BEYOND)
+    last = line_part(plot, value, high - BEYOND, high)
+    return [first, last] if abs(low) < abs(high) else [last, first]
+
+
+def line_name(step: Step) -> str:
+    """Name of a construction line: what it is drawn through and what it is square to."""
+    key = step.action.key if step.action else ""
+    sign = {"square-to": "⊥", "parallel-to": "∥", "along-bar": "∥"}.get(key, "")
+    return sign + step.says.get("p", step.says.get("g", "")) + step.says.get("q", "")
+
+
+def line_label(plot: Plot, step: Step) -> str:
+    """What is written along a construction line of a plan."""
+    key = step.action.key if step.action else ""
+    if key == "square-to":
+        return f"⊥ {bar(step.says['p'], step.says['q'])}"
+    if key == "parallel-to":
+        return f"∥ {way_of(plot.drawing, step.says['g'])}"
+    if key == "along-bar":
+        return f"∥ {bar(step.says['p'], step.says['q'])}"
+    return ""
+
+
+def put_arc(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """The part of a compass arc that finds a point."""
+    if number not in plot.layout.spans:
+        return
+    name = step.says["p"] + step.says["q"]
+    centre, radius = plot.field(value.centre), value.radius * plot.field.mm
+    span = plot.layout.spans[number]
+    plot.board.marks.append(Arc(*centre, radius, *span, "compass", name, number))
+
+
+def put_driver_ray(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """The line at the driver's angle; guides are drawn with their symbols."""
+    if "g" not in step.says:
+        high = plot.layout.spans[number][1]
+        part = line_part(plot, value, high - 2 * BEYOND, high)
+        if part:
+            plot.board.marks.append(
+                LineMark(*part[0], *part[1], "construction", line_name(step), number)
+            )
+
+
+def put_point(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """A named point of a plan."""
+    if step.name:
+        at = plot.field(value)
+        plot.board.marks.append(CircleMark(*at, DOT, f"point {plot.colour}", step.name, number))
+        name_point(plot, number, step, at, DOT)
+
+
+def put_pole(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """The pole of a plan."""
+    at = plot.field(value)
+    plot.board.marks.append(CircleMark(*at, PIN, f"pole {plot.colour}", step.name, number))
+    name_point(plot, number, step, at, PIN)
+
+
+def name_point(
+    plot: Plot, number: int, step: Step, at: XY, radius: float, look: str = "", height: float = 3.5
+) -> None:
+    """The letter of a point; points that fall together share one label, o ≡ a or, nearly, o ≈ a."""
+    board, look = plot.board, look or plot.colour
+    for i, (x, y) in board.lettered.items():
+        apart = hypot(x - at[0], y - at[1])
+        if apart < TINY:
+            label, joint = board.labels[i], "≡" if apart < SAME else "≈"
+            together = f"{label.markup} {joint} {symbol(step.name)}"
+            board.labels[i] = replace(label, markup=together, name=f"{label.name} {step.name}")
+            return
+    board.lettered[len(board.labels)] = at
+    letter = symbol(step.name)
+    board.labels.append(
+        Label(letter, look, at, height, step.name, number, priority=2, radius=radius)
+    )
+
+
+def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """A vector with its symbol; a very short one without head, named at the end of a leader."""
+    tail, tip = plot.field(value.tail), plot.field(value.tip)
+    length = hypot(tip[0] - tail[0], tip[1] - tail[1])
+    cls = arrow_class(step, plot)
+    if length > 0:
+        plot.board.marks += arrow(tail, tip, cls, step.name, number)
+    if length < TINY:
+        note_tiny(plot, symbol(step.says["symbol"]), OnPaper(length))
+        return
+    name, short = symbol(step.says["symbol"]), length < SHORT
+    subject = middle(tail, tip) if short else (tail, tip)
+    plot.board.labels.append(
+        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short, spare=True)
+    )
+
+
+def arrow_class(step: Step, plot: Plot) -> str:
+    """The look of a vector: normal and tangential components, relative and absolute ones."""
+    kind = BY_SIGN.get(step.says.get("kind", ""))
+    if kind:
+        return kind.look
+    tail = plot.drawing.trace.program.steps[step.args[0]].name
+    if step.plane is Plane.MECHANISM or tail == plot.drawing.pole:
+        return plot.colour
+    return f"relative-{plot.colour}"

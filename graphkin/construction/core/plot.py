@@ -1,0 +1,68 @@
+"""Where the steps of one drawing are put down, and what every kind of step needs there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.construction.core.amounts import OnPaper, in_mm
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import Layout
+from graphkin.construction.core.naming import scale_of
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import XY, Field, clipped
+from graphkin.drawing.labels import FieldContent
+
+TINY = 0.5
+"""Vectors shorter than this, in mm, are named at the foot of their field."""
+EDGE = 3.0
+"""How far from a field's edge lines end that would go on, in mm."""
+FOOT = 6.5
+"""The same at the foot of a field, which is for notes."""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """Where steps of one drawing are put down: board, field, and the sheet's material."""
+
+    board: FieldContent
+    field: Field
+    drawing: Drawing
+    layout: Layout
+
+    @property
+    def colour(self) -> str:
+        """The class that colours this sheet's plan."""
+        return self.drawing.kind
+
+
+def line_ends(plot: Plot, number: int, value: Any) -> tuple[XY, XY] | None:
+    """Both ends of the drawn part of a line, within its field."""
+    return line_part(plot, value, *plot.layout.spans[number])
+
+
+def line_part(plot: Plot, value: Any, low: float, high: float) -> tuple[XY, XY] | None:
+    """The part of a line between two distances in mm from its anchor, within its field."""
+    unit = value.along / abs(value.along) / plot.field.mm
+    start, end = plot.field(value.point + low * unit), plot.field(value.point + high * unit)
+    return clipped(start, end, above_foot(plot.field.rect))
+
+
+def above_foot(rect: Rect) -> Rect:
+    """A field without its edges and its lowest part, which is for notes."""
+    return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - FOOT
+
+
+def middle(tail: XY, tip: XY) -> XY:
+    """The middle of a vector."""
+    return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
+
+
+def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
+    """Name a vector that is too short to be seen at the foot of its field."""
+    words, drawing = plot.drawing.words, plot.drawing
+    factor = scale_of(drawing, drawing.plane)
+    key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
+    note = words(key, name=name, length=in_mm(words, length))
+    if note not in plot.board.notes:
+        plot.board.notes.append(note)

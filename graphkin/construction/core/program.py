@@ -1,0 +1,208 @@
+"""The drawing as a straight line of steps, each using only steps before it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any, ClassVar, NamedTuple
+
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.vocabulary import Action
+from graphkin.numbers.arithmetic import Kind, at, pick
+
+
+class Part(Enum):
+    """The part of the work to which a step belongs, in the order of the work."""
+
+    SHAPE = "shape"
+    POSITION = "position"
+    VELOCITY = "velocity"
+    NORMAL = "normal"
+    ACCELERATION = "acceleration"
+    CENTRE = "centre"
+    POLE = "pole"
+    RESULT = "result"
+
+
+class Plane(Enum):
+    """The drawing in which a step's value lies; numbers are drawn nowhere."""
+
+    NUMBERS = "numbers"
+    MECHANISM = "mechanism"
+    VELOCITIES = "velocities"
+    ACCELERATIONS = "accelerations"
+
+
+CONSTANTS: Mapping[str, Any] = {"one": 1.0, "nought": 0.0, "origin": 0j, "ahead": 1 + 0j}
+"""Values that need nothing from the scene; ahead is the direction of the x axis."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A value that the scene states: quantities, and how they make a number or a point."""
+
+    form: str
+    quantities: tuple[Any, ...]
+
+    def uses(self) -> frozenset[str]:
+        """Names of the parameters on which the value hangs."""
+        return frozenset().union(*(quantity.uses() for quantity in self.quantities))
+
+    def value(self, values: Mapping[str, Any], kind: Kind) -> Any:
+        """The given value in SI, as a number of a kind."""
+        if not self.quantities:
+            return CONSTANTS[self.form]
+        first = self.quantities[0]
+        match self.form:
+            case "direction":
+                return first.direction(values, kind)
+            case "point":
+                return at(first.si(values, kind), self.quantities[1].si(values, kind))
+            case "seconds":
+                speed = abs(first.si(values, kind))
+                return 1 / pick(speed == 0, 1.0, speed)
+            case _:
+                return first.si(values, kind)
+
+
+class Roles:
+    """The steps of one construction by their roles: a dataclass with a step's number in each.
+
+    ``gives`` are the roles of the steps that it draws itself, None in those that it does without;
+    the other numbers are those of the steps that it starts from.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ()
+
+    def given(self) -> Iterator[tuple[str, int]]:
+        """Its own steps: the role and the number of each."""
+        for role in self.gives:
+            number = getattr(self, role)
+            if number is not None:
+                yield role, number
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step: an action on earlier steps, or a given value, with the words its sentence needs.
+
+    ``by_hand`` is the step that gives the same value in the hand's way; ``hand`` marks steps that
+    only that way uses, ``arrow`` those that are only drawn. ``name`` is the letter on
+    the drawing, ``says`` the names in the sentence. ``effect`` is what of the motion the step is
+    drawn for, None where its part of the work says it. ``of`` is the construction that it is part
+    of, ``role`` what it is there.
+    """
+
+    action: Action | None
+    args: tuple[int, ...]
+    part: Part
+    plane: Plane
+    name: str = ""
+    extra: tuple[float, ...] = ()
+    given: Given | None = None
+    by_hand: int | None = None
+    hand: bool = False
+    arrow: bool = False
+    says: Mapping[str, str] = field(default_factory=dict)
+    effect: Effect | None = None
+    of: Roles | None = None
+    role: str = ""
+
+
+PLACES = ("axis", "guide", "track", "rolled")
+"""Quantities that tell how links and guides lie: the drawing needs them, no answer does."""
+
+CONTACT = "~"
+"""The first letter of the names of points of contact, which belong to no scene."""
+
+Target = tuple[str, str]
+"""What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""
+
+
+class Drive(NamedTuple):
+    """The steps that hold a driver's given position, speed and acceleration.
+
+    The position is a direction (unit complex) for one that turns, else a length in metres.
+    ``angle`` holds the angle in radians too, where wheels need it; None where none does.
+    """
+
+    position: int
+    speed: int
+    acceleration: int
+    angle: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """Steps in drawing order, and which of them carries each quantity.
+
+    ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism; ``drives``
+    are the given motions, in the order of the scene's drivers.
+    """
+
+    steps: tuple[Step, ...]
+    targets: Mapping[Target, int]
+    seconds: int | None = None
+    drives: tuple[Drive, ...] = ()
+
+    @property
+    def answers(self) -> tuple[Target, ...]:
+        """The targets that are motions, centres and poles: all that can be asked."""
+        return tuple(target for target in self.targets if target[0] not in PLACES)
+
+    def needed(self, targets: Iterable[Target], *, by_hand: bool = False) -> tuple[int, ...]:
+        """Numbers of the steps that the targets need, in order: the backward slice.
+
+        With ``by_hand`` the hand's way of each composite step comes with it, and every arrow
+        between points that are there.
+        """
+        wanted = {self.targets[target] for target in targets}
+        for number in range(len(self.steps) - 1, -1, -1):
+            if number not in wanted:
+                continue
+            step = self.steps[number]
+            wanted.update(step.args)
+            if by_hand and step.by_hand is not None:
+                wanted.add(step.by_hand)
+        if by_hand:
+            wanted |= self._arrows(wanted)
+        return tuple(sorted(wanted))
+
+    def also_found(
+        self, targets: Iterable[Target], quantities: Sequence[str], without: Iterable[Target]
+    ) -> list[Target]:
+        """The targets of some quantities that others need, and that some do not need: not given."""
+        needed = set(self.needed(targets)) - set(self.needed(without))
+        needed -= {number for number in needed if not self.steps[number].args}
+        mine = ((target, n) for target, n in self.targets.items() if target[0] in quantities)
+        return [target for target, number in mine if number in needed]
+
+    def _arrows(self, wanted: set[int]) -> set[int]:
+        """The arrows whose ends are all there, with what comes along to them."""
+        found = set(wanted)
+        for number, step in enumerate(self.steps):
+            along = {arg for arg in step.args if self._comes_along(arg, found)}
+            if step.arrow and found.issuperset(set(step.args) - along):
+                found |= {number, *along}
+        return found - wanted
+
+    def _comes_along(self, number: int, found: set[int]) -> bool:
+        """Whether an arrow brings a step: a given value, or a point of a plan that two trials give.
+
+        That is the one that a crossing finds, by which the others are, or the one under a sliding
+        one, through which the sliding one's components lead.
+        """
+        step = self.steps[number]
+        if step.action is None or step.action.key != "between":
+            return step.given is not None
+        leads = "@" in step.says.get("q", "") or step.by_hand in found
+        return leads and found.issuperset(step.args)
+
+    def descendants(self, number: int) -> frozenset[int]:
+        """The steps whose values depend on a step, itself included."""
+        found = {number}
+        for later in range(number + 1, len(self.steps)):
+            if found.intersection(self.steps[later].args):
+                found.add(later)
+        return frozenset(found)

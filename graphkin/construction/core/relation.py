@@ -1,0 +1,65 @@
+"""A relation of the calculation: symbols, figures put in, and result with its unit and sense."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphkin.construction.core.drawn_scene import Drawing
+
+DIGITS = 5
+"""Significant digits of figures put in, so that results of four digits follow from them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Relation:
+    """left = symbols = figures = result unit, remark; ``more`` are further words after ``left``.
+
+    ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
+    of the length that it takes. ``blank``: what a form has for a result that is no single number,
+    and how it is counted.
+    """
+
+    left: str
+    symbols: str = ""
+    figures: str = ""
+    result: str = ""
+    unit: str = ""
+    remark: str = ""
+    more: tuple[str, ...] = ()
+    equals: str = "="
+    over: tuple[str, str] | None = None
+    blank: tuple[str, ...] = ()
+
+    def parts(self, *, solved: bool) -> list[str]:
+        """The pieces between which a line may be broken."""
+        pieces = [self.left, *self.more]
+        if self.symbols:
+            pieces.append(f"= {self.symbols}")
+        if not self.result:
+            return pieces
+        if not solved:
+            return [*pieces, "="]
+        if self.figures:
+            pieces.append(f"= {self.figures}")
+        space = "" if self.unit == "°" else " "
+        pieces.append(f"{self.equals} {self.result}{space}{self.unit}".strip())
+        if self.remark:
+            pieces.append(f"({self.remark})")
+        return pieces
+
+
+def figure(drawing: Drawing, value: float, digits: int = DIGITS) -> str:
+    """A number as it is put into a relation, without noughts at its end."""
+    text = drawing.words.significant(value, digits)
+    mark = drawing.words("decimal_mark")
+    return text.rstrip("0").rstrip(mark) if mark in text and "·" not in text else text
+
+
+def answer(drawing: Drawing, value: float) -> str:
+    """A number as it comes out of a relation."""
+    return drawing.words.significant(value, 4)
+
+
+def length_of(drawing: Drawing, p: str, q: str) -> float:
+    """Length of a bar in metres."""
+    return abs(drawing.standing.spot(q) - drawing.standing.spot(p))

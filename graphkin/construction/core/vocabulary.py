@@ -1,0 +1,309 @@
+"""What a hand can draw on paper: every action of every plan, number-blind and picture-blind.
+
+An action knows how its value follows from the values before it and how well it can be drawn (its
+margin, the sine of the angle of a crossing). Its ``key`` is the key of its sentence in text/.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import (
+    Circle,
+    Line,
+    Ratio,
+    Vector,
+    circle_meets_circle,
+    circles_sine,
+    cross,
+    crossing_sine,
+    dot,
+    line_circle_sine,
+    line_meets_circle,
+    line_meets_line,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """One thing a hand can do: its sentence's key, its value, and the margin of a crossing."""
+
+    key: str
+    value: Callable[..., Any]
+    margin: Callable[..., Real] | None = None
+
+    def __call__(self, *args: Any) -> Any:
+        """The value of the action on given values."""
+        return self.value(*args)
+
+
+def action(key: str, margin: Callable[..., Real] | None = None) -> Callable[..., Action]:
+    """Make an action of a function, under the key of its sentence."""
+    return lambda value: Action(key, value, margin)
+
+
+# --- the mechanism, by compass and ruler ---------------------------------------------------------
+
+
+@action("ray")
+def ray(start: Point, direction: Point) -> Line:
+    """The line from a point in a given direction."""
+    return Line(start, direction)
+
+
+@action("arm")
+def arm(pivot: Point, direction: Point, start: Point, end: Point, base: Point, tip: Point) -> Point:
+    """A point of a turning link from the direction of one of its lines (start to end)."""
+    line = end - start
+    return pivot + direction * (tip - base) * (abs(line) / line)
+
+
+@action("arm")
+def arm_by_axis(pivot: Point, direction: Point, base: Point, tip: Point) -> Point:
+    """A point of a turning link from the direction of the link's own x axis."""
+    return pivot + direction * (tip - base)
+
+
+@action("across")
+def across(first: Point, point: Point) -> Real:
+    """How far a point of a block lies to the left of the line that its first point keeps."""
+    return (point - first).imag
+
+
+@action("shifted")
+def shifted(line: Line, offset: Real) -> Line:
+    """The parallel to a line at a distance to its left."""
+    return Line(line.point + 1j * line.along * (offset / abs(line.along)), line.along)
+
+
+@action("mark-off")
+def mark_off(line: Line, length: Real) -> Point:
+    """The point at a given distance along a line."""
+    return line.point + line.along * (length / abs(line.along))
+
+
+@action("compass")
+def compass(centre: Point, radius: Real) -> Circle:
+    """The circle about a point with a given opening of the compass."""
+    return Circle(centre, radius)
+
+
+@action("arcs-meet", margin=lambda m, n, side: circles_sine(m, n))
+def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
+    """Where two arcs meet, on one side of the way from the first centre to the second."""
+    return circle_meets_circle(m, n, side)
+
+
+@action("arc-cuts-line", margin=lambda line, circle, way: line_circle_sine(line, circle))
+def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
+    """Where an arc cuts a line, farther along it or nearer."""
+    return line_meets_circle(line, circle, way)
+
+
+@action("distance")
+def distance(p: Point, q: Point) -> Real:
+    """Distance of two points."""
+    return abs(q - p)
+
+
+@action("coordinate")
+def coordinate(line: Line, point: Point) -> Real:
+    """How far along a guide a point stands, from the guide's own zero."""
+    return dot(line.along, point - line.point) / abs(line.along)
+
+
+@action("part-along")
+def part_along(line: Line, o: Point, image: Point) -> Real:
+    """The signed length of a vector of a plan along a guide."""
+    return dot(line.along, image - o) / abs(line.along)
+
+
+# --- the shape of a link, in its own axes --------------------------------------------------------
+
+
+@action("step-along")
+def step_along(start: Point, first: Point, second: Point, length: Real, sense: int) -> Point:
+    """A point at a distance from ``start`` the way from ``first`` to ``second``, or back."""
+    way = second - first
+    return start + way * (sense * length / abs(way))
+
+
+@action("polar")
+def polar(start: Point, direction: Point, length: Real) -> Point:
+    """A point at a distance from another in a given direction."""
+    return start + direction * length
+
+
+@action("angled")
+def angled(vertex: Point, arm: Point, turn: Point, length: Real) -> Point:
+    """A point at a distance from the vertex, turned from an arm of the angle."""
+    way = arm - vertex
+    return vertex + way * turn * (length / abs(way))
+
+
+@action("in-proportion")
+def in_proportion(base: Point, end: Point, point: Point) -> Point:
+    """The ratio (C - A)/(B - A): where a point lies in the similar figures built on AB."""
+    return (point - base) / (end - base)
+
+
+@action("similar-point")
+def similar_point(base: Point, end: Point, ratio: Point) -> Point:
+    """The third point of a figure similar to the link, on a base that is already there.
+
+    Mehmke's similarity theorem; error at most 8·eps·(abs c + abs(b - a)·AC/AB), also in line.
+    """
+    return base + (end - base) * ratio
+
+
+# --- the plans -----------------------------------------------------------------------------------
+
+
+@action("pole")
+def pole() -> Point:
+    """The pole of a plan: the image of everything that stands still."""
+    return 0j
+
+
+@action("alike")
+def alike(image: Point) -> Point:
+    """The image of a point that moves as another does: a block does not turn."""
+    return image
+
+
+@action("turned-velocity")
+def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
+    """Image of a pin turning about a pivot: omega times the bar, turned a quarter (Galileo)."""
+    return start + 1j * (pin - pivot) * omega
+
+
+@action("square-to")
+def square_to(start: Point, p: Point, q: Point) -> Line:
+    """Through a point the perpendicular to a bar."""
+    return Line(start, 1j * (q - p))
+
+
+@action("along-bar")
+def along_bar(start: Point, p: Point, q: Point) -> Line:
+    """Through a point the parallel to a bar."""
+    return Line(start, q - p)
+
+
+@action("parallel-to")
+def parallel_to(start: Point, line: Line) -> Line:
+    """Through a point the parallel to a line, such as a guide."""
+    return Line(start, line.along)
+
+
+@action("meet", margin=crossing_sine)
+def meet(m: Line, n: Line) -> Point:
+    """Where two lines meet."""
+    return line_meets_line(m, n)
+
+
+@action("sum")
+def sum_of(a: Real, b: Real) -> Real:
+    """The rate of a link against the frame from its rate against one that turns too."""
+    return a + b
+
+
+@action("difference")
+def difference(a: Real, b: Real) -> Real:
+    """The rate of the link against which another turns at a given rate."""
+    return a - b
+
+
+@action("omega")
+def omega(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
+    """Angular velocity of a link from the relative velocity of two of its points."""
+    bar = q - p
+    return cross(bar, image_q - image_p) / dot(bar, bar)
+
+
+@action("centripetal")
+def centripetal(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
+    """End of the normal component of a driven bar: omega squared times the bar, pin to pivot."""
+    return start + omega * omega * (pivot - pin)
+
+
+@action("driven-tangential")
+def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> Point:
+    """End of the tangential component of a driven bar: epsilon times the bar, turned a quarter."""
+    return start + 1j * (pin - pivot) * epsilon
+
+
+@action("lay-off")
+def lay_off(start: Point, vector: Point) -> Point:
+    """The end of a vector laid off from a point."""
+    return start + vector
+
+
+@action("epsilon")
+def epsilon(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
+    """Angular acceleration from the tangential part of a relative acceleration, with its sense."""
+    bar = q - p
+    return cross(bar, image_q - image_p) / dot(bar, bar)
+
+
+@action("join")
+def join(tail: Point, tip: Point) -> Vector:
+    """The arrow from one point of a plan to another."""
+    return Vector(tail, tip)
+
+
+@action("set-on")
+def set_on(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
+    """A velocity of the plan set on the mechanism at its point."""
+    return Vector(point, point + (image - o) * seconds)
+
+
+@action("set-on-twice")
+def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
+    """An acceleration of the plan set on the mechanism at its point."""
+    return Vector(point, point + (image - o) * (seconds * seconds))
+
+
+# --- the right triangle on the mechanism (lab, figure 4) -----------------------------------------
+
+
+@action("set-velocity")
+def set_velocity(pin: Point, image_pivot: Point, image_pin: Point, seconds: Real) -> Point:
+    """The relative velocity set at the pin of the bar; ``seconds`` is kL/kv, the plan's scale."""
+    return pin + (image_pin - image_pivot) * seconds
+
+
+@action("square-at")
+def square_at(corner: Point, pivot: Point) -> Line:
+    """At the tip of the velocity the perpendicular to the line that joins it with the pivot."""
+    return Line(corner, 1j * (corner - pivot))
+
+
+# --- poles and centres ---------------------------------------------------------------------------
+
+
+@action("velocity-normal")
+def velocity_normal(point: Point, o: Point, image: Point) -> Line:
+    """Through a point of the mechanism the perpendicular to its velocity (Chasles)."""
+    return Line(point, 1j * (image - o))
+
+
+@action("instant-centre")
+def instant_centre(o: Point, p: Point, q: Point, image_p: Point, image_q: Point) -> Ratio:
+    """The point of a link without velocity: p + i·v/omega, at infinity in translation."""
+    bar = q - p
+    return Ratio(p, 1j * (image_p - o) * dot(bar, bar), cross(bar, image_q - image_p))
+
+
+@action("pole-ray")
+def pole_ray(corner: Point, other: Point, o: Point, image: Point, image_other: Point) -> Line:
+    """At one end of a bar the angle that the plan shows at its image, between image and pole."""
+    return Line(corner, (other - corner) * ((o - image) / (image_other - image)))
+
+
+@action("acceleration-pole")
+def acceleration_pole(o: Point, p: Point, q: Point, image_p: Point, image_q: Point) -> Ratio:
+    """The point of a link without acceleration, J - p : q - p = o - p' : q' - p' (Mehmke)."""
+    return Ratio(p, (o - image_p) * (q - p), image_q - image_p)

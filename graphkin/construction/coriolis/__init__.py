@@ -1,0 +1,1 @@
+"""Points that slide on what turns: coincident points and the Coriolis component."""

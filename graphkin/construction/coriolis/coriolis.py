@@ -1,0 +1,409 @@
+"""The Coriolis component of what slides on a link that turns: 2·ω × v, by two similar triangles.
+
+As the guide turns with its pivot, so does twice the relative velocity: on the pivot of the guide
+2v is set, and a triangle similar to that of the guide's own point and its velocity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphkin.construction.core.bases import under
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.component import Component, Drawn, LaidOff, Measured, OwnSizes, Size
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
+from graphkin.construction.core.pen import PRIME, Pen, letter
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.too_short import laid_off
+from graphkin.construction.core.vocabulary import (
+    Action,
+    action,
+    join,
+    meet,
+    set_velocity,
+    square_at,
+)
+from graphkin.construction.coriolis.coincident_points import omega_of
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Line, cross
+from graphkin.scene.known_names import all_points
+from graphkin.scene.model import Scene
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.drawing.scale import Scales
+
+CORNERS = ("ef", "gh", "mn", "rs", "xy")
+"""Letters for the corners of the triangle that is similar to the guide's."""
+
+# --- its value, and the steps of the hand's way --------------------------------------------------
+
+
+@action("coriolis")
+def coriolis(omega: Real, image_under: Point, image: Point) -> Point:
+    """Coriolis acceleration: twice the relative velocity times omega, turned a quarter by it."""
+    return 2j * (image - image_under) * omega
+
+
+@action("coriolis-base")
+def coriolis_base(pivot: Point, image_under: Point, image: Point, seconds: Real) -> Point:
+    """From the pivot of the guide twice the relative velocity, in the scale of the plan."""
+    return pivot + 2 * (image - image_under) * seconds
+
+
+@action("coriolis-ray")
+def coriolis_ray(base: Point, pivot: Point, pin: Point, tip: Point) -> Line:
+    """From the pivot the line that leans against the base as the tip's line against the bar."""
+    return Line(pivot, (base - pivot) * ((tip - pivot) / (pin - pivot)))
+
+
+@action("coriolis-by-hand")
+def coriolis_by_hand(base: Point, top: Point, seconds: Real) -> Point:
+    """The Coriolis acceleration read off the similar triangle, in the scale of the plan."""
+    return (top - base) / (seconds * seconds)
+
+
+@action("lay-off-coriolis")
+def lay_off_turned(start: Point, vector: Point) -> Point:
+    """A Coriolis acceleration laid off from a point of the plan."""
+    return start + vector
+
+
+@action("lay-back-coriolis")
+def lay_back(start: Point, vector: Point) -> Point:
+    """A vector laid off from a point against its sense."""
+    return start - vector
+
+
+# --- what it is ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoriolisComponent(Component):
+    """a_c = 2·ω × v_r of a ``point`` that slides on a ``guide``, and the triangles that give it.
+
+    From ``omega``, the guide's, and ``tail`` and ``tip``, the images of the point under the sliding
+    one and of itself. The triangles stand on the guide's ``pivot``, whose velocity about it is that
+    of its point ``pin``: its tip is ``velocity``; ``foot`` is that of 2v, ``edge`` and ``lean``
+    meet in ``top``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = (
+        "velocity",
+        "foot",
+        "edge",
+        "lean",
+        "top",
+        "read",
+        "vector",
+    )
+    sign: ClassVar[str] = "c"
+    look: ClassVar[str] = "coriolis"
+    laid_off_key: ClassVar[str] = "coriolis"
+    laid_off_reason: ClassVar[str] = "why.coriolis"
+    follows: ClassVar[bool] = True
+    gives_way: ClassVar[bool] = True
+    reasons: ClassVar[Mapping[str, str]] = {"foot": "why.triangles"}
+    lines: ClassVar[Mapping[str, str]] = {"lean": "the leaning line", "edge": "⊥ at {foot}"}
+    laid_off: ClassVar[frozenset[str]] = frozenset({"velocity", "foot"})
+    slips: ClassVar[Mapping[str, complex]] = {"coriolis_missing": 0, "coriolis_reversed": -1}
+
+    guide: str
+    block: str
+    point: str
+    omega: int
+    tail: int
+    tip: int
+    pivot_name: str = ""
+    pin_name: str = ""
+    pivot: int | None = None
+    pin: int | None = None
+    velocity: int | None = None
+    foot: int | None = None
+    edge: int | None = None
+    lean: int | None = None
+    top: int | None = None
+
+    @property
+    def title(self) -> str:
+        """What it is called in a report."""
+        return f"the Coriolis triangles of {self.pin_name} about {self.pivot_name}"
+
+    def symbols(self) -> Mapping[str, str]:
+        """The guide, and the point that slides on it."""
+        return {"k": self.guide, "q": symbol(self.point)}
+
+    # --- drawing it ------------------------------------------------------------------------------
+
+    def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
+        """The component itself, and twice the relative velocity."""
+        assert self.foot is not None and self.top is not None and self.pivot is not None
+        foot, top, pivot = map(canvas.value, (self.foot, self.top, self.pivot))
+        yield top - foot
+        yield foot - pivot
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The velocity of the guide's point, 2v on the pivot, and the triangle that it gives."""
+        assert self.pivot is not None and self.pin is not None and self.velocity is not None
+        assert self.foot is not None and self.top is not None
+        drawing, value = canvas.drawing, canvas.value
+        pivot = value(self.pivot)
+        match role:
+            case "velocity" if not self.is_shown_before(drawing):
+                fixed = self.pivot_name in drawing.scene.frame.points
+                name = f"v_{self.pin_name}" + ("" if fixed else self.pivot_name)
+                canvas.vector(name, "relative-velocity", value(self.pin), value(self.velocity))
+            case "foot":
+                canvas.vector(f"2v_{self.index}", "relative-velocity", pivot, value(self.foot))
+                canvas.point(self.letter(drawing, role), value(self.foot))
+            case "edge":
+                if canvas.line():
+                    canvas.right_angle(pivot)
+            case "lean":
+                canvas.segment(pivot, value(self.velocity))
+                canvas.line()
+            case "top":
+                canvas.vector(self.name, self.look, value(self.foot), value(self.top))
+                canvas.point(self.letter(drawing, role), value(self.top))
+
+    def same_velocity(self, drawing: Drawing) -> Iterator[tuple[int, Component]]:
+        """The triangles that set the same velocity at the same pin, with the step that does."""
+        assert self.velocity is not None
+        step = drawing.trace.program.steps[self.velocity]
+        for number, other, _ in drawing.mechanism_steps():
+            if number == self.velocity or other.action is not step.action:
+                continue
+            kind = construction(other)
+            if other.args != step.args or not isinstance(kind, Component):
+                continue
+            if isinstance(kind, CoriolisComponent) or not kind.is_hidden(drawing):
+                yield number, kind
+
+    def is_shown_before(self, drawing: Drawing) -> bool:
+        """Whether a right triangle, or an earlier triangle of its kind, has drawn that velocity."""
+        assert self.velocity is not None
+        number, kind = next(self.same_velocity(drawing), (None, None))
+        if number is None:
+            return False
+        return number < self.velocity or not isinstance(kind, CoriolisComponent)
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def is_computed(self, scales: Scales | Drawn) -> bool:
+        """Its triangles give way where they would leave no room for a larger mechanism."""
+        return not scales.triangles
+
+    def is_drawn(self, drawing: Drawing) -> bool:
+        """Whether its triangles are drawn on a sheet."""
+        return super().is_drawn(drawing) and not self.is_hidden(drawing)
+
+    def formula(self, drawing: Drawing) -> str:
+        """2·ω·v."""
+        return f"2{rate_symbol(drawing, self.omega)}·{symbol(f'v_{self.index}')}"
+
+    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+        """Its triangles in full the first time; else from what it comes, or its number."""
+        if self.is_left_out(drawing):
+            return "short", self.left_out(drawing)
+        steps, size = drawing.trace.program.steps, self.size(drawing)
+        fields = {
+            "a": self.symbol,
+            "v": symbol(f"v_{self.index}"),
+            "segment": "".join(symbol(steps[end].name) for end in (self.tail, self.tip)),
+            "omega": rate_symbol(drawing, self.omega),
+            "drawn": plan_amount(drawing, Plane.ACCELERATIONS, size),
+        }
+        if drawing.settled(size) == 0:
+            return self.sign, drawing.words("step.coriolis-none", **fields)
+        if not self.is_drawn(drawing):
+            return self.sign, drawing.words("step.coriolis-computed", **fields)
+        if not first:
+            return self.sign, drawing.words("step.coriolis-again", **fields)
+        fields |= {
+            "p": symbol(self.pivot_name),
+            "q": symbol(self.pin_name),
+            "bar": bar(self.pivot_name, self.pin_name),
+            "e": symbol(self.letter(drawing, "foot")),
+            "f": symbol(self.letter(drawing, "top")),
+        }
+        line = self.leaning_line(drawing, fields)
+        return self.sign, drawing.words("step.coriolis", line=line, **fields)
+
+    def laid_alone(self, drawing: Drawing, **fields: str) -> str:
+        """What is left from its end is the acceleration along the guide."""
+        guide = way_of(drawing, self.block)
+        return drawing.words("step.coriolis-laid", c=self.symbol, guide=guide, **fields)
+
+    def leaning_line(self, drawing: Drawing, fields: Mapping[str, str]) -> str:
+        """The line that cuts f off: to the tip on the guide itself, where every 2v lies on it."""
+        assert self.velocity is not None
+        _, start, end, _ = drawing.trace.program.steps[self.velocity].args
+        w = vector_of(drawing, start, end, symbol(f"v_{self.pin_name}"))
+        if not all(each.is_along(drawing) for each in drawn(drawing)):
+            return drawing.words("step.coriolis-line", w=w, **fields)
+        kinds = (kind for _, kind in self.same_velocity(drawing))
+        right = next((kind for kind in kinds if not isinstance(kind, CoriolisComponent)), None)
+        if right is None:
+            return drawing.words("step.coriolis-line-tip", w=w, **fields)
+        tip = symbol(right.letter(drawing, "tip"))
+        return drawing.words("step.coriolis-line-letter", tip=tip, **fields)
+
+    def is_along(self, drawing: Drawing) -> bool:
+        """Whether twice its relative velocity, set at the pivot, lies on the line of the guide."""
+        assert self.foot is not None and self.pivot is not None and self.pin is not None
+        values = drawing.trace.values
+        foot, pivot, pin = values[self.foot], values[self.pivot], values[self.pin]
+        beside = abs(cross(pin - pivot, foot - pivot)) / abs(pin - pivot)
+        return bool(1000 * beside < NAUGHT * drawing.scales.kL)
+
+    @classmethod
+    def section(cls, scales: Scales) -> str:
+        """The section of the calculation that holds its relations."""
+        return "coriolis_components"
+
+    def relation(self, drawing: Drawing) -> Relation:
+        """Twice the turning of the guide times the relative velocity."""
+        values = drawing.trace.values
+        omega = abs(float(values[self.omega]))
+        speed = abs(values[self.tip] - values[self.tail])
+        rate, v = rate_symbol(drawing, self.omega), symbol(f"v_{self.index}")
+        size = drawing.settled(2 * omega * speed)
+        return Relation(
+            self.symbol,
+            f"2·{rate}·{v}",
+            f"2·{figure(drawing, omega)}·{figure(drawing, speed)}",
+            answer(drawing, size),
+            "m/s^2",
+            laid_off(drawing, "quarter", size, v=v, omega=rate),
+        )
+
+    # --- marking it ------------------------------------------------------------------------------
+
+    def sizes(self, own: OwnSizes) -> Iterator[Size]:
+        """2·ω·v of own values."""
+        for omega in own.turnings(self.omega):
+            for v in own.slidings(self.tail, self.tip):
+                yield Size((omega, v), 2 * omega.size * v.size, float("inf"))
+
+    def power_of(self, args: tuple[int, ...]) -> int:
+        """It goes with the speed along its guide."""
+        return 1 if args[1:] == (self.tail, self.tip) else 0
+
+    def as_measured(self, found: Mapping[int, Any], key: Mapping[int, Any]) -> Any:
+        """2·ω·v of own velocities, though these no longer lie along the guide."""
+        assert self.vector is not None
+        if not key[self.vector]:
+            return None
+        slid = abs(found[self.tip] - found[self.tail]) / abs(key[self.tip] - key[self.tail])
+        return found[self.omega] / key[self.omega] * slid * key[self.vector]
+
+
+def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
+    """The Coriolis components whose leaning line is among the steps of a sheet."""
+    for number, step, _ in drawing.mechanism_steps():
+        kind = construction(step)
+        if isinstance(kind, CoriolisComponent) and kind.lean == number:
+            yield kind
+
+
+# --- planning it ---------------------------------------------------------------------------------
+
+
+def coriolis_of(pen: Pen, link: str, tail: int, tip: int, point: str, block: str) -> int:
+    """Coriolis acceleration of a relative velocity (tail to tip in the plan) on a turning link.
+
+    ``point`` is where it slides, ``block`` what slides.
+    """
+    key = ("coriolis", link, tail, tip)
+    if key not in pen.shared:
+        index = letter(point) + letter(under(point, link))
+        with pen.calls_for(Effect.CORIOLIS):
+            triangles = similar_triangles(pen, link, tail, tip, point, index)
+            read = triangles.get("read")
+            with pen.on(Part.NORMAL, Plane.NUMBERS):
+                rate = omega_of(pen, link)
+                name = f"a_{index}^c"
+                vector = pen.draw(coriolis, rate, tail, tip, name=name, by_hand=read)
+        found = CoriolisComponent(
+            index=index,
+            guide=link,
+            block=block,
+            point=point,
+            omega=rate,
+            tail=tail,
+            tip=tip,
+            vector=vector,
+            **triangles,
+        )
+        pen.shared[key] = vector
+        pen.make(found)
+    return pen.shared[key]
+
+
+def similar_triangles(
+    pen: Pen, link: str, tail: int, tip: int, point: str, index: str
+) -> dict[str, Any]:
+    """The hand's way: on the guide's pivot twice the relative velocity, and the like triangle.
+
+    Nothing where no two points of the guide say how it turns.
+    """
+    owner = pen.turner(link)
+    if owner is None or pen.bases[owner].end is None:
+        return {}
+    base = pen.bases[owner]
+    assert base.end is not None
+    pivot, pin = (pen.the("position", name) for name in (base.start, base.end))
+    images = pen.the("velocity", base.start), pen.the("velocity", base.end)
+    seconds = pen.seconds()
+    first, second = (f"{corner}_{index}" for corner in corners(pen.scene))
+    tip_name = f"{letter(point).lower()}{PRIME}_c{index}"
+    with pen.hands_way():
+        with pen.on(Part.NORMAL, Plane.MECHANISM):
+            velocity = pen.draw(set_velocity, pin, *images, seconds, name=tip_name)
+            foot = pen.draw(coriolis_base, pivot, tail, tip, seconds, name=first)
+            edge = pen.draw(square_at, foot, pivot)
+            lean = pen.draw(coriolis_ray, foot, pivot, pin, velocity)
+            top = pen.draw(meet, edge, lean, name=second)
+        with pen.on(Part.NORMAL, Plane.NUMBERS):
+            read = pen.draw(coriolis_by_hand, foot, top, seconds)
+    return {
+        "pivot_name": letter(base.start),
+        "pin_name": letter(base.end),
+        "pivot": pivot,
+        "pin": pin,
+        "velocity": velocity,
+        "foot": foot,
+        "edge": edge,
+        "lean": lean,
+        "top": top,
+        "read": read,
+    }
+
+
+def corners(scene: Scene) -> str:
+    """The letters of a Coriolis triangle's corners: e and f, or others where points bear these."""
+    points = {name[0].lower() for name in all_points(scene)}
+    return next((pair for pair in CORNERS if not points & {*pair}), CORNERS[0])
+
+
+def end_of(pen: Pen, laying: Action, start: int, vector: int) -> int:
+    """The component laid off from a point, or back from it, with its arrow."""
+    component = pen.steps[vector].of
+    assert isinstance(component, CoriolisComponent)
+    key, back = ("laid off", start, vector), laying is lay_back
+    if back or key not in pen.shared:
+        with pen.calls_for(Effect.CORIOLIS):
+            pen.shared[key] = pen.draw(laying, start, vector)
+        corner = pen.shared[key]
+        pen.make(LaidOff(component=component, start=start, corner=corner, back=back))
+    corner = pen.shared[key]
+    name, ends = component.name, (corner, start) if back else (start, corner)
+    if name not in pen.arrows:
+        pen.arrow(join, *ends, name=name, symbol=name, kind="c", q=component.point, p="")
+    return corner

@@ -1,0 +1,1 @@
+"""What drivers move, and how they are drawn."""

@@ -1,0 +1,210 @@
+"""The relations that come first: the driver, what it gives its pin, and the scale factors."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from graphkin.construction.core.amounts import written
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import angle_symbol, driver_index
+from graphkin.construction.core.parameter_words import is_derived, reckoned
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.rate_relations import of_sum
+from graphkin.construction.result_tables import sense
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.scale import digits
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.scene.expression import CONSTANT
+from graphkin.scene.model import FRAME, Driver
+from graphkin.scene.quantity import Quantity, shortest
+
+OMEGA = 6
+"""Significant digits of the driver's angular velocity, from which all else follows."""
+KV, KA = "(m/s)/mm", "(m/s^2)/mm"
+"""Units of the scale factors of plans."""
+
+
+def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
+    """Position and speed from the parameters, angular velocity, speed of the driven pin."""
+    words, scene = drawing.words, drawing.scene
+    index = f"_{{{driver_index(driver)}}}"
+    angle, speed = angle_symbol(scene, driver), speed_letter(driver)
+    rate = "*ε*" if driver.kind == "turn" else "*a*"
+    for letter, quantity in (
+        (angle, driver.position),
+        (f"{speed}{index}", driver.speed),
+        (f"{rate}{index}", driver.acceleration),
+    ):
+        derived = is_derived(quantity)  # figures are put in only after it is derived
+        if reckoned(scene, quantity):
+            value = written(scene, words, quantity)
+            amount, _, unit = value.removesuffix("°").partition(" ")
+            figures = "" if derived else expression(drawing, quantity, values=True)
+            yield Relation(
+                letter,
+                expression(drawing, quantity, values=False),
+                figures if figures != amount else "",
+                amount,
+                "°" if value.endswith("°") else unit,
+            )
+    if driver.kind != "turn":
+        return
+    omega = float(driver.speed.si(scene.values))
+    if driver.speed.unit == "rev/min":
+        turns = words.decimal(driver.speed.written(scene.values).lstrip("-"))
+        yield Relation(
+            f"*ω*{index}",
+            f"π·*n*{index}/30",
+            f"π·{turns}/30",
+            figure(drawing, abs(omega), OMEGA),
+            "rad/s",
+            sense(words, omega),
+        )
+    elif driver.speed.unit == "deg/s":
+        yield in_radians(drawing, f"*ω*{index}", driver.speed, "rad/s")
+    if driver.acceleration.unit == "deg/s²" and not driver.acceleration.is_zero():
+        yield in_radians(drawing, f"*ε*{index}", driver.acceleration, "rad/s^2")
+    if driver.against == FRAME:
+        for p, q in driven_bars(drawing, driver):
+            yield from of_pin(drawing, driver, p, q)
+    if drawing.kind == "velocity":
+        yield from of_sum(drawing, driver)
+
+
+def in_radians(drawing: Drawing, name: str, quantity: Quantity, unit: str) -> Relation:
+    """A rate that is given in degrees, with its sense."""
+    degrees = drawing.words.decimal(quantity.written(drawing.scene.values).lstrip("-"))
+    rate = float(quantity.si(drawing.scene.values))
+    size = figure(drawing, abs(rate), OMEGA)
+    return Relation(name, "", f"π·{degrees}/180", size, unit, sense(drawing.words, rate))
+
+
+def speed_letter(driver: Driver) -> str:
+    """The letter of a driver's speed, as among the data."""
+    if driver.kind != "turn":
+        return "*v*"
+    return "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
+
+
+def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
+    """The bars of a driver's link from its fixed pivot to its pins."""
+    frame = drawing.scene.frame.points
+    for _, step, _ in drawing.steps(Plane.VELOCITIES):
+        if step.action is None or step.action.key != "turned-velocity":
+            continue
+        p, q, rate = step.says["p"], step.says["q"], drawing.trace.program.steps[step.args[3]]
+        number = drawing.scene.drivers.index(driver)
+        if p in frame and rate.given is not None and int(rate.says.get("d", -1)) == number:
+            yield p, q
+
+
+def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relation]:
+    """Velocity of a driven pin, its normal acceleration, and the tangential one if there is any."""
+    index, words = f"_{{{escape(driver.link)}}}", drawing.words
+    omega, epsilon = (
+        abs(float(rate.si(drawing.scene.values))) for rate in (driver.speed, driver.acceleration)
+    )
+    steady = driver.acceleration.is_zero()
+    length = length_of(drawing, p, q)
+    bar_length, w = figure(drawing, length), figure(drawing, omega, OMEGA)
+    line = bar(p, q)
+    speed = answer(drawing, omega * length)
+    yield Relation(
+        symbol(f"v_{q}"), f"*ω*{index}·{line}", f"{w}·{bar_length}", speed, "m/s", f"⊥ {line}"
+    )
+    yield Relation(
+        symbol(f"a_{q}" if steady else f"a_{q}^ν"),
+        f"*ω*{index}^2·{line}",
+        f"{w}^2·{bar_length}",
+        answer(drawing, omega * omega * length),
+        "m/s^2",
+        words("calculation.towards", p=symbol(p), q=symbol(q)),
+    )
+    if not steady:
+        yield Relation(
+            symbol(f"a_{q}^τ"),
+            f"*ε*{index}·{line}",
+            f"{figure(drawing, epsilon)}·{bar_length}",
+            answer(drawing, epsilon * length),
+            "m/s^2",
+            f"⊥ {line}",
+        )
+
+
+def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
+    """The text of a quantity as markup, its parameters as symbols or as figures."""
+    text = re.sub(r"^d\(d\((.*)\)/dt\)/dt$", r"d**2(\1)/dt**2", quantity.text).replace("**", "^")
+    known = drawing.scene.values
+
+    def replaced(match: re.Match[str]) -> str:
+        name = match[0]
+        if name not in known:
+            return "π" if name == CONSTANT else name
+        return drawing.words.decimal(shortest(known[name])) if values else f"*{escape(name)}*"
+
+    parts = re.split(r"([A-Za-z_]\w*)", text)
+    return "".join(
+        re.sub(r"^\w+$", replaced, part) if i % 2 else spelled(drawing, part)
+        for i, part in enumerate(parts)
+    )
+
+
+def spelled(drawing: Drawing, text: str) -> str:
+    """Signs of an expression as they are printed."""
+    plain = escape(drawing.words.decimal(text).replace("*", "·").replace(" · ", "·"))
+    return re.sub(r"\\\^(\d)(?!\d)", r"^\1", plain)
+
+
+def of_scales(drawing: Drawing) -> Iterator[Relation]:
+    """kL, kv and ka, and the drawn length of the driven bar."""
+    words, scales = drawing.words, drawing.scales
+    number = words.decimal(digits(scales.kL))
+    yield Relation(
+        "*k*_L", "", "", number, "", words("calculation.scale", scale=words.decimal(scales.words))
+    )
+    for name, length in drawn_bars(drawing):
+        yield Relation(
+            name,
+            "",
+            f"{figure(drawing, 1000 * length)}/{number}",
+            figure(drawing, drawing.on_paper(length)),
+            "mm",
+            words("calculation.drawn"),
+        )
+    yield from plan_scales(drawing, number)
+
+
+def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
+    """kv from the driving crank, or chosen; ka = kv²/kL, or chosen."""
+    scales, chosen = drawing.scales, drawing.words("calculation.chosen")
+    kv, ka = figure(drawing, scales.kv / 1000), figure(drawing, scales.ka / 1000)
+    by_ka = ("*k*_v^2/*k*_L", f"1000·{kv}^2/{number}")
+    if scales.from_driver:
+        w = figure(drawing, scales.times / scales.seconds, OMEGA)
+        index = f"_{{{escape(drawing.scene.drivers[0].link)}}}"
+        m = figure(drawing, scales.times)
+        sign, less = ("/*m*", f"/{m}") if scales.times != 1 else ("", "")
+        yield Relation("*k*_v", f"*ω*{index}·*k*_L{sign}", f"{w}·{number}/1000{less}", kv, KV)
+        if not less:
+            by_ka = (f"*ω*{index}^2·*k*_L", f"{w}^2·{number}/1000")
+    else:
+        yield Relation("*k*_v", "", "", kv, KV, chosen)
+    if scales.apart:
+        yield Relation("*k*_a", "", "", ka, KA, chosen)
+    else:
+        yield Relation("*k*_a", *by_ka, ka, KA)
+
+
+def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
+    """The bars that are laid off on the mechanism, those of one length together, in metres."""
+    found: dict[float, list[str]] = {}
+    for _, step, _ in drawing.steps(Plane.MECHANISM):
+        if step.action is not None and step.action.key in ("compass", "mark-off", "step-along"):
+            p, q = step.says["p"], step.says.get("r", step.says["q"])
+            length = round(length_of(drawing, p, q), 12)
+            if bar(p, q) not in found.setdefault(length, []):
+                found[length].append(bar(p, q))
+    for length, bars in found.items():
+        yield " = ".join(f"{name}/*k*_L" for name in bars), length

@@ -1,0 +1,233 @@
+"""The drivers on the mechanism: the angle of each crank, the way of each slide, and its sense."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterator
+from math import degrees, hypot
+
+from graphkin.construction.core.amounts import in_degrees, written
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
+from graphkin.construction.core.given_data import angle_symbol, driver_index
+from graphkin.construction.guides.slide_symbols import seat, within
+from graphkin.drawing.field import XY, Field
+from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.marks import Arc, LineMark, Mark
+from graphkin.drawing.symbols import BLOCK, across, arrow, head, turned_arrow
+from graphkin.numbers.plane import cross, dot
+from graphkin.scene.model import FRAME, Driver, Slide
+
+ANGLE = 11.0
+"""Radius of the arc of a driver's angle in mm."""
+WIDER = 6.5
+"""How much larger the arc of each further driver at one pin is, in mm."""
+ASIDE = 9.5
+"""How far the dimension of a driver's slide stands from its guide, in mm."""
+BESIDE = 7.5
+"""How far the arrow of a driver's speed stands from its guide, in mm."""
+LEAST = 9.0
+"""The shortest distance that is dimensioned, in mm."""
+ENOUGH = 4.0
+"""How far points stay from a dimension line, in mm."""
+SENSE, AROUND = (12.0, 70.0), 10.0
+"""Between which angles beyond its crank a turning arrow stands, and what it keeps clear, in °."""
+HALF = 5.5
+"""Half the length of the arrow of a driver's speed, in mm."""
+
+
+def draw_drivers(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Every driver: its position with its value, and the sense of its motion."""
+    used: list[tuple[str, int]] = []
+    for driver in drawing.scene.drivers:
+        if driver.kind == "turn":
+            start = (driver.of or drawing.scene.links[driver.link].points)[0]
+            if start in drawing.positions:
+                nth = sum(1 for name, _ in used if name == start)
+                used.append((start, nth))
+                draw_crank(board, drawing, field, driver, ANGLE + WIDER * nth)
+        elif driver.kind == "slide":
+            draw_slide(board, drawing, field, driver)
+        else:
+            draw_roll(board, drawing, field, driver)
+
+
+def draw_crank(
+    board: FieldContent, drawing: Drawing, field: Field, driver: Driver, radius: float
+) -> None:
+    """The angle of a crank from the axis of the link it turns against, and its sense."""
+    start = (driver.of or drawing.scene.links[driver.link].points)[0]
+    centre = field(drawing.positions[start])
+    base = drawing.standing.axis(driver.against)
+    if base is None:
+        return
+    zero, swept = degrees(phase(base)), drawn_angle(drawing, driver)
+    end = zero + swept
+    ray = Arc(*centre, radius + 6, 0, 1, "angle").at(zero)
+    board.marks.append(LineMark(*centre, *ray, "centre-line", f"x {driver.link}"))
+    if driver.of is None and not lies_along(drawing, driver.link, zero + swept):
+        tip = Arc(*centre, radius + 6, 0, 1, "angle").at(end)
+        board.marks.append(LineMark(*centre, *tip, "centre-line", f"axis {driver.link}"))
+    name = "phi" if len(drawing.scene.drivers) == 1 else f"phi {driver.link}"
+    if abs(swept) > 0.5:
+        board.marks.append(Arc(*centre, radius, zero, end, "angle", name))
+    middle = Arc(*centre, radius, 0, 1, "angle").at(zero + swept / 2)
+    given = drawing.scene, drawing.words, driver.position
+    text = f"{angle_symbol(drawing.scene, driver)} = {in_degrees(*given) or written(*given)}"
+    board.labels.append(Label(text, "", middle, 2.5, name, away=unit(centre, middle)))
+    draw_sense(board, drawing, centre, end, driver, radius - 3)
+
+
+def lies_along(drawing: Drawing, link: str, angle: float) -> bool:
+    """True where the link's second point lies on the ray at an angle from its first."""
+    places = [drawing.positions[p] for p in drawing.scene.links[link].points[:2]]
+    if len(places) < 2 or places[0] == places[1]:
+        return False
+    turn = degrees(phase(places[1] - places[0])) - angle
+    return abs((turn + 180) % 360 - 180) < 0.01
+
+
+def drawn_angle(drawing: Drawing, driver: Driver) -> float:
+    """The driver's angle in degrees, as written where that is less than a turn either way."""
+    turn = degrees(phase(complex(driver.position.direction(drawing.scene.values))))
+    written = degrees(float(driver.position.si(drawing.scene.values)))
+    return written if abs(written) < 360 else turn % 360
+
+
+def unit(start: XY, end: XY) -> XY:
+    """The way from one place to another as a unit vector."""
+    length = hypot(end[0] - start[0], end[1] - start[1])
+    return (end[0] - start[0]) / length, (end[1] - start[1]) / length
+
+
+def draw_sense(
+    board: FieldContent, drawing: Drawing, centre: XY, end: float, driver: Driver, radius: float
+) -> None:
+    """A turning arrow beyond the crank, in the sense of its angular velocity."""
+    omega = float(driver.speed.si(drawing.scene.values))
+    if not omega:
+        return
+    sign = 1 if omega > 0 else -1
+    near, far = clear_of(drawing, driver, end, sign)
+    arc = (end + sign * near, end + sign * far)
+    board.marks += turned_arrow(centre, radius, *arc, "sense")
+    at = Arc(*centre, radius, 0, 1, "sense").at((arc[0] + arc[1]) / 2)
+    index = driver_index(driver)
+    board.labels.append(Label(f"*ω*_{{{index}}}", "", at, 2.5, f"omega {driver.link}"))
+
+
+def clear_of(drawing: Drawing, driver: Driver, end: float, sign: int) -> tuple[float, float]:
+    """From where to where beyond its crank a turning arrow stands, in degrees in its own sense.
+
+    Further on where the velocity of its pivot, which is set there, or a bar would cut it.
+    """
+    (near, far), here = SENSE, (driver.of or drawing.scene.links[driver.link].points)[0]
+    velocity = drawing.trace.value("velocity", here)
+    if velocity is None or abs(velocity) < NOISE * drawing.largest:
+        return near, far
+    links = (link for link in drawing.scene.links.values() if here in link.points)
+    others = (point for link in links for point in link.points if link.name != driver.link)
+    ways = [drawing.positions[point] - drawing.positions[here] for point in others]
+    turns = (sign * (degrees(phase(way)) - end) % 360 for way in (velocity, *ways) if abs(way))
+    cuts = sorted(turns)
+    starts = [start for start in (near, *(cut + near for cut in cuts)) if start + far < 360]
+    length = far - near
+    free = (s for s in starts if not any(-AROUND < cut - s < length + AROUND for cut in cuts))
+    start = next(free, near)
+    return start, start + length
+
+
+def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
+    """The slide that a sliding driver moves."""
+    slides = drawing.scene.links[driver.link].slides
+    return next((slide for slide in slides if slide.on == driver.against), None)
+
+
+def draw_slide(board: FieldContent, drawing: Drawing, field: Field, driver: Driver) -> None:
+    """The way of a driven block from the zero of its guide, and the sense of its speed."""
+    slide = driven_slide(drawing, driver)
+    ways = [w for w in drawing.standing.guideways if w.block == driver.link and w.slide is slide]
+    for way in ways:
+        path = 1j * way.offset * way.along
+        lengths = (way.zero + path, way.at, way.along)
+        fixed = way.slide.on == FRAME
+        drawn = seat(drawing, way) if fixed else way.at
+        draw_way(board, drawing, field, driver, lengths, drawn, drawn)
+
+
+def draw_roll(board: FieldContent, drawing: Drawing, field: Field, driver: Driver) -> None:
+    """The way of a driven wheel's contact from where its track counts, the sense at its centre."""
+    for touch in drawing.standing.touches:
+        mine = touch.disc.link == driver.link and touch.rolling.on == driver.against
+        if mine and touch.zero is not None:
+            lengths = (touch.zero, touch.at, touch.along)
+            draw_way(board, drawing, field, driver, lengths, touch.at, touch.disc.centre)
+
+
+def draw_way(
+    board: FieldContent,
+    drawing: Drawing,
+    field: Field,
+    driver: Driver,
+    lengths: tuple[complex, complex, complex],
+    drawn: complex,
+    moved: complex,
+) -> None:
+    """A coordinate along a line, dimensioned beside it, and an arrow for its rate of change.
+
+    ``lengths`` are the zero, the place and the direction. A coordinate too short for its dimension
+    is written beside ``drawn``; the arrow stands beside ``moved``, which has this speed.
+    """
+    zero, here, along = lengths
+    way, aside = field.way(along), free_side(drawing, field, zero, here, along)
+    side = 1 if aside > 0 else -1
+    start, end = field(zero), field(here)
+    name = f"s {driver.link}"
+    text = f"{angle_symbol(drawing.scene, driver)} = "
+    text += written(drawing.scene, drawing.words, driver.position)
+    apart = hypot(end[0] - start[0], end[1] - start[1])
+    shown = field.holds(zero, 1) and apart >= LEAST
+    if shown:
+        low, high = across(start, way, 0, aside), across(end, way, 0, aside)
+        board.marks += within(dimension(start, end, low, high, name), field.rect)
+        board.labels.append(Label(text, "", (low, high), 2.5, name))
+    else:
+        at = across(field(drawn), way, 0, side * BLOCK[1] / 2)
+        board.labels.append(Label(text, "", at, 2.5, name, away=unit(field(drawn), at)))
+    speed = float(driver.speed.si(drawing.scene.values))
+    if speed:
+        ahead = HALF if speed > 0 else -HALF
+        tail, tip = (across(field(moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
+        board.marks += arrow(tail, tip, "sense", f"speed {driver.link}")
+        index = driver_index(driver)
+        label = Label(f"*v*_{{{index}}}", "", (tail, tip), 2.5, f"speed {driver.link}")
+        board.labels.append(label)
+
+
+def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way: complex) -> float:
+    """How far to the right of a line (mm) a dimension has room: the nearest place that is free.
+
+    Both sides are tried, first the one that leads away from the mechanism; the nearest place on
+    that side where none is free.
+    """
+    places = list(drawing.positions.values())
+    low, high = sorted(dot(place - start, way) * field.mm for place in (start, end))
+    middle = sum(places) / len(places)
+    outer = 1 if cross(way, middle - end) >= 0 else -1
+    right = [
+        -cross(way, place - start) * field.mm
+        for place in places
+        if low - ASIDE < dot(place - start, way) * field.mm < high + ASIDE
+    ]
+    tries = [side * far for far in (ASIDE, 1.6 * ASIDE, 2.2 * ASIDE) for side in (outer, -outer)]
+    free = (far for far in tries if all(abs(far - place) > ENOUGH for place in right))
+    return next(free, outer * ASIDE)
+
+
+def dimension(start: XY, end: XY, low: XY, high: XY, name: str) -> Iterator[Mark]:
+    """A dimension line with arrowheads, and the thin lines that lead to what it measures."""
+    for at, foot in ((start, low), (end, high)):
+        way = unit(at, foot)
+        yield LineMark(*at, foot[0] + 1.5 * way[0], foot[1] + 1.5 * way[1], "drive", name)
+    yield LineMark(*low, *high, "drive", name)
+    yield head(low, high, "sense", name)
+    yield head(high, low, "sense", name)

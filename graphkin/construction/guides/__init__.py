@@ -1,0 +1,1 @@
+"""Guides and the blocks that slide on them."""

@@ -1,0 +1,195 @@
+"""Where guides lie and how links are turned: axes of links, lines of guides, paths of points."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.pen import Pen, Says
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import across, along_bar, polar, ray, shifted
+from graphkin.construction.guides.guide_actions import (
+    axis_along,
+    axis_by_guide,
+    axis_of,
+    axis_with_guide,
+    beside_guide,
+    gap,
+    guide_back,
+    placed,
+    turned,
+    way_between,
+)
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.scene.model import FRAME, Rolling, Slide
+from graphkin.structure.pairs import Sliding
+
+
+def axis(pen: Pen, shapes: LinkShapes, link: str) -> int:
+    """The direction of a link's x axis: known from its group, or from two of its points."""
+    if not pen.has("axis", link):
+        base = pen.bases[link]
+        assert base.end is not None and "@" not in base.end
+        ends = [pen.the("position", point) for point in (base.start, base.end)]
+        here = [shapes.local(link, point) for point in (base.start, base.end)]
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            pen.want("axis", link, pen.draw(axis_of, *ends, *here))
+    return pen.the("axis", link)
+
+
+def direction_on(pen: Pen, shapes: LinkShapes, link: str, direction: int) -> int:
+    """A direction of a link's own axes, in the plane."""
+    if link == FRAME:
+        return direction
+    return pen.draw(turned, axis(pen, shapes, link), direction)
+
+
+def local_line(pen: Pen, shapes: LinkShapes, slide: Slide | Rolling, on: str) -> tuple[int, int]:
+    """A point of a guide or track and a second one ahead of it, in the axes of their link."""
+    along = slide.along if isinstance(slide, Slide) else None
+    if along is not None:
+        return shapes.local(on, along[0]), shapes.local(on, along[1])
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        through = slide.through
+        assert through is not None
+        if isinstance(through, str):
+            start = shapes.local(on, through)
+        else:
+            start = pen.given("point", *through)
+        return start, pen.draw(polar, start, pen.given("direction", slide.angle), pen.given("one"))
+
+
+def guide_line(pen: Pen, shapes: LinkShapes, slide: Slide | Rolling, on: str, name: str) -> int:
+    """A guide or track of a known link, in the plane; its point is where coordinates begin."""
+    along = slide.along if isinstance(slide, Slide) else None
+    if along is not None:
+        start, end = (pen.the("position", point) for point in along)
+        return pen.draw(along_bar, start, start, end, p=along[0], g=name)
+    through = slide.through
+    assert through is not None
+    turn = direction_on(pen, shapes, on, pen.given("direction", slide.angle))
+    says: Says = {"g": name} if isinstance(slide, Slide) else {"g": name, "h": on}
+    if isinstance(through, str):
+        start = pen.the("position", through)
+        return pen.draw(ray, start, turn, p=through, **says)
+    start = point_on(pen, shapes, on, pen.given("point", *through))
+    return pen.draw(ray, start, turn, p="", **says)
+
+
+def point_on(pen: Pen, shapes: LinkShapes, link: str, local: int) -> int:
+    """A point given by coordinates on a link, in the plane."""
+    if link == FRAME:
+        return local
+    start = pen.bases[link].start
+    where = pen.the("position", start), axis(pen, shapes, link), shapes.local(link, start)
+    return pen.draw(placed, *where, local)
+
+
+def known_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, sought: str = "") -> int:
+    """The line of a guide in the plane, from the link that carries it or, if that is sought, from
+    the block on it."""
+    key = ("guide", *pair.links)
+    if key not in pen.shared:
+        block, on = pair.links
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            if on != sought:
+                line = guide_line(pen, shapes, pair.slide, on, block)
+            else:
+                first = pen.the("position", pen.scene.link(block).points[0])
+                offset = pen.given("length", pair.slide.offset)
+                line = pen.draw(guide_back, first, axis(pen, shapes, block), offset, g=block)
+        pen.shared[key] = line
+    return pen.shared[key]
+
+
+def standing_guide(pen: Pen, shapes: LinkShapes, pair: Sliding) -> int:
+    """The line of a guide once its link stands, from where the coordinates of its block count."""
+    key = ("standing", *pair.links)
+    if key not in pen.shared:
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            pen.shared[key] = guide_line(pen, shapes, pair.slide, pair.links[1], pair.block)
+    return pen.shared[key]
+
+
+def path_of(pen: Pen, shapes: LinkShapes, pair: Sliding, link: str, point: str) -> int:
+    """The line on which a slide with a known link leads a point of the other, ``link``.
+
+    The link's axis is known from then on: links that slide on one another turn together.
+    """
+    line = known_guide(pen, shapes, pair, link)
+    key = ("path", *pair.links, point)
+    if key not in pen.shared:
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            if pair.block == link:
+                pen.shared[key] = path_of_block(pen, shapes, pair, line, point)
+            else:
+                pen.shared[key] = path_of_carrier(pen, shapes, pair, line, point)
+    return pen.shared[key]
+
+
+def path_of_block(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, point: str) -> int:
+    """The parallel to a guide on which a point of a block moves."""
+    block = pair.block
+    first = pen.scene.link(block).points[0]
+    if not pen.has("axis", block):
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            pen.want("axis", block, pen.draw(axis_along, line))
+    if pair.slide.offset.number(pen.scene.values) != 0:
+        line = pen.draw(shifted, line, pen.given("length", pair.slide.offset), p=block)
+    if point != first:
+        ends = shapes.local(block, first), shapes.local(block, point)
+        line = pen.draw(shifted, line, pen.draw(across, *ends), p=block)
+    return line
+
+
+def path_of_carrier(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, point: str) -> int:
+    """The parallel to a guide on which a point of the link that carries the guide moves."""
+    carrier = pair.links[1]
+    ends = local_line(pen, shapes, pair.slide, carrier)
+    if not pen.has("axis", carrier):
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            found = pen.draw(axis_by_guide, axis(pen, shapes, pair.block), *ends)
+            pen.want("axis", carrier, found)
+    if lies_on(pair.slide, point):
+        return line
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        along = pen.draw(way_between, *ends)
+        beside = pen.draw(beside_guide, shapes.local(carrier, point), ends[0], along)
+    return pen.draw(shifted, line, beside, p=pair.block)
+
+
+def lies_on(slide: Slide, point: str) -> bool:
+    """Whether a guide is written to pass through a point."""
+    return point == slide.through or point in (slide.along or ())
+
+
+def height_of(pen: Pen, shapes: LinkShapes, pair: Sliding, pins: dict[str, str]) -> int | None:
+    """How far the block's pin stands to the left of the guide's own pin, across the guide.
+
+    None where the scene is written so that the guide passes through both.
+    """
+    block, carrier = pair.links
+    on_block, on_carrier = pins[block], pins[carrier]
+    first = pen.scene.link(block).points[0]
+    straight = pair.slide.offset.number(pen.scene.values) == 0 and on_block == first
+    if straight and lies_on(pair.slide, on_carrier):
+        return None
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        here = pen.draw(across, shapes.local(block, first), shapes.local(block, on_block))
+        ends = local_line(pen, shapes, pair.slide, carrier)
+        along = pen.draw(way_between, *ends)
+        there = pen.draw(beside_guide, shapes.local(carrier, on_carrier), ends[0], along)
+        offset = pen.given("length", pair.slide.offset)
+        return pen.draw(gap, offset, here, there)
+
+
+def turned_with(pen: Pen, shapes: LinkShapes, pair: Sliding, known: str) -> None:
+    """The axis of the other link of a slide, from that of one of them."""
+    block, carrier = pair.links
+    other = carrier if known == block else block
+    if pen.has("axis", other):
+        return
+    ends = local_line(pen, shapes, pair.slide, carrier)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        if other == carrier:
+            found = pen.draw(axis_by_guide, axis(pen, shapes, block), *ends)
+        else:
+            found = pen.draw(axis_with_guide, axis(pen, shapes, carrier), *ends)
+        pen.want("axis", other, found)

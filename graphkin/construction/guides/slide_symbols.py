@@ -1,0 +1,289 @@
+"""Blocks, guides and slots on the mechanism: of the frame hatched, of moving links part of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from graphkin.construction.core.bodies import Guideway
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import XY, Field, clipped
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import LineMark, Mark, reach
+from graphkin.drawing.symbols import (
+    BLOCK,
+    PIVOT,
+    SLOT,
+    across,
+    block,
+    rails,
+    slot,
+    slot_ground,
+    weld,
+)
+from graphkin.numbers.arithmetic import Real, larger, pick, smaller
+from graphkin.numbers.plane import cross, dot
+from graphkin.scene.model import FRAME, Slide
+
+REACH = 15.0
+"""Half the length of a drawn guide in mm."""
+LEAST = 7.0
+"""Half the length of a guide where there is no room for more, in mm."""
+AWAY = 8.0
+"""How far a guide of the frame stays from the middle of a fixed pivot, in mm."""
+BEYOND = 10.5
+"""How far a bar is drawn beyond the middle of a block on it, in mm."""
+STROKE = 13.0
+"""Half the length of a drawn slot in mm."""
+CLEAR = 4.0
+"""How far a slot ends from a pin of its bar, in mm."""
+ALIKE = 1e-6
+"""Lines nearer than this, in parts of the mechanism, are one."""
+
+
+@dataclass
+class Rail:
+    """A straight line of one link that blocks slide on, with the places of what is on it.
+
+    ``marks`` are coordinates of ``blocks`` along the line, in metres from ``zero``; ``slots`` those
+    of pins.
+    """
+
+    owner: str
+    zero: complex
+    along: complex
+    marks: list[float] = field(default_factory=list)
+    blocks: list[str] = field(default_factory=list)
+    slots: list[tuple[float, str]] = field(default_factory=list)
+
+    def holds(self, owner: str, point: complex, along: complex, near: float) -> bool:
+        """True for a link and a line that are this one's."""
+        return (
+            owner == self.owner
+            and abs(cross(self.along, along)) < ALIKE
+            and abs(cross(self.along, point - self.zero)) < near
+        )
+
+    def at(self, coordinate: float) -> complex:
+        """The place at a distance along the line."""
+        return self.zero + coordinate * self.along
+
+    def along_of(self, point: complex) -> float:
+        """How far along the line a point lies."""
+        return float(dot(point - self.zero, self.along))
+
+
+def is_swivel(drawing: Drawing, slide: Slide) -> bool:
+    """True where the guide is a block that only turns about its one point: the bar slides in it."""
+    if slide.on == FRAME or slide.pin:
+        return False
+    scene = drawing.scene
+    carrier = scene.links[slide.on]
+    served = [s for link in scene.links.values() for s in link.slides if s.on == slide.on]
+    alone = carrier.points == (slide.through,) and not carrier.slides and not carrier.wheels
+    return alone and len(served) == 1
+
+
+def rails_of(drawing: Drawing) -> list[Rail]:
+    """The guides of all links, those on one line of one link together."""
+    found: list[Rail] = []
+    near = ALIKE * drawing.standing.size
+    for way in drawing.standing.guideways:
+        swivel = is_swivel(drawing, way.slide)
+        owner = way.block if swivel else way.slide.on
+        start = way.at if swivel or owner == FRAME else way.zero
+        rail = next((r for r in found if r.holds(owner, start, way.along, near)), None)
+        if rail is None:
+            rail = Rail(owner, start, way.along)
+            found.append(rail)
+        if way.slide.pin:
+            rail.slots.append((rail.along_of(way.at), way.block))
+        else:
+            rail.marks.append(rail.along_of(seat(drawing, way)))
+            rail.blocks.append(way.block)
+    return found
+
+
+def seat(drawing: Drawing, way: Guideway) -> complex:
+    """Where the middle of the rectangle of a sliding pair stands."""
+    if way.slide.on == FRAME:
+        return drawing.standing.beside_wheels(way)
+    if not is_swivel(drawing, way.slide):
+        return way.foot
+    pivot = drawing.positions[drawing.scene.links[way.slide.on].points[0]]
+    return way.at + float(dot(pivot - way.at, way.along)) * way.along
+
+
+def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The hatched sides of the frame's guides and slots, and the blocks between them."""
+    for _, marks in frame_guides(drawing, field):
+        board.marks += marks
+    for guideway in drawing.standing.guideways:
+        if guideway.slide.on == FRAME and not guideway.slide.pin:
+            here, way = field(seat(drawing, guideway)), field.way(guideway.along)
+            board.marks.append(block(here, way, guideway.block, "slider"))
+
+
+def frame_guides(drawing: Drawing, field: Field) -> Iterator[tuple[list[str], list[Mark]]]:
+    """The drawn parts of the frame's guides and slots, each with the blocks about which it lies."""
+    for rail in rails_of(drawing):
+        if rail.owner != FRAME:
+            continue
+        at, way = field(rail.zero), field.way(rail.along)
+        parts = [clear_of_pivots(drawing, field, rail, mark * field.mm) for mark in rail.marks]
+        for low, high in merged(parts):
+            own = zip(rail.blocks, parts, strict=True)
+            about = [name for name, part in own if low <= part[0] and part[1] <= high]
+            yield about, list(within(rails(at, way, low, high), field.rect))
+        for coordinate, name in rail.slots:
+            low, high = coordinate * field.mm - STROKE, coordinate * field.mm + STROKE
+            ground = within(slot_ground(at, way, low, high), field.rect)
+            yield [name], [*ground, slot(at, way, low, high, name)]
+
+
+def clear_of_pivots(drawing: Drawing, field: Field, rail: Rail, middle: Real) -> tuple[Real, Real]:
+    """The part of a guide about a block, in mm, shorter where a fixed pivot stands in the way."""
+    low, high, (x, y) = middle - REACH, middle + REACH, field(rail.zero)
+    u, v = field.way(rail.along)
+    moving = {point for link in drawing.scene.links.values() for point in link.points}
+    for name in drawing.scene.frame.points:
+        if name not in moving or name not in drawing.positions:
+            continue
+        at = field(drawing.positions[name])
+        dx, dy = at[0] - x, at[1] - y + PIVOT / 2
+        along, aside = dx * u + dy * v, dy * u - dx * v
+        if abs(aside) < AWAY:
+            beyond = along > middle
+            shorter = larger(smaller(high, along - AWAY), middle + LEAST)
+            later = smaller(larger(low, along + AWAY), middle - LEAST)
+            low, high = pick(beyond, low, later), pick(beyond, shorter, high)
+    return low, high
+
+
+def merged(parts: Iterable[tuple[float, float]]) -> Iterator[tuple[float, float]]:
+    """The drawn parts of a guide with blocks at some places, those that overlap as one."""
+    ends = sorted(parts)
+    while ends:
+        low, high = ends.pop(0)
+        while ends and ends[0][0] < high + 2:
+            high = ends.pop(0)[1]
+        yield low, high
+
+
+def draw_guide_bars(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The bars and slots of moving links that blocks slide on, joined rigidly to their links."""
+    for rail in rails_of(drawing):
+        if rail.owner != FRAME:
+            board.marks += within(guide_bar(drawing, field, rail), field.rect)
+
+
+def guide_bar(drawing: Drawing, field: Field, rail: Rail) -> Iterator[Mark]:
+    """One line of a moving link: its bar, the corner where it joins the link, its slots."""
+    places = places_of(drawing, rail.owner)
+    near = ALIKE * drawing.standing.size
+    on = [rail.along_of(p) for p in places if abs(cross(rail.along, p - rail.zero)) < near]
+    slots = [slot_ends(field, coordinate, on) for coordinate, _ in rail.slots]
+    pads = [BEYOND / field.mm if on or rail.slots else REACH / field.mm] * len(rail.marks)
+    ends = [*on, *(end for part in slots for end in part)]
+    for mark, pad in zip(rail.marks, pads, strict=True):
+        ends += [mark - pad, mark + pad]
+    if not on and places:
+        yield from joint(field, rail, min(places, key=lambda p: off(rail, p, ends)), ends)
+    yield LineMark(*field(rail.at(min(ends))), *field(rail.at(max(ends))), "guide-bar", rail.owner)
+    at, way = field(rail.zero), field.way(rail.along)
+    for low, high in slots:
+        yield slot(at, way, low * field.mm, high * field.mm, rail.owner)
+
+
+def slot_ends(field: Field, coordinate: float, on: list[float]) -> tuple[float, float]:
+    """The part of a bar that a slot takes: about its pin, clear of the bar's own points."""
+    low, high = coordinate - STROKE / field.mm, coordinate + STROKE / field.mm
+    clear, least = CLEAR / field.mm, 2 * SLOT / field.mm
+    for point in on:
+        if low - clear < point < coordinate - least:
+            low = point + clear
+        if coordinate + least < point < high + clear:
+            high = point - clear
+    return min(low, coordinate), max(high, coordinate)
+
+
+def off(rail: Rail, point: complex, ends: list[float]) -> float:
+    """How far a point stands from the drawn part of a line."""
+    coordinate = min(max(rail.along_of(point), min(ends)), max(ends))
+    return abs(point - rail.at(coordinate))
+
+
+def joint(field: Field, rail: Rail, point: complex, ends: list[float]) -> Iterator[Mark]:
+    """The arm from a point of a link to its guide, and the filled corner between the two."""
+    coordinate = rail.along_of(point)
+    if not min(ends) <= coordinate <= max(ends):
+        far = abs(coordinate - (min(ends) + max(ends)) / 2)
+        if far * field.mm > 4 * REACH:
+            coordinate = min(max(coordinate, min(ends)), max(ends))
+        ends.append(coordinate)
+    foot, here = field(rail.at(coordinate)), field(point)
+    yield LineMark(*here, *foot, "guide-bar", rail.owner)
+    if abs(point - rail.at(coordinate)) * field.mm > BLOCK[1]:
+        inward = (min(ends) + max(ends)) / 2 - coordinate
+        way = field.way(rail.along * (1 if inward >= 0 else -1))
+        yield weld(foot, way, field.way(point - rail.at(coordinate)), rail.owner)
+
+
+def draw_blocks(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The blocks that move along moving links, each with the arm to its point if it needs one."""
+    for way in drawing.standing.guideways:
+        if way.slide.on == FRAME or way.slide.pin:
+            continue
+        swivel = is_swivel(drawing, way.slide)
+        owner = way.slide.on if swivel else way.block
+        middle = seat(drawing, way)
+        own = drawing.positions[drawing.scene.link(owner).points[0]]
+        here, point, along = field(middle), field(own), field.way(way.along)
+        if abs(own - middle) * field.mm > BLOCK[1] / 2:
+            board.marks.append(LineMark(*here, *point, "guide-bar", owner))
+        board.marks.append(block(here, along, owner))
+
+
+def covered(loci: Sequence[Mark], marks: Sequence[Mark]) -> list[Mark]:
+    """The lines and arcs of steps that come near a block, which would hide the middle of them."""
+    blocks = [reach(mark) for mark in marks if mark.cls in ("block", "slider")]
+    return [m for m in loci if m.step is not None and any(overlap(reach(m), b) for b in blocks)]
+
+
+def overlap(one: Rect, other: Rect) -> bool:
+    """True for upright boxes that have something in common."""
+    across = one[0] <= other[2] and other[0] <= one[2]
+    return across and one[1] <= other[3] and other[1] <= one[3]
+
+
+def swivelling(drawing: Drawing) -> list[complex]:
+    """Where the rectangles stand that are drawn on moving links."""
+    ways = drawing.standing.guideways
+    return [seat(drawing, w) for w in ways if w.slide.on != FRAME and not w.slide.pin]
+
+
+def places_of(drawing: Drawing, link: str) -> list[complex]:
+    """Where the points of a link stand."""
+    points = drawing.scene.link(link).points
+    return [drawing.positions[p] for p in points if p in drawing.positions]
+
+
+def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
+    """Marks whose lines end at the edge of a field."""
+    for mark in marks:
+        if not isinstance(mark, LineMark):
+            yield mark
+        elif part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), rect):
+            yield LineMark(*part[0], *part[1], mark.cls, mark.name)
+
+
+def number_side(drawing: Drawing, field: Field, link: str) -> tuple[XY, XY] | None:
+    """The side of a link's rectangle or slot pin at which its number stands."""
+    for way in drawing.standing.guideways:
+        owner = way.slide.on if is_swivel(drawing, way.slide) else way.block
+        if owner == link:
+            here, along = field(seat(drawing, way)), field.way(way.along)
+            half = SLOT if way.slide.pin else BLOCK[1] / 2
+            return across(here, along, -3, -half), across(here, along, 3, -half)
+    return None

@@ -1,0 +1,95 @@
+"""What is known of the acceleration of a point that slides: where it is laid off to in the plan.
+
+That is the acceleration of the point under it, and where the guide turns the component for that.
+"""
+
+from __future__ import annotations
+
+from graphkin.construction.core.arrows import slide_arrow
+from graphkin.construction.core.component import LaidOff
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.vocabulary import part_along
+from graphkin.construction.coriolis.coincident_points import image_under, second_image_under
+from graphkin.construction.coriolis.coriolis import (
+    CoriolisComponent,
+    coriolis_of,
+    end_of,
+    lay_back,
+    lay_off_turned,
+)
+from graphkin.construction.guides.guides import known_guide
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.structure.joints import Joint, partner
+
+
+def turning_component(pen: Pen, pair: Joint, link: str, name: str, point: str) -> int | None:
+    """The component that the turning of a guide gives a slide; None where it does not turn.
+
+    Where the point of a guide's link under a pin is sought (name A@3, point A), the pin's relative
+    velocity counts, else that of the point against what it slides on.
+    """
+    known = partner(pair, link)
+    if "@" in name:
+        tail, tip = pen.the("velocity", name), pen.the("velocity", point)
+        return coriolis_of(pen, link, tail, tip, point, pair.links[0])
+    if not pen.turns(known):
+        return None
+    tail, tip = image_under(pen, known, point), pen.the("velocity", point)
+    return coriolis_of(pen, known, tail, tip, point, pair.links[0])
+
+
+def lay_off_component(
+    pen: Pen, pair: Joint, link: str, name: str, point: str, vector: int | None
+) -> int:
+    """The end of the component, laid off from the point under the sliding one.
+
+    Where that is the one that is sought, it is laid off backwards from the sliding one.
+    """
+    if "@" in name:
+        assert vector is not None
+        return end_of(pen, lay_back, pen.the("acceleration", point), vector)
+    start = second_image_under(pen, partner(pair, link), point)
+    return start if vector is None else end_of(pen, lay_off_turned, start, vector)
+
+
+def known_end(pen: Pen, pair: Joint, link: str, point: str) -> int:
+    """Where the known part of a sliding point's acceleration ends in the plan."""
+    vector = turning_component(pen, pair, link, point, point)
+    return lay_off_component(pen, pair, link, point, point, vector)
+
+
+def component_between(pen: Pen, link: str, images: tuple[int, int], point: str, block: str) -> int:
+    """The end of the component of a velocity along a link that turns, laid off from its point.
+
+    ``images`` are the tail and the tip of that velocity, ``point`` slides with a block.
+    """
+    vector = coriolis_of(pen, link, *images, point, block)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        return end_of(pen, lay_off_turned, pen.the("acceleration", point), vector)
+
+
+def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
+    """The component of what slides that a step lays off; None for other steps."""
+    laid = step.of
+    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
+        return None
+    return laid, laid.component
+
+
+def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
+    """Acceleration of a block along its guide, and the component that comes of its turning."""
+    pair = pen.first_slide(block)
+    first = pen.scene.link(block).points[0]
+    start = second_image_under(pen, pair.links[1], first)
+    guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
+    if pen.turns(pair.links[1]):
+        tail = image_under(pen, pair.links[1], first)
+        tip = pen.the("velocity", first)
+        vector = coriolis_of(pen, pair.links[1], tail, tip, first, block)
+        pen.want("coriolis", block, vector)
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            start = lay_off_component(pen, pair, block, first, first, vector)
+            slide_arrow(pen, start, end, pair.links[1], first)
+    with pen.on(Part.RESULT, Plane.NUMBERS):
+        pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))

@@ -1,0 +1,53 @@
+"""The relations of rolling contacts, and of what is asked of blocks on their guides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.construction.core.component import laid_off as component_laid_off
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.naming import vector_of
+from graphkin.construction.core.program import Step
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.too_short import laid_off
+from graphkin.construction.result_tables import slid, slide_sense
+from graphkin.construction.rolling.rolling_words import rolling_rate
+from graphkin.drawing.symbol_markup import bar, symbol
+
+
+def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
+    """The acceleration of a rolling point of contact against its track: to the wheel's centre."""
+    says, values = step.says, drawing.trace.values
+    p, q = says["p"], says["q"]
+    length = length_of(drawing, p, q)
+    wheel, track = (float(values[arg]) for arg in step.args[2:])
+    return Relation(
+        symbol(f"a_{says['i']}^ν"),
+        f"{rolling_rate(drawing, *step.args[2:])}^2·{bar(p, q)}",
+        f"{figure(drawing, abs(wheel - track))}^2·{figure(drawing, length)}",
+        answer(drawing, size),
+        "m/s^2",
+        laid_off(drawing, "laid_off", size, p=symbol(q), q=symbol(p)),
+        over=(p, q),
+    )
+
+
+def of_slides(drawing: Drawing) -> Iterator[Relation]:
+    """The motion of each block that is asked: the vector of the plan along its guide, its sense."""
+    velocity = drawing.kind == "velocity"
+    what, unit = ("slide speed", "m/s") if velocity else ("slide acceleration", "m/s^2")
+    for block, name, value in slid(drawing):
+        size = drawing.settled(abs(value))
+        remark = slide_sense(drawing, block, value) if size else ""
+        vector = along_guide(drawing, drawing.trace.program.targets[what, block])
+        yield Relation(name, vector, "", answer(drawing, size), unit, remark)
+
+
+def along_guide(drawing: Drawing, number: int) -> str:
+    """Markup of the vector of the plan that is the motion of a block along its guide."""
+    program = drawing.trace.program
+    _, tail, tip = program.steps[number].args
+    laid = component_laid_off(program, tail)
+    if laid is not None and laid.component.follows:
+        return symbol(f"a_{laid.component.index}^r")  # it may be drawn from the other end
+    return vector_of(drawing, tail, tip)

@@ -1,0 +1,1 @@
+"""Groups of class III and higher: trials, closures, and two trial plans."""

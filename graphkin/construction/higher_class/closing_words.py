@@ -1,0 +1,113 @@
+"""The words for groups that are cut until they close, and for links that fit by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.given_pairs import heading
+from graphkin.construction.core.layout import arc_span
+from graphkin.construction.core.line_words import place
+from graphkin.construction.core.naming import drawn_amount, way_of
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.sentence import Sentence
+from graphkin.drawing.field import Field
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import Arc
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.plane import Circle
+from graphkin.scene.model import Rolling, Slide
+
+IDLE = "idle "
+"""What the name of a sentence that tells of an idle link begins with; the link's name follows."""
+
+
+def closing_sentence(drawing: Drawing, number: int, step: Step) -> str:
+    """How the position of a group of class III or higher is found."""
+    says = step.says
+    fields = {key: escape(says[key]) for key in ("k", "n", "list")}
+    if "d" in says:
+        driver = next(d for d in drawing.scene.drivers if d.link == says["d"])
+        fields["what"] = angle_symbol(drawing.scene, driver)
+        return drawing.words("step.close-driver", **fields)
+    drawn = links_drawn(drawing, says)
+    key = "step.close-links" if len(drawn) > 1 else "step.close-link"
+    fields["draw"] = drawing.words(key, list=escape(", ".join(drawn)))
+    fields["q"] = symbol(says["q"])
+    if "g" in says:
+        return drawing.words("step.close-guide", guide=way_of(drawing, says["g"]), **fields)
+    fixed, moving = ends_of_bar(drawing, number, step)
+    fields |= {"p": symbol(fixed or says["p"]), "q": symbol(moving)}
+    key = "step.close-bar" if fixed else "step.close-gap"
+    return drawing.words(key, bar=bar(says["p"], says["q"]), **fields)
+
+
+def ends_of_bar(drawing: Drawing, number: int, step: Step) -> tuple[str, str]:
+    """The ends of the bar that a group is cut at: one that stands, if any does; a moving one."""
+    first, second = step.says["p"], step.says["q"]
+    stands = {p for p in (first, second) if drawing.trace.program.targets["position", p] < number}
+    if second in stands:
+        return second, first
+    return first if first in stands else "", second
+
+
+def draw_closing_arcs(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Of the arc that a locus is cut by, where a group closes, the part that finds the pin."""
+    for number, step, _ in drawing.steps(Plane.NUMBERS):
+        if (
+            step.action is None
+            or step.action.key != "close"
+            or not {"d", "g"}.isdisjoint(step.says)
+        ):
+            continue
+        fixed, moving = ends_of_bar(drawing, number, step)
+        if fixed:
+            centre, pin = drawing.positions[fixed], drawing.positions[moving]
+            circle = Circle(centre, abs(pin - centre))
+            span, name = arc_span(circle, [pin], field.mm), step.says["p"] + step.says["q"]
+            radius = circle.radius * field.mm
+            board.marks.append(Arc(*field(centre), radius, *span, "compass", name, number))
+
+
+def links_drawn(drawing: Drawing, says: Mapping[str, str]) -> list[str]:
+    """The links of a group that give the locus: all but the one that a pin or guide is cut off."""
+    links, names = drawing.scene.links, says["list"].split(", ")
+    ends = {says[end] for end in "pq" if end in says}
+    near = [says["g"], *(slide.on for slide in links[says["g"]].slides)] if "g" in says else names
+    cut = next(name for name in near if name in names and ends <= {*links[name].points})
+    return [name for name in names if name != cut]
+
+
+def found_place(drawing: Drawing, step: Step) -> dict[str, str]:
+    """How far from the zero of its path, and on which side of it, a group was found to close."""
+    where = drawing.trace.program.steps[step.args[1]]
+    if where.action is None or where.action.key != "part":
+        return {}
+    link, size = drawing.scene.links[step.says["k"]], float(drawing.trace.values[step.args[1]])
+    paths: list[Slide | Rolling] = [*link.slides, *link.rolls]
+    path = next(path for path in paths if path.on == step.says.get("h", path.on))
+    zero = path.along[0] if isinstance(path, Slide) and path.along else path.through
+    assert zero is not None
+    side = heading(drawing.trace.values[step.args[0]].along * (-1 if size < 0 else 1))
+    return {
+        "what": drawn_amount(drawing, abs(size)),
+        "side": drawing.words(f"page.{side}"),
+        "zero": place(drawing, path.on, zero, on_paper=True),
+    }
+
+
+def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
+    """Each bar that no step lays off, because its pins stand without it: an idle link."""
+    told = [
+        {str(step.says.get(key, "")) for key in "pqr"} | {step.name}
+        for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS)
+        if step.part is Part.POSITION and step.says
+    ]
+    for link in drawing.scene.links.values():
+        points = set(link.points)
+        laid = any(len(points & names) > 1 for names in told)
+        if len(points) > 1 and not laid and not link.slides and not link.wheels:
+            names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
+            yield Sentence(-1, IDLE + link.name, drawing.words("step.idle", **names))

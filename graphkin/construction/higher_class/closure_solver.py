@@ -1,0 +1,277 @@
+"""Groups of class III and higher: one link is tried all round, until what was cut fits again.
+
+The only place where values decide how many steps there are: the trial runs a program of its own on
+arrays of trial positions, brackets every fit and closes in on it. Its derivatives come from plans.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphkin.construction.core.vocabulary import Action
+from graphkin.construction.higher_class.trial import MOST, Trial
+from graphkin.construction.higher_class.trial_windows import Windows, narrowed
+from graphkin.numbers.arithmetic import FLOAT, phase
+from graphkin.numbers.kinds import kind_of
+from graphkin.numbers.roots import roots, touches
+
+DOUBLES = ("float", "batch")
+"""The kinds in which closures are looked for; in the others they are refined."""
+KEPT = 16
+"""Closures of a group that are kept."""
+SAME = 1e-7
+"""Radians within which two angles count as one when closures are put in order."""
+
+HIDDEN = 1e-6
+"""Sine of crossing below which what doubles take for one closure may be two."""
+
+
+class ClosingError(ValueError):
+    """A group that does not close, or not in as many ways as asked."""
+
+    def __init__(self, ways: int, asked: int) -> None:
+        self.ways, self.asked = ways, asked
+        super().__init__(f"closes in {ways} ways, closure {asked} is asked")
+
+
+class Trying(Trial):
+    """A trial, and where it fits."""
+
+    def action(self, number: int) -> Action:
+        """The step that closes the group in the closure of a number, counted from one."""
+        return Action("close", ClosureSolver(self, number))
+
+    def closed_again(self, known: tuple[Any, ...], number: int) -> tuple[Any, ...]:
+        """As closed, for scalars; the last ones found are kept.
+
+        The traces of a sheet, and those by which its scale is chosen, ask the same many times.
+        """
+        found = self.kept.get((known, number))
+        if found is None:
+            found = self.closed(known, number)
+            if len(self.kept) >= KEPT:
+                self.kept.clear()
+            self.kept[known, number] = found
+        return found
+
+    @cached_property
+    def kept(self) -> dict[tuple[tuple[Any, ...], int], tuple[Any, ...]]:
+        """The closures that were found last, by what was known and their number."""
+        return {}
+
+    def closed(self, known: Sequence[Any], number: int) -> tuple[Any, ...]:
+        """Trial value, signs and the sine of crossing in one closure: scalars or arrays.
+
+        A scalar without that closure raises ClosingError, an element of an array gives NaN.
+        """
+        import numpy as np
+
+        single = not any(hasattr(value, "shape") for value in known)
+        arrays = [np.atleast_1d(value) for value in known]
+        size = max((len(array) for array in arrays), default=1)
+        arrays = [np.broadcast_to(array, size) for array in arrays]
+        places = self.shares(arrays, size).shape[1]
+        chunk = max(1, MOST // (places * 2 ** len(self.signs)))
+        parts = [
+            self.closures([array[start : start + chunk] for array in arrays])
+            for start in range(0, size, chunk)
+        ]
+        rows = [row for part in parts for row in part.picked(number)]
+        if single:
+            if np.isnan(rows[0][1]):
+                raise ClosingError(parts[0].ways(), number)
+            return self.polished(known, rows[0])
+        table = np.array(rows)
+        tried = np.exp(1j * table[:, 1]) if self.turns else table[:, 1]
+        return (tried, *table[:, 2:].T)
+
+    def beside(self, known: Sequence[Any], number: int) -> list[float]:
+        """The trial values of the other closures with the signs of one, known values as scalars.
+
+        Raises ValueError where doubles may have missed two, so that numbers are not sure.
+        """
+        import numpy as np
+
+        arrays = [np.atleast_1d(value) for value in known]
+        table = self.closures(arrays).table
+        if (table[:, -1] < HIDDEN).any() or len(self.everywhere(arrays, touches)[0]):
+            raise ValueError("rounding hides how many closures there are")
+        rows = table[:, 1:-1]
+        mine = rows[number - 1]
+        alike = (rows[:, 1:] == mine[1:]).all(axis=1)
+        alike[number - 1] = False
+        return [float(np.angle(np.exp(1j * x))) if self.turns else float(x) for x in rows[alike, 0]]
+
+    def polished(self, known: Sequence[Any], row: Sequence[float]) -> tuple[Any, ...]:
+        """A closure in floats, with a last step along the secant."""
+        tried, signs, sine = float(row[1]), [float(sign) for sign in row[2:-1]], float(row[-1])
+        value: Any = complex(FLOAT.radians(tried)) if self.turns else tried
+        return (value, *signs, sine)
+
+    def closures(self, known: Sequence[Any]) -> Closures:
+        """Every closure of every element of known values, in the order of their numbers."""
+        size = len(known[0]) if known else 1
+        return self.ordered(known, size, *self.everywhere(known, roots))
+
+    def everywhere(
+        self, known: Sequence[Any], sought: Callable[[Any, Any], tuple[Any, Any]]
+    ) -> tuple[Any, Any, Any]:
+        """What is sought wherever the link can be tried: elements, trial values, signs."""
+        import numpy as np
+
+        size = len(known[0]) if known else 1
+        reach = None if self.turns else self.reaches(known, size)
+        windows = Windows(np.arange(size), self.shares(known, size))
+        found = list(self.fits(known, reach, (), windows, sought))
+        owner, tried, chosen = (np.concatenate(column) for column in zip(*found, strict=True))
+        return owner, tried, chosen
+
+    def fits(
+        self,
+        known: Sequence[Any],
+        reach: Any,
+        signs: tuple[int, ...],
+        windows: Windows,
+        sought: Callable[[Any, Any], tuple[Any, Any]] = roots,
+    ) -> Iterator[tuple[Any, Any, Any]]:
+        """Every fit for sets of signs that begin so: its element, its trial value, its signs.
+
+        ``windows`` are where the dyads of the signs that are set can be drawn; ``sought`` may look
+        for other places than the roots of the misfit.
+        """
+        import numpy as np
+
+        def trial(owner: Any, share: Any) -> tuple[list[Any], Any, Any]:
+            tried = share if reach is None else self.along(share, reach[owner])
+            rows = np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
+            return [array[owner] for array in known], tried, rows
+
+        k = len(signs)
+        if k == len(self.signs):
+            owner, places = windows
+            row, share = sought(lambda row, at: self.misfits(*trial(owner[row], at)), places)
+            _, tried, rows = trial(owner[row], share)
+            yield owner[row], tried, rows
+            return
+        if self.choices[k] is not None:
+            windows = narrowed(lambda owner, at: self.drawable(k, *trial(owner, at)), windows)
+        for sign in (1, -1):
+            yield from self.fits(known, reach, (*signs, sign), windows, sought)
+
+    def ordered(
+        self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any
+    ) -> Closures:
+        """The closures in the order of their numbers: by the angles of the group's links."""
+        import numpy as np
+
+        here = [array[owner] for array in known]
+        found = self.found(here, tried, signs)
+        good = np.isfinite(found[self.misfit])
+        if self.facing is not None:
+            good &= found[self.facing] > 0
+        angles = [np.mod(phase(found[n]) + SAME, 2 * np.pi) // (2 * SAME) for n in self.axes]
+        sine = self.sines(here, tried, signs)
+        order = np.lexsort((*angles[::-1], owner))
+        order = order[good[order]]
+        keep = np.ones(order.size, dtype=bool)
+        keys = np.array([owner, *angles])[:, order]
+        keep[1:] = (abs(np.diff(keys, axis=1)) > 1.5).any(axis=0) | (np.diff(keys[0]) != 0)
+        order = order[keep]
+        table = np.column_stack([owner, tried, signs, sine])[order]
+        return Closures(size, table)
+
+    def sines(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
+        """Sine of the angle at which the locus crosses what was cut, by a small step each way.
+
+        Where a step leads beyond what can be drawn it is not taken.
+        """
+        import numpy as np
+
+        step = 1e-6 * (1 if self.turns else np.maximum(abs(tried), 1e-3))
+        here = self.found(known, tried, signs)
+        ends = [self.found(known, tried + way * step, signs) for way in (-1, 1)]
+        for end in ends:
+            drawn = np.isfinite(end[self.misfit]) & np.isfinite(end[self.locus])
+            end |= {n: np.where(drawn, end[n], here[n]) for n in (self.misfit, self.locus)}
+        across = ends[1][self.misfit] - ends[0][self.misfit]
+        way = abs(ends[1][self.locus] - ends[0][self.locus])
+        with np.errstate(all="ignore"):
+            sine = np.minimum(abs(across) / way, 1.0)
+        return np.where(np.isfinite(sine), sine, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ClosureSolver:
+    """What closes a group in the closure of a number, counted from one."""
+
+    trying: Trying
+    number: int
+
+    def __call__(self, *known: Any) -> tuple[Any, ...]:
+        """Trial value, signs and the sine of crossing."""
+        if all(isinstance(value, float | complex) for value in known):
+            return self.trying.closed_again(known, self.number)
+        kind = kind_of(*known)
+        if kind.name in DOUBLES:
+            return self.trying.closed(known, self.number)
+        from graphkin.construction.higher_class.refining import closed_in
+
+        return closed_in(self.trying, known, self.number, kind)
+
+    def loci(self, known: Sequence[Any], signs: Sequence[float]) -> list[Any]:
+        """Where the traced points go while the link is tried, (N,) each; NaN where one breaks off.
+
+        None where no point shows the fit.
+        """
+        import numpy as np
+
+        trying = self.trying
+        if not trying.traced:
+            return []
+        arrays = [np.atleast_1d(value) for value in known]
+        tried = trying.grid(arrays, 1)[0]
+        here = [np.broadcast_to(array, tried.shape) for array in arrays]
+        rows = np.broadcast_to(np.asarray(signs, dtype=float), (tried.size, len(trying.signs)))
+        found = trying.found(here, tried, rows)
+        return [found[number] for number in trying.traced]
+
+    def ways(self, known: Sequence[Any]) -> int:
+        """In how many ways the group closes on known values."""
+        import numpy as np
+
+        return self.trying.closures([np.atleast_1d(value) for value in known]).ways()
+
+
+@dataclass(frozen=True, slots=True)
+class Closures:
+    """All closures of some elements: rows of element, trial value, signs and sine of crossing."""
+
+    size: int
+    table: Any
+
+    def ways(self) -> int:
+        """In how many ways the first element closes."""
+        return int((self.table[:, 0] == 0).sum())
+
+    def picked(self, number: int) -> list[Any]:
+        """The row of each element's closure of a number; NaN where it has none."""
+        import numpy as np
+
+        rows = np.full((self.size, self.table.shape[1]), np.nan)
+        owners = self.table[:, 0].astype(int)
+        first = np.searchsorted(owners, np.arange(self.size))
+        count = np.bincount(owners, minlength=self.size)
+        there = count >= number
+        rows[there] = self.table[first[there] + number - 1]
+        return list(rows)
+
+
+def sign_table(count: int) -> list[tuple[int, ...]]:
+    """Every set of so many signs."""
+    rows: list[tuple[int, ...]] = [()]
+    for _ in range(count):
+        rows = [(*row, sign) for row in rows for sign in (1, -1)]
+    return rows

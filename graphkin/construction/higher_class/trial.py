@@ -1,0 +1,188 @@
+"""The trial of a group of class III or higher: a program of its own, run on arrays of trials."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_moving
+from graphkin.construction.core.program import Program
+from graphkin.construction.core.run import Values
+from graphkin.construction.higher_class.trial_windows import REACHES
+from graphkin.numbers.arithmetic import batch_kind
+
+SAMPLES = 360
+"""Trial positions of a round."""
+MOST = 400_000
+"""Trial positions run at once."""
+A_TURN = 24
+"""Trial positions for each turn of a wheel on its track."""
+FAR = 1.565
+"""Angle whose tangent is how far along a guide a link is tried, in parts of what bars reach."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """The program of a trial: its inputs, the tried value, the signs of its dyads, the misfit.
+
+    ``inputs`` are overridden by what is known, ``tried`` by a unit vector (``turns``) or a
+    coordinate in metres, ``signs`` by ±1; ``axes`` are the links' x axes in the order in which
+    closures are numbered; ``locus`` is the point that moves when the tried value does, to tell the
+    angle of crossing, and ``facing`` must be positive at a true fit.
+    """
+
+    program: Program
+    values: Values
+    inputs: tuple[int, ...]
+    tried: int
+    turns: bool
+    signs: tuple[int, ...]
+    misfit: int
+    locus: int
+    facing: int | None
+    axes: tuple[int, ...]
+    reach: int | None
+    """The step that holds how far a coordinate may have to be tried, in metres."""
+    rim: int | None = None
+    """The step that holds the radius of a wheel that is tried along its track."""
+    traced: tuple[int, ...] = ()
+    """The steps that hold the points whose loci a hand draws."""
+
+    # --- what is run ---------------------------------------------------------------------------
+
+    @cached_property
+    def results(self) -> tuple[int, ...]:
+        """The steps whose values are looked at."""
+        facing = () if self.facing is None else (self.facing,)
+        return (self.misfit, self.locus, *facing, *self.traced, *self.axes)
+
+    @cached_property
+    def ready(self) -> Ready:
+        """The program made ready for arrays of trials."""
+        outside = frozenset((*self.inputs, self.tried, *self.signs))
+        needed = needed_of(self.program, self.results)
+        return made_ready(self.program, needed, self.values, self.results, outside)
+
+    def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
+        """The results for arrays of trial values and of signs, known values given per element."""
+        import numpy as np
+
+        overrides = self.overrides(known, tried, signs)
+        with np.errstate(all="ignore"):
+            trace = run_moving(self.ready, self.values, batch_kind(), overrides=overrides)
+        return {n: np.broadcast_to(trace.values[n], len(tried)) for n in self.results}
+
+    @cached_property
+    def choices(self) -> tuple[tuple[Ready, Any, tuple[int, ...]] | None, ...]:
+        """For each sign: what its dyad is drawn of, made ready, and how far that reaches."""
+        outside = frozenset((*self.inputs, self.tried, *self.signs))
+        found: list[tuple[Ready, Any, tuple[int, ...]] | None] = []
+        for sign in self.signs:
+            drawn = [(e.action.value, e.args) for e in self.program.steps if e.action is not None]
+            value, args = next(
+                ((v, args) for v, args in drawn if sign in args and v in REACHES), (None, ())
+            )
+            if value is None:
+                found.append(None)
+                continue
+            args = tuple(arg for arg in args if arg != sign)
+            needed = needed_of(self.program, args)
+            ready = made_ready(self.program, needed, self.values, args, outside)
+            found.append((ready, REACHES[value], args))
+        return tuple(found)
+
+    def drawable(self, k: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
+        """How far the dyad of a sign can be drawn: positive where it can, by the signs before."""
+        import numpy as np
+
+        choice = self.choices[k]
+        assert choice is not None
+        ready, reaches, args = choice
+        with np.errstate(all="ignore"):
+            trace = run_moving(
+                ready, self.values, batch_kind(), overrides=self.overrides(known, tried, signs)
+            )
+            found = reaches(*(trace.values[arg] for arg in args))
+        return np.broadcast_to(found, len(tried))
+
+    def overrides(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
+        """What the program takes from outside; the signs may be only the first few."""
+        import numpy as np
+
+        found = dict(zip(self.inputs, known, strict=True))
+        found[self.tried] = np.exp(1j * tried) if self.turns else tried
+        return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
+
+    def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
+        """The misfit alone; NaN where the chain cannot be drawn."""
+        return self.found(known, tried, signs)[self.misfit]
+
+    # --- where it is tried ---------------------------------------------------------------------
+
+    def along(self, share: Any, reach: Any) -> Any:
+        """A trial value from a share: a way along a track in parts of its reach.
+
+        A guide is tried to both ends, as other guides may lead the link farther than bars reach.
+        """
+        import numpy as np
+
+        return reach * (share if self.rim is not None else np.tan(share))
+
+    def shares(self, known: Sequence[Any], size: int) -> Any:
+        """Where each element is tried: angles of a round, or shares of a way to both sides."""
+        import numpy as np
+
+        if self.turns:
+            return self.grid(known, size)
+        if self.rim is None:
+            row = np.linspace(-FAR, FAR, 3 * SAMPLES + 1)
+        else:
+            turns = np.nanmax(abs(self.reaches(known, size) / self.at_start(known, self.rim)))
+            count = np.clip(A_TURN * turns / np.pi, 2 * SAMPLES, MOST // 4)
+            row = np.linspace(-1, 1, int(np.nan_to_num(count, nan=2 * SAMPLES)) + 1)
+        return np.broadcast_to(row, (size, len(row)))
+
+    def work(self, known: Sequence[Any]) -> int:
+        """How many steps run where everything that closes is sought on known values, at least.
+
+        Each sign doubles the windows in which the rest is tried.
+        """
+        tried = self.shares(known, 1).shape[1]
+        return int(tried * (2 ** (len(self.signs) + 1) - 1) * len(self.ready.moving))
+
+    def grid(self, known: Sequence[Any], size: int) -> Any:
+        """The trial values of each element: a round, or as far to both sides as can be needed."""
+        import numpy as np
+
+        if self.turns:
+            round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + 0.123e-3
+            return np.broadcast_to(round_, (size, SAMPLES + 1))
+        return self.reaches(known, size)[:, None] * np.linspace(-1, 1, 2 * SAMPLES + 1)
+
+    def reaches(self, known: Sequence[Any], size: int) -> Any:
+        """How far a coordinate of each element may have to be tried (m), as bars allow."""
+        import numpy as np
+
+        assert self.reach is not None
+        return np.broadcast_to(self.at_start(known, self.reach), size)
+
+    def at_start(self, known: Sequence[Any], step: int) -> Any:
+        """A step that does not hang on what is tried."""
+        import numpy as np
+
+        overrides = dict(zip(self.inputs, known, strict=True))
+        with np.errstate(all="ignore"):
+            needed = needed_of(self.program, (step,))
+            trace = run_batch(
+                self.program, needed, self.values, batch_kind(), (step,), overrides=overrides
+            )
+        return trace.values[step]
+
+
+def needed_of(program: Program, steps: Sequence[int]) -> tuple[int, ...]:
+    """The steps that some steps need."""
+    return Program(program.steps, {("step", str(n)): n for n in steps}).needed(
+        [("step", str(n)) for n in steps]
+    )

@@ -1,0 +1,120 @@
+"""The arrows of the right plans that two trials give: components, and relative velocities."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from graphkin.construction.core.arrows import arrow_between, relative_arrow
+from graphkin.construction.core.bases import under
+from graphkin.construction.core.pen import Pen, Says, about, letter
+from graphkin.construction.core.program import Part, Plane, Target
+from graphkin.construction.core.vocabulary import Action, driven_tangential
+from graphkin.construction.guides.sliding import slid
+from graphkin.construction.higher_class.trial_actions import (
+    after_component,
+    after_way,
+    along_component,
+    along_way,
+    before_component,
+    last_component,
+)
+from graphkin.structure.groups import Higher
+
+
+def relative_arrows(pen: Pen, name: str) -> None:
+    """The arrows of the right plan about the point of a link under a sliding one (name P@2).
+
+    One is its velocity about the base of its link, the other that of the sliding point against it.
+    """
+    point, _, link = name.partition("@")
+    here, start = pen.the("velocity", name), pen.bases[link].start
+    if pen.has("velocity", point):
+        arrow_between(pen, here, pen.the("velocity", point), point, letter(name))
+    if pen.has("velocity", start):
+        fixed = start in pen.scene.frame.points
+        about_which = "" if fixed else letter(start)
+        arrow_between(pen, pen.the("velocity", start), here, name, about_which)
+
+
+def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range) -> None:
+    """The arrows of the components in the right plan, and of the velocities that they start from.
+
+    What is laid off there is what the second trial has laid off, for it does not hang on what is
+    tried: components that follow from velocities. What closes the way to a point is its tangential
+    component, or the acceleration along a guide.
+    """
+    right = {number: pen.targets[t] for t, number in second.items() if t in pen.targets}
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        for number in tried:
+            carried_legs(pen, right, number)
+        for pivot, pin, vector in normals_of(pen, group):
+            relative_arrow(pen, pin, pivot)
+            ends = pen.the("acceleration", pivot), pen.the("acceleration", pin)
+            says: Says = {"i": about(pen, pin, pivot), "q": letter(pin), "p": letter(pivot)}
+            legs(pen, "ντ", along_component, after_component, (*ends, vector), says)
+        for number in tried:
+            sliding_legs(pen, right, number)
+
+
+def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
+    """Normal and tangential component of a point that a link of known turning carries."""
+    step = pen.steps[number]
+    if step.action is not driven_tangential or number not in right:
+        return
+    corner = step.args[0]
+    start = pen.steps[corner].args[0]
+    ends = right.get(start, start), right[number]
+    legs(pen, "ντ", along_way, after_way, (*ends, start, corner), step.says)
+
+
+def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
+    """The component that turning gives a sliding point, and its relative acceleration.
+
+    Where the point of the guide under it is sought, the way is gone backwards from the sliding one.
+    """
+    found = slid(pen.steps[number])
+    if found is None:
+        return
+    laid, component = found
+    start, vector = (right.get(arg, arg) for arg in pen.steps[number].args)
+    says: Says = {"i": component.index, "q": component.point, "p": ""}
+    if not laid.back:
+        ends = start, pen.the("acceleration", component.point)
+        legs(pen, "cr", along_component, after_component, (*ends, vector), says)
+    else:
+        ends = pen.the("acceleration", under(component.point, component.guide)), start
+        legs(pen, "rc", before_component, last_component, (*ends, vector), says)
+
+
+def legs(
+    pen: Pen,
+    kinds: str,
+    first: Action,
+    last: Action,
+    args: tuple[int, ...],
+    says: Mapping[str, Any],
+) -> None:
+    """The arrows of both legs of a way in the plan, each under the sign of its component."""
+    for action, sign in zip((first, last), kinds, strict=True):
+        symbol = f"a_{says['i']}^{sign}"
+        if symbol not in pen.arrows:
+            told = {name: says[name] for name in ("q", "p")}
+            pen.arrow(action, *args, name=symbol, symbol=symbol, kind=sign, **told)
+
+
+def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:
+    """The normal components within a group, each with the pivot and the pin between which it is."""
+    return [
+        (key[1], key[2], vector)
+        for key, vector in pen.shared.items()
+        if key[0] == "normal"
+        and any({key[1], key[2]} <= points_on(pen, link) for link in group.links)
+        and all(pen.has("acceleration", point) for point in key[1:])
+    ]
+
+
+def points_on(pen: Pen, link: str) -> set[str]:
+    """The points of a link, and its point under another's if it is constructed by that."""
+    base = pen.bases.get(link)
+    return {*pen.scene.link(link).points, *([base.end] if base and base.end else [])}

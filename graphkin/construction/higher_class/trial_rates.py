@@ -1,0 +1,140 @@
+"""What two trial plans are drawn with: round numbers that keep them about as large as the result.
+
+What a trial misses grows in proportion to what was tried, so any two rates lead to the same plan.
+On paper those serve best whose plans fit beside the right one and whose points stand well apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from math import floor, log10
+from typing import Any
+
+from graphkin.construction.core.program import Plane, Program, Step
+from graphkin.construction.core.run import Values, run
+from graphkin.numbers.arithmetic import FLOAT
+
+ROUND = {1.0: 0.0, 1.5: 0.1, 2.0: 0.0, 3.0: 0.05, 4.0: 0.05, 5.0: 0.0, 6.0: 0.05, 8.0: 0.1}
+"""First digits of the numbers that are tried, and what each is worse than the roundest."""
+APART = 0.45
+"""How far apart, in parts of the right plan, some point of the two trials shall stand."""
+LARGER = 1.25
+"""How much larger than the right plan alone it may be with its trials."""
+WITHIN = (0.15, 0.85)
+"""Where between its trials the right plan shall lie."""
+MOVING = 0.8
+"""What a first trial is worse in which the link moves than one in which it is at rest."""
+
+
+Box = tuple[float, float, float, float]
+"""Left, bottom, right and top of the upright box around some points and the pole."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """The points of a plan by the rate that is tried: ``start`` at nought, ``way`` for each unit.
+
+    ``rate`` is the right one, ``whole`` how far the right plan reaches from its pole.
+    """
+
+    start: tuple[complex, ...]
+    way: tuple[complex, ...]
+    rate: float
+    whole: float
+
+    def box(self, rate: float) -> Box:
+        """The box of the plan of a rate."""
+        points = [0j, *(p + rate * w for p, w in zip(self.start, self.way, strict=True))]
+        xs, ys = [p.real for p in points], [p.imag for p in points]
+        return min(xs), min(ys), max(xs), max(ys)
+
+    @property
+    def reach(self) -> float:
+        """How far a unit of the rate moves the point that it moves farthest."""
+        return max(map(abs, self.way))
+
+    def fault(self, first: float, second: float, large: float) -> float:
+        """How badly two trials are drawn and read: too large, too near, both on one side."""
+        share = (self.rate - first) / (second - first)
+        near = APART - abs(second - first) * self.reach / self.whole
+        outside = max(WITHIN[0] - share, share - WITHIN[1])
+        return 3 * sum(max(amount, 0.0) for amount in (large - LARGER, near, outside))
+
+
+def trial_rates(program: Program, values: Values) -> dict[int, float]:
+    """The two rates for each pair of trial plans, by the steps that hold them.
+
+    Raises StepFailed where the mechanism does not close.
+    """
+    steps = program.steps
+    divided = [t for t, n in program.targets.items() if is_called(steps[n], "between")]
+    if not divided:
+        return {}
+    found = run(program, program.needed(divided), values, FLOAT).values
+    rates: dict[int, float] = {}
+    for number in found:
+        if is_called(steps[number], "share"):
+            spread = spread_of(program, found, number)
+            if spread is not None:
+                rates |= dict(zip(tried_by(steps[number]), chosen_rates(spread), strict=True))
+    return rates
+
+
+def is_called(step: Step, key: str) -> bool:
+    """Whether a step's action bears a name."""
+    return step.action is not None and step.action.key == key
+
+
+def tried_by(share: Step) -> tuple[int, int]:
+    """The steps that hold what two trials try."""
+    first, second = share.says["tried"].split()
+    return int(first), int(second)
+
+
+def spread_of(program: Program, found: Mapping[int, Any], share: int) -> Spread | None:
+    """The plans of all rates, from two of them; None where nothing moves, so that any rate does."""
+    one, two = (found[number] for number in tried_by(program.steps[share]))
+    start, way, whole = [], [], 0.0
+    for number, value in found.items():
+        step = program.steps[number]
+        if is_called(step, "between") and step.args[2] == share and step.plane is not Plane.NUMBERS:
+            first, second = (found[arg] for arg in step.args[:2])
+            way.append((second - first) / (two - one))
+            start.append(first - one * way[-1])
+            whole = max(whole, abs(value))
+    if not whole or not any(way):
+        return None
+    return Spread(tuple(start), tuple(way), one + found[share] * (two - one), whole)
+
+
+def chosen_rates(spread: Spread) -> tuple[float, float]:
+    """The two trials that can be drawn and read best, the link at rest in the first if it may."""
+    enough = APART * spread.whole / spread.reach
+    size = abs(spread.rate) or enough
+    worse = {0.0: -MOVING, **dict(candidates(min(size, enough), max(size, enough)))}
+    boxes = {rate: spread.box(rate) for rate in worse}
+    right = spread.box(spread.rate)
+    faults = {}
+    for first, second in product(worse, worse):
+        if abs(first) < abs(second):
+            large = longest(right, boxes[first], boxes[second]) / longest(right)
+            fault = spread.fault(first, second, large)
+            faults[first, second] = fault + worse[first] + worse[second]
+    return min(faults, key=lambda pair: faults[pair])
+
+
+def longest(*boxes: Box) -> float:
+    """The longer side of the box around some boxes."""
+    left, bottom, right, top = zip(*boxes, strict=True)
+    return float(max(max(right) - min(left), max(top) - min(bottom)))
+
+
+def candidates(least: float, most: float) -> Iterator[tuple[float, float]]:
+    """Round numbers of both signs in a range and a little beyond, each with what it is worse."""
+    for power in range(floor(log10(least)) - 1, floor(log10(most)) + 2):
+        for digit, worse in ROUND.items():
+            size = digit * 10.0**power if power >= 0 else digit / 10.0**-power
+            yield size, worse
+            yield -size, worse

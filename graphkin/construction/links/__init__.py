@@ -1,0 +1,1 @@
+"""Links: their shapes, their positions, and how they are drawn."""

@@ -1,0 +1,102 @@
+"""The shape of each link in its own axes, from the lengths, angles and sides that the scene says.
+
+Nothing here is drawn: it gives the ratios by which a point of a plate follows from two others.
+"""
+
+from __future__ import annotations
+
+from graphkin.construction.core.bases import Base
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import (
+    angled,
+    arcs_meet,
+    compass,
+    distance,
+    in_proportion,
+    lay_off,
+    polar,
+    step_along,
+)
+from graphkin.scene.model import Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
+
+Placed = dict[str, int]
+
+
+class LinkShapes:
+    """Local positions of the points of each link, written down when first asked for."""
+
+    def __init__(self, pen: Pen) -> None:
+        self.pen = pen
+        self.placed: dict[str, Placed] = {}
+        self.ratios: dict[tuple[str, str, str, str], int] = {}
+
+    def local(self, link: str, point: str) -> int:
+        """Position of a point in its link's axes."""
+        if link not in self.placed:
+            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
+                self.placed[link] = place_all(self.pen, self.pen.scene.link(link))
+        return self.placed[link][point]
+
+    def ratio(self, link: str, base: str, end: str, point: str) -> int:
+        """(C - A)/(B - A) of three points of a link."""
+        key = (link, base, end, point)
+        if key not in self.ratios:
+            locals_ = [self.local(link, name) for name in (base, end, point)]
+            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
+                self.ratios[key] = self.pen.draw(in_proportion, *locals_)
+        return self.ratios[key]
+
+    def ratio_of(self, base: Base, point: str) -> int:
+        """The ratio of a point of a link on its base; from places where the base is not its own."""
+        assert base.end is not None
+        if "@" not in base.end:
+            return self.ratio(base.link, base.start, base.end, point)
+        key = (base.link, base.start, base.end, point)
+        if key not in self.ratios:
+            places = [self.pen.the("position", name) for name in (base.start, base.end, point)]
+            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
+                self.ratios[key] = self.pen.draw(in_proportion, *places)
+        return self.ratios[key]
+
+    def length(self, link: str, p: str, q: str) -> int:
+        """Length of a bar: as the scene gives it where it does, else from the shape."""
+        for placing in self.pen.scene.link(link).placings:
+            for first, second, quantity in placing.lengths():
+                if {first, second} == {p, q}:
+                    return self.pen.given("length", quantity, name=p + q)
+        with self.pen.on(Part.SHAPE, Plane.NUMBERS):
+            return self.pen.draw(distance, self.local(link, p), self.local(link, q))
+
+
+def place_all(pen: Pen, link: Link) -> Placed:
+    """Every point of a link in its own axes."""
+    placed: Placed = {}
+    for placing in link.placings:
+        placed[placing.point] = place(pen, placing, placed)
+    return placed
+
+
+def place(pen: Pen, placing: Placing, placed: Placed, name: str = "") -> int:
+    """One point of a link in its own axes, from the points placed before it."""
+    match placing:
+        case At(_, x, y):
+            return pen.given("point", x, y, name=name)
+        case Apart(_, start, length):
+            return pen.draw(lay_off, placed[start], pen.given("length", length), name=name)
+        case Polar(_, start, length, angle):
+            turn = pen.given("direction", angle)
+            distance = pen.given("length", length)
+            return pen.draw(polar, placed[start], turn, distance, name=name, p=start)
+        case Triangle(_, first, second, from_first, from_second, side):
+            near = pen.draw(compass, placed[first], pen.given("length", from_first))
+            far = pen.draw(compass, placed[second], pen.given("length", from_second))
+            return pen.draw(arcs_meet, near, far, extra=(side,), name=name)
+        case OnLine(_, first, second, start, length, sense):
+            ends = (placed[start], placed[first], placed[second])
+            length_step = pen.given("length", length)
+            return pen.draw(step_along, *ends, length_step, extra=(sense,), name=name)
+        case Angled(_, vertex, arm, length, angle):
+            corner = (placed[vertex], placed[arm])
+            turn = pen.given("direction", angle)
+            return pen.draw(angled, *corner, turn, pen.given("length", length), name=name)

@@ -1,0 +1,272 @@
+"""The mechanism to scale with the field's symbols: bars, plates, pins and pivots."""
+
+from __future__ import annotations
+
+from math import hypot
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.plot import above_foot
+from graphkin.construction.guides.slide_symbols import (
+    draw_blocks,
+    draw_frame_guides,
+    draw_guide_bars,
+    number_side,
+    places_of,
+    rails_of,
+    swivelling,
+)
+from graphkin.construction.links.plates import corners_of, farthest
+from graphkin.construction.links.profile_symbols import draw_edges
+from graphkin.construction.rolling.wheel_symbols import (
+    draw_contacts,
+    draw_fixed_wheels,
+    draw_tracks,
+    draw_wheels,
+    is_all_wheel,
+    number_beside,
+)
+from graphkin.drawing.field import XY, Field, clipped
+from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.marks import CircleMark, LineMark, polygon
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, PIVOT, legs, pin, pivot_ground
+from graphkin.scene.model import FRAME, Link
+
+LONG = 14.0
+"""Length of a sliding link's own bar, in mm, from which its number stands there."""
+TALL = 9.5
+"""Height of the pivot of a block, in mm."""
+
+
+def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """What the task sheet shows of the mechanism: pivots, fixed wheels, lines of guides."""
+    for link in drawing.scene.links.values():
+        draw_guide_line(board, drawing, field, link)
+        draw_track_line(board, drawing, field, link)
+    draw_fixed_wheels(board, drawing, field)
+    draw_ground(board, drawing, field)
+    pinned = moving_points(drawing)
+    for name in drawing.scene.frame.points:
+        radius = FIXED if name in pinned else FREE
+        board.marks.append(pin(field(drawing.positions[name]), name, radius))
+        letter(board, drawing, field, name)
+
+
+def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The ground under the fixed pivots, without their pins."""
+    pinned = moving_points(drawing)
+    for name in drawing.scene.frame.points:
+        at = field(drawing.positions[name])
+        if name in pinned:
+            height = TALL if is_covered(drawing, field, name) else PIVOT
+            board.marks += pivot_ground(at, height)
+            half = 5.2 * height / PIVOT + 0.4
+            board.taken.append((at[0] - half, at[1] + height, at[0] + half, at[1] + height + 2.6))
+
+
+def is_covered(drawing: Drawing, field: Field, name: str) -> bool:
+    """True for a point of the frame about which a block turns."""
+    here = drawing.positions[name]
+    return any(abs(place - here) * field.mm < PIN for place in swivelling(drawing))
+
+
+def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
+    """The letter of a point: of the frame's beside its pivot, of others away from their bars."""
+    at = field(drawing.positions[name])
+    fixed = name in drawing.scene.frame.points
+    away = (-0.8, -0.6) if fixed else outward(drawing, field, name)
+    radius = PIN + HINGE * max(0, sharers(drawing, name) - 2)
+    board.labels.append(
+        Label(symbol(name), "", at, 3.5, name, away=away, priority=2, radius=radius)
+    )
+
+
+def moving_points(drawing: Drawing) -> set[str]:
+    """The points that moving links own."""
+    return {point for link in drawing.scene.links.values() for point in link.points}
+
+
+def sharers(drawing: Drawing, point: str) -> int:
+    """How many links own a point, the frame among them."""
+    scene = drawing.scene
+    return sum(point in link.points for link in (scene.frame, *scene.links.values()))
+
+
+def draw_guide_line(board: FieldContent, drawing: Drawing, field: Field, block: Link) -> None:
+    """The line of a fixed guide across the field, chain-dotted."""
+    for slide in block.slides:
+        line = drawing.guide(slide)
+        if line is not None:
+            draw_line(board, field, line, f"guide {block.name}")
+
+
+def draw_track_line(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
+    """The line of a straight track of the frame across the field, chain-dotted."""
+    standing = drawing.standing
+    for rolling in link.rolls:
+        zero = standing.carried(FRAME, rolling.through) if rolling.on == FRAME else None
+        if zero is not None and rolling.angle is not None:
+            along = complex(rolling.angle.direction(drawing.scene.values))
+            draw_line(board, field, (zero, along), f"track {link.name}")
+
+
+def draw_line(board: FieldContent, field: Field, line: tuple[complex, complex], name: str) -> None:
+    """A line across the field, chain-dotted."""
+    start, along = line
+    seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
+    part = clipped(*stretched(field(start), field(seen)), above_foot(field.rect))
+    if part:
+        board.marks.append(LineMark(*part[0], *part[1], "centre-line", name))
+
+
+def stretched(start: XY, end: XY) -> tuple[XY, XY]:
+    """A segment through two places, long enough to leave any page on both sides."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    far = 2000 / max(abs(dx), abs(dy))
+    return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)
+
+
+def draw_plates(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Wheels and plates, below everything else."""
+    draw_wheels(board, drawing, field)
+    for link in drawing.scene.links.values():
+        if corners_of(drawing, link) is not None:
+            draw_body(board, drawing, field, link)
+
+
+def draw_bars(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Guides with their blocks, and what lies above them."""
+    draw_guides(board, drawing, field)
+    draw_upper(board, drawing, field)
+
+
+def draw_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Guides and the bars that blocks slide on, then the blocks, and the ground that bears some."""
+    for link in drawing.scene.links.values():
+        draw_guide_line(board, drawing, field, link)
+    draw_tracks(board, drawing, field)
+    draw_frame_guides(board, drawing, field)
+    draw_bodies(board, drawing, field, carriers=True)
+    draw_guide_bars(board, drawing, field)
+    draw_blocks(board, drawing, field)
+    for name in drawing.scene.frame.points:
+        if is_covered(drawing, field, name):
+            board.marks += legs(field(drawing.positions[name]), TALL)
+
+
+def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The other bars, the profiles, what shows how wheels roll, and the links' numbers."""
+    draw_bodies(board, drawing, field, carriers=False)
+    draw_edges(board, drawing, field)
+    draw_contacts(board, drawing, field)
+    for link in drawing.scene.links.values():
+        draw_number(board, drawing, field, link)
+
+
+def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers: bool) -> None:
+    """The bars on which blocks slide, or all others."""
+    owners = {rail.owner for rail in rails_of(drawing)}
+    for link in drawing.scene.links.values():
+        if corners_of(drawing, link) is None and (link.name in owners) is carriers:
+            draw_body(board, drawing, field, link)
+
+
+def draw_pins(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The pins with their letters; a circle more for each further link that a pin joins."""
+    fixed, pinned = set(drawing.scene.frame.points), moving_points(drawing)
+    for name, place in drawing.positions.items():
+        at, count = field(place), sharers(drawing, name)
+        rings = [PIN + HINGE * i for i in range(1, count - 1)]
+        board.marks += [CircleMark(*at, r, "hinge", name) for r in reversed(rings)]
+        radius = FIXED if name in fixed & pinned else PIN if count > 1 else FREE
+        board.marks.append(pin(at, name, radius))
+        draw_unbroken(board, drawing, field, name)
+        letter(board, drawing, field, name)
+
+
+def draw_unbroken(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
+    """The bars that go on through a pin at which others end."""
+    if sharers(drawing, name) < 2:
+        return
+    here = drawing.positions[name]
+    for link in drawing.scene.links.values():
+        places = places_of(drawing, link.name)
+        if name not in link.points or len(places) < 3 or corners_of(drawing, link) is not None:
+            continue
+        first, last = farthest(places)
+        reach = min(abs(here - first), abs(here - last)) * field.mm
+        if reach > 2 * PIN:
+            (x, y), (u, v) = field(here), field.way(last - first)
+            ends = (x - PIN * u, y - PIN * v), (x + PIN * u, y + PIN * v)
+            board.marks.append(LineMark(*ends[0], *ends[1], "link", link.name))
+
+
+def draw_body(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
+    """A bar between two points, or a plate through more; a wheel is its own body."""
+    if is_all_wheel(drawing, link.name):
+        return
+    places = places_of(drawing, link.name)
+    if len(places) < 2:
+        return
+    corners = corners_of(drawing, link)
+    if corners is None:
+        first, last = farthest(places)
+        board.marks.append(LineMark(*field(first), *field(last), "link", link.name))
+    else:
+        on_page = tuple(field(place) for place in corners)
+        board.marks.append(polygon(on_page, "plate", link.name))
+
+
+def draw_number(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
+    """A link's number or name in its balloon, beside its bar, its block or its wheel."""
+    beside = bar_of(drawing, field, link)
+    aside = number_side(drawing, field, link.name)
+    short = beside is None or hypot(beside[1][0] - beside[0][0], beside[1][1] - beside[0][1]) < LONG
+    if aside and (short or drawing_fixed(link)):
+        beside = aside
+    if beside is None:
+        beside = number_beside(drawing, field, link) or guide_bar_of(board, link)
+    if beside is not None:
+        label = Label(escape(link.name), "", beside, 2.5, link.name, priority=3, ring=True)
+        board.labels.append(label)
+
+
+def drawing_fixed(link: Link) -> bool:
+    """True for a block on a guide of the frame, whose number stands at the block."""
+    return any(slide.on == FRAME for slide in link.slides)
+
+
+def bar_of(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
+    """The bar, or the first side of the plate, that a link's number stands at."""
+    places = places_of(drawing, link.name)
+    corners = corners_of(drawing, link)
+    if corners is not None:
+        return field(corners[0]), field(corners[1])
+    if len(places) < 2:
+        return None
+    first, last = farthest(places)
+    return (field(first), field(last)) if first != last else None
+
+
+def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:
+    """The drawn guide of a link that has neither a bar, a block nor a wheel."""
+    for mark in board.marks:
+        if isinstance(mark, LineMark) and mark.cls == "guide-bar" and mark.name == link.name:
+            return (mark.x1, mark.y1), (mark.x2, mark.y2)
+    return None
+
+
+def outward(drawing: Drawing, field: Field, name: str) -> XY | None:
+    """The way from the middle of a point's neighbours to the point, on the page."""
+    here = drawing.positions[name]
+    near = [
+        drawing.positions[other]
+        for link in drawing.scene.links.values()
+        if name in link.points
+        for other in link.points
+        if other != name and other in drawing.positions
+    ]
+    ways = [(here - other) / abs(here - other) for other in near if other != here]
+    total = sum(ways)
+    return field.way(total) if ways and abs(total) > 0.1 else None

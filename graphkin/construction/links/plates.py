@@ -1,0 +1,50 @@
+"""The bodies of links: bars whose points lie in line, plates around the others."""
+
+from __future__ import annotations
+
+from cmath import phase
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.guides.slide_symbols import places_of
+from graphkin.construction.rolling.wheel_symbols import is_all_wheel
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import Link
+
+FLAT = 1e-6
+"""How far beside a bar, in parts of its length, a point still counts as on it."""
+
+
+def farthest(places: list[complex]) -> tuple[complex, complex]:
+    """The two places that are farthest apart."""
+    return max(
+        ((p, q) for i, p in enumerate(places) for q in places[i + 1 :]),
+        key=lambda ends: abs(ends[1] - ends[0]),
+    )
+
+
+def corners_of(drawing: Drawing, link: Link) -> list[complex] | None:
+    """The corners of a plate in order around it; None for a bar, whose points lie in line."""
+    places = places_of(drawing, link.name)
+    if len(places) < 3 or is_all_wheel(drawing, link.name):
+        return None
+    first, last = farthest(places)
+    along = last - first
+    if all(abs(cross(along, p - first)) <= FLAT * abs(along) ** 2 for p in places):
+        return None
+    around = hull(places)
+    start = min(range(len(around)), key=lambda i: phase(around[i] - sum(around) / len(around)))
+    return around[start:] + around[:start]
+
+
+def hull(places: list[complex]) -> list[complex]:
+    """The corners of the convex figure around places, in order around it."""
+    ordered = sorted(set(places), key=lambda p: (p.real, p.imag))
+    around: list[complex] = []
+    for half in (ordered, ordered[::-1]):
+        chain: list[complex] = []
+        for p in half:
+            while len(chain) > 1 and cross(chain[-1] - chain[-2], p - chain[-1]) <= 0:
+                chain.pop()
+            chain.append(p)
+        around += chain[:-1]
+    return around

@@ -1,0 +1,301 @@
+"""The mechanism to scale, by compass and ruler: cranks by their angle, dyads by two loci."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.bases import crank_tip, led_point
+from graphkin.construction.core.pen import Pen, Says
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import (
+    arc_cuts_line,
+    arcs_meet,
+    arm,
+    arm_by_axis,
+    compass,
+    mark_off,
+    meet,
+    ray,
+)
+from graphkin.construction.guides.guide_actions import (
+    axis_by_guide,
+    axis_with_guide,
+    from_foot,
+    half,
+    middle,
+    set_at,
+    set_back,
+    size,
+    swing,
+    swing_through,
+    turned_back,
+)
+from graphkin.construction.guides.guides import (
+    axis,
+    direction_on,
+    height_of,
+    known_guide,
+    local_line,
+    path_of,
+    turned_with,
+)
+from graphkin.construction.links.link_shapes import LinkShapes, place
+from graphkin.construction.links.plate_points import arc, plate_points
+from graphkin.construction.rolling import rolling
+from graphkin.scene.model import Apart, Link
+from graphkin.structure.groups import Crank, Driven, Dyad, Tie
+from graphkin.structure.joints import Joint, partner
+from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.text.errors import Problem, StructureError
+
+FITS = 1e-6
+"""Misfit of an idle link, in parts of its length, that printed lengths may leave."""
+
+
+def frame(pen: Pen) -> None:
+    """Mark the fixed points."""
+    done: dict[str, int] = {}
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        for placing in pen.scene.frame.placings:
+            done[placing.point] = place(pen, placing, done, name=placing.point)
+            pen.want("position", placing.point, done[placing.point])
+
+
+# --- driven links --------------------------------------------------------------------------------
+
+
+def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
+    """The tip of a driven bar: the line at the driver's angle, and the bar laid off on it."""
+    driver, link = group.driver, group.link
+    given, ends = pen.drive(driver).position, (group.pivot, crank_tip(pen.scene, group))
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        if driver.link == link:
+            line = driver.of or axis_line(pen.scene.link(link))
+            turn = direction_on(pen, shapes, driver.against, given)
+            turn_about(pen, shapes, link, ends, line, turn)
+        else:
+            lead = axis(pen, shapes, driver.link)
+            if driver.of:
+                locals_ = [shapes.local(driver.link, point) for point in driver.of]
+                lead = pen.draw(axis_with_guide, lead, *locals_)
+            turn_about(pen, shapes, link, ends, (), pen.draw(turned_back, lead, given))
+
+
+def turn_about(
+    pen: Pen,
+    shapes: LinkShapes,
+    link: str,
+    ends: tuple[str, str | None],
+    line: tuple[str, ...],
+    turn: int,
+) -> None:
+    """Set a link at its pivot so that one of its lines (its x axis if none) has a direction."""
+    pivot, tip = ends
+    start = pen.the("position", pivot)
+    if not line:
+        pen.want("axis", link, turn)
+    if tip is None:
+        if line:
+            here = [shapes.local(link, point) for point in line]
+            pen.want("axis", link, pen.draw(axis_by_guide, turn, *here))
+        return
+    if line == (pivot, tip):
+        way = pen.draw(ray, start, turn, p=pivot, k=link)
+        length = shapes.length(link, pivot, tip)
+        found = pen.draw(mark_off, way, length, name=tip, p=pivot, q=tip)
+    else:
+        locals_ = [shapes.local(link, point) for point in (*line, pivot, tip)]
+        action = arm if line else arm_by_axis
+        found = pen.draw(action, start, turn, *locals_, name=tip, p=pivot, q=tip, k=link)
+    pen.want("position", tip, found)
+
+
+def axis_line(link: Link) -> tuple[str, ...]:
+    """The two points along the x axis of a link given by lengths; none when it has its own axes."""
+    return link.points[:2] if any(isinstance(each, Apart) for each in link.placings) else ()
+
+
+def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
+    """A point of a driven slider, or the centre of a driven wheel, at its coordinate."""
+    link, pair = group.link, group.pair
+    if isinstance(pair, Contact):
+        way = rolling.driven_way(pen, group.driver, pair)
+        rolling.set_on_track(pen, shapes, pair, led_point(pen.scene, link, pair), way)
+    else:
+        set_on_guide(pen, shapes, pair, link, pen.drive(group.driver).position)
+
+
+def set_on_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, link: str, where: int) -> None:
+    """A point of a link at a coordinate of the guide on which it slides, or which it carries."""
+    point = pen.bases[link].start
+    says: Says = {"q": point, "g": pair.links[0], "k": link, "h": partner(pair, link)}
+    line = path_of(pen, shapes, pair, link, point)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        if pair.block == link:
+            found = pen.draw(set_at, line, where, name=point, **says)
+        else:
+            zero = known_guide(pen, shapes, pair, link)
+            through = local_line(pen, shapes, pair.slide, link)[0]
+            ends = shapes.local(link, point), through, axis(pen, shapes, link)
+            found = pen.draw(set_back, zero, where, *ends, name=point, **says)
+    pen.want("position", point, found)
+
+
+# --- dyads and ties ------------------------------------------------------------------------------
+
+
+def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+    """What two links and three pairs leave free: one crossing of two loci."""
+    match group.left, group.inner, group.right:
+        case Pin(), Pin(), _:
+            dyad_on(pen, shapes, group, first_arc(pen, shapes, group))
+        case Pin(), Sliding(), Pin():
+            swivelling(pen, shapes, group)
+        case _, Pin(point=pin), _:
+            two_guides(pen, shapes, pin, (group.left, group.right), group.links)
+        case Pin(), Sliding() as inner, Sliding() as right:
+            first, second = group.links
+            led = pen.scene.link(second).points[0]
+            path_of(pen, shapes, right, second, led)
+            turned_with(pen, shapes, inner, second)
+            plate_points(pen, shapes, pen.bases[first])
+            two_guides(pen, shapes, led, (inner, right), (second, second))
+
+
+def dyad_on(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
+    """The inner pin of a dyad whose first bar keeps it on an arc that is drawn already."""
+    if isinstance(group.right, Pin):
+        two_bars(pen, shapes, group, near)
+    else:
+        bar_and_guide(pen, shapes, group, near)
+
+
+def two_bars(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
+    """The inner pin of a dyad RRR: two arcs."""
+    assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
+    assert isinstance(group.inner, Pin)
+    left, pin, right = group.left.point, group.inner.point, group.right.point
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        far = arc(pen, shapes, group.links[1], right, pin)
+        side, extra = pen.choice(group)
+        says: Says = {"p": left.partition("@")[0], "q": right}
+        found = pen.draw(arcs_meet, near, far, *side, name=pin, extra=extra, **says)
+    pen.want("position", pin, found)
+
+
+def bar_and_guide(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
+    """The inner pin of a dyad RRP: the arc of the bar cuts the line that the guide leads it on."""
+    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
+    left, pin, link = group.left.point.partition("@")[0], group.inner.point, group.links[1]
+    path = led_path(pen, shapes, group.right, link, pin)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        way, extra = pen.choice(group)
+        found = pen.draw(arc_cuts_line, path, near, *way, name=pin, extra=extra, p=left)
+    pen.want("position", pin, found)
+    if isinstance(group.right, Contact):
+        rolling.touch_and_turn(pen, shapes, group.right)
+
+
+def first_arc(pen: Pen, shapes: LinkShapes, group: Dyad) -> int:
+    """The arc on which the first bar of a dyad keeps its inner pin."""
+    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        return arc(pen, shapes, group.links[0], group.left.point, group.inner.point)
+
+
+def led_path(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, point: str) -> int:
+    """The line on which a slide or a track with a known link leads a point."""
+    if isinstance(pair, Sliding):
+        return path_of(pen, shapes, pair, link, point)
+    assert isinstance(pair, Contact)
+    return rolling.path_of_centre(pen, shapes, pair)
+
+
+def two_guides(
+    pen: Pen, shapes: LinkShapes, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]
+) -> None:
+    """A point that two guides lead: where their lines cross."""
+    paths = [led_path(pen, shapes, *each, point) for each in zip(pairs, links, strict=True)]
+    names = [pair.links[0] for pair in pairs]
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        found = pen.draw(meet, *paths, name=point, g=names[0], h=names[1])
+    pen.want("position", point, found)
+
+
+def swivelling(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+    """A dyad RPR: the guide through one pin and, at its height, the other; its link's axis."""
+    assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
+    assert isinstance(group.inner, Sliding)
+    first, second = group.links
+    block, carrier = group.inner.links
+    pins = {first: group.left.point, second: group.right.point}
+    places = [pen.the("position", pins[link]) for link in (carrier, block)]
+    height = height_of(pen, shapes, group.inner, pins)
+    way, extra = pen.choice(group)
+    breadth = breadth_about(pen, places[0])
+    says: Says = {"p": pins[carrier], "q": pins[block], "k": carrier, "g": block}
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        if height is None:
+            turn = pen.draw(swing_through, *places, *way, extra=(*extra, breadth), **says)
+        else:
+            by_hand = None if way else tangent(pen, places, height, extra[0], says)
+            sized = (*extra, breadth)
+            turn = pen.draw(swing, *places, height, *way, extra=sized, by_hand=by_hand, **says)
+        pen.draw_shared(("swing", carrier), ray, places[0], turn, p=pins[carrier], g=block)
+    ends = local_line(pen, shapes, group.inner.slide, carrier)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
+        pen.want("axis", block, turn)
+    pen.want("position", pen.bases[carrier].end or "", places[1])
+
+
+def breadth_about(pen: Pen, pivot: int) -> float:
+    """The largest distance of a point that stands already from a pivot; nought if none is known."""
+    start = pen.peek(pivot)
+    stands = [number for (what, _), number in pen.targets.items() if what == "position"]
+    places = [pen.peek(number) for number in stands]
+    if start is None:
+        return 0.0
+    return max((abs(place - start) for place in places if place is not None), default=0.0)
+
+
+def tangent(pen: Pen, places: list[int], height: int, way: int, says: Says) -> int | None:
+    """The hand's way to an offset guide: the tangent to a circle, by Thales's circle."""
+    value = pen.peek(height)
+    if not value:
+        return None
+    pivot, pin = places
+    with pen.hands_way():
+        small = pen.draw(compass, pivot, pen.draw(size, height), **says)
+        large = pen.draw(compass, pen.draw(middle, pivot, pin), pen.draw(half, pivot, pin), **says)
+        side = 1 if value * way > 0 else -1
+        foot = pen.draw(arcs_meet, small, large, extra=(side,), **says)
+        return pen.draw(from_foot, foot, pin, extra=(way,), **says)
+
+
+def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+    """A link between two known points: only its turning is left to know, on a guide."""
+    if isinstance(group.first, Sliding):
+        point = pen.bases[group.link].start
+        two_guides(pen, shapes, point, (group.first, group.second), (group.link, group.link))
+    elif isinstance(group.second, Sliding):
+        assert isinstance(group.first, Pin)
+        path_of(pen, shapes, group.second, group.link, group.first.point)
+
+
+def refuse_misfit(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+    """Raise StructureError for an idle link that its neighbours leave no room for."""
+    if not isinstance(group.first, Pin) or not isinstance(group.second, Pin):
+        return
+    p, q = group.first.point, group.second.point
+    ends = [pen.peek(pen.the("position", point)) for point in (p, q)]
+    length = pen.peek(shapes.length(group.link, p, q))
+    if None in (*ends, length) or abs(abs(ends[1] - ends[0]) - length) <= FITS * length:
+        return
+    raise StructureError(
+        Problem(
+            f"links.{group.link}",
+            f"{p} and {q} stand {1e3 * abs(ends[1] - ends[0]):.6g} mm apart without it, but it is "
+            f"{1e3 * length:.6g} mm long",
+            "a length that fits: the link is idle, the rest moves without it",
+            "or take a driver away, if the link is to move the rest",
+        )
+    )

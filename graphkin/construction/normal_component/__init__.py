@@ -1,0 +1,1 @@
+"""Normal components by the right triangle on the mechanism."""

@@ -1,0 +1,303 @@
+"""The normal component of a point that goes round another: v²/l, by the right triangle.
+
+At the tip of the velocity, set at its pin, the perpendicular to the line from the pivot cuts the
+bar: the velocity is the height of a right triangle, and so the mean proportional of the bar and
+what the perpendicular cuts off (lab, figure 4).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from string import digits
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphkin.construction.core.arrows import component_arrow, relative_arrow
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.component import Component, Drawn, LaidOff, Measured, OwnSizes, Size
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.naming import plan_amount
+from graphkin.construction.core.pen import Pen, Says, about, against, letter, owned
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.too_short import laid_off
+from graphkin.construction.core.vocabulary import (
+    action,
+    lay_off,
+    meet,
+    set_velocity,
+    square_at,
+    square_to,
+)
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Line
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.drawing.scale import Scales
+
+# --- its value, and the steps of the hand's way --------------------------------------------------
+
+
+@action("normal")
+def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Point:
+    """Normal component of a pin's acceleration about a pivot: v·(v/l), from pin to pivot (Rivals).
+
+    The product is taken in this order so that no square overflows; 4·eps relative.
+    """
+    bar = pivot - pin
+    length = abs(bar)
+    speed = abs(image_pin - image_pivot)
+    return bar * (speed * (speed / length) / length)
+
+
+@action("bar-line")
+def bar_line(pivot: Point, pin: Point) -> Line:
+    """The line of a bar, produced beyond the pin."""
+    return Line(pin, pin - pivot)
+
+
+@action("turn-over")
+def turn_over(point: Point, about: Point) -> Point:
+    """A point turned by 180 degrees about another."""
+    return about + (about - point)
+
+
+@action("normal-by-hand")
+def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
+    """The normal component read off the triangle: the segment from the pin, in the plan's scale."""
+    return (end - pin) / (seconds * seconds)
+
+
+# --- what it is ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class NormalComponent(Component):
+    """a_ν = v²/l of a point ``q`` about ``p``, and the right triangle that gives it.
+
+    From the places and images of both. The velocity set at the pin ends in ``tip``; there stands
+    the perpendicular ``edge``, which the ``line`` of the bar cuts in ``cut``; turned over about the
+    pin this is ``end``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("tip", "edge", "line", "cut", "end", "read", "vector")
+    sign: ClassVar[str] = "ν"
+    look: ClassVar[str] = "normal"
+    laid_off_key: ClassVar[str] = ""
+    laid_off_reason: ClassVar[str] = "why.normal"
+    reasons: ClassVar[Mapping[str, str]] = {"end": "why.height"}
+    lines: ClassVar[Mapping[str, str]] = {"line": "{p}{q}", "edge": "⊥ at {tip}"}
+    laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
+
+    p: str
+    q: str
+    v: str
+    pivot: int
+    pin: int
+    pivot_image: int
+    pin_image: int
+    tip: int | None = None
+    edge: int | None = None
+    line: int | None = None
+    cut: int | None = None
+    end: int | None = None
+
+    @property
+    def title(self) -> str:
+        """What it is called in a report."""
+        return f"the right triangle of {self.q} about {self.p}"
+
+    @property
+    def speed(self) -> str:
+        """Name of the velocity that it follows from."""
+        return f"v_{self.v}"
+
+    def symbols(self) -> Mapping[str, str]:
+        """The pivot, the pin, their bar, and the letter of the triangle's corners."""
+        return {
+            "p": symbol(self.p),
+            "q": symbol(self.q),
+            "bar": bar(self.p, self.q),
+            "letter": symbol(self.q.lower()),
+        }
+
+    # --- drawing it ------------------------------------------------------------------------------
+
+    def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
+        """The velocity, and the component itself."""
+        assert self.tip is not None and self.end is not None
+        pin = canvas.value(self.pin)
+        yield canvas.value(self.tip) - pin
+        yield canvas.value(self.end) - pin
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The velocity at the pin, the perpendicular at its tip, and what it cuts off the bar."""
+        assert self.tip is not None and self.cut is not None and self.end is not None
+        value, pin = canvas.value, canvas.value(self.pin)
+        pivot = value(self.pivot)
+        match role:
+            case "tip":
+                canvas.vector(self.speed, "relative-velocity", pin, value(self.tip))
+                canvas.point(self.letter(canvas.drawing, role), value(self.tip))
+            case "edge":
+                canvas.segment(pivot, value(self.tip))
+                canvas.line()
+                canvas.right_angle(pivot)
+            case "line":
+                canvas.line_beyond()
+            case "cut":
+                canvas.point(self.letter(canvas.drawing, role), value(self.cut))
+            case "end":
+                canvas.swing(pin, value(self.end))
+                canvas.vector(self.name, self.look, pin, value(self.end))
+                canvas.point(self.letter(canvas.drawing, role), value(self.end))
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def is_computed(self, scales: Scales | Drawn) -> bool:
+        """No right triangle gives it where ka is stated by itself."""
+        return bool(scales.apart)
+
+    def formula(self, drawing: Drawing) -> str:
+        """v²/l."""
+        return f"{symbol(self.speed)}^2/{bar(self.p, self.q)}"
+
+    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+        """Its right triangle in full the first time; else from what it comes, or its number."""
+        if self.is_left_out(drawing):
+            return "short", self.left_out(drawing)
+        size = self.size(drawing)
+        fields = {
+            "p": symbol(self.p),
+            "q": symbol(self.q),
+            "bar": bar(self.p, self.q),
+            "v": symbol(self.speed),
+            "a": self.symbol,
+        }
+        if not drawing.settled(size):
+            return "ν none", drawing.words("step.normal-none", **fields)
+        if self.is_computed(drawing.scales):
+            drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
+            return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
+        if not first:
+            return "ν", drawing.words("step.normal-again", **fields)
+        corners = {role: symbol(self.letter(drawing, role)) for role in ("tip", "cut", "end")}
+        return "ν1", drawing.words("step.normal", **fields, **corners)
+
+    @classmethod
+    def section(cls, scales: Scales) -> str:
+        """The section of the calculation that holds its relations."""
+        return "normals_apart" if scales.apart else "normals"
+
+    def relation(self, drawing: Drawing) -> Relation:
+        """Square of the relative velocity over the bar, and its drawn length."""
+        length, size = length_of(drawing, self.p, self.q), drawing.settled(self.size(drawing))
+        speed = (size * length) ** 0.5
+        return Relation(
+            self.symbol,
+            f"{symbol(self.speed)}^2/{bar(self.p, self.q)}",
+            f"{figure(drawing, speed)}^2/{figure(drawing, length)}",
+            answer(drawing, size),
+            "m/s^2",
+            laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q)),
+            over=(self.p, self.q),
+        )
+
+    # --- marking it ------------------------------------------------------------------------------
+
+    @property
+    def ends(self) -> tuple[int, int, int, int]:
+        """The places and images of both points: what ω of their link is read off, too."""
+        return self.pivot, self.pin, self.pivot_image, self.pin_image
+
+    def sizes(self, own: OwnSizes) -> Iterator[Size]:
+        """v²/l, and ω²·l, of own values."""
+        bar = own.length(self.pivot, self.pin)
+        for v in own.vectors(self.pivot_image, self.pin_image):
+            yield Size((v, v), v.size**2 / bar, bar)
+        for omega in own.turnings_over(self.ends):
+            yield Size((omega, omega), omega.size**2 * bar, bar)
+
+    def power_of(self, args: tuple[int, ...]) -> int:
+        """It goes with the square of the rate of its link."""
+        return 2 if args == self.ends else 0
+
+
+# --- planning it ---------------------------------------------------------------------------------
+
+
+def normal_component(pen: Pen, pivot: str, pin: str) -> int:
+    """The normal component of a pin about a pivot; by hand the right triangle on the mechanism."""
+    key = ("normal", pivot, pin)
+    if key in pen.shared:
+        return pen.shared[key]
+    places = pen.the("position", pivot), pen.the("position", pin)
+    images = pen.the("velocity", pivot), pen.the("velocity", pin)
+    relative_arrow(pen, pin, pivot)
+    index = about(pen, pin, pivot)
+    with pen.on(Part.NORMAL, Plane.MECHANISM), pen.calls_for(Effect.NORMAL):
+        triangle = right_triangle(pen, places, images, letter(pin), index)
+    with pen.on(Part.NORMAL, Plane.NUMBERS), pen.calls_for(Effect.NORMAL):
+        read, name = triangle["read"], f"a_{index}^ν"
+        vector = pen.draw_shared(key, normal, *places, *images, name=name, by_hand=read)
+    pen.make(
+        NormalComponent(
+            index=index,
+            p=letter(pivot),
+            q=letter(pin),
+            v=against(pen, pin, pivot),
+            pivot=places[0],
+            pin=places[1],
+            pivot_image=images[0],
+            pin_image=images[1],
+            vector=vector,
+            **triangle,
+        )
+    )
+    return vector
+
+
+def right_triangle(
+    pen: Pen, places: tuple[int, int], images: tuple[int, int], point: str, index: str
+) -> dict[str, int]:
+    """Velocity at the pin, perpendicular at its tip, cut with the bar, turned over (figure 4)."""
+    seconds = pen.seconds()
+    pivot, pin = places
+    small = bare(point)
+    with pen.hands_way():
+        tip = pen.draw(set_velocity, pin, *images, seconds, name=f"{small}″_{index}")
+        edge = pen.draw(square_at, tip, pivot)
+        line = pen.draw(bar_line, pivot, pin)
+        cut = pen.draw(meet, edge, line, name=f"{small}‴_{index}")
+        end = pen.draw(turn_over, cut, pin, name=f"{small}⁗_{index}")
+        with pen.on(Part.NORMAL, Plane.NUMBERS):
+            read = pen.draw(normal_by_hand, pin, end, seconds)
+    return {"tip": tip, "edge": edge, "line": line, "cut": cut, "end": end, "read": read}
+
+
+def bare(point: str) -> str:
+    """The small letter of a point without its index: b for B, B2 and B_left."""
+    return point.partition(",")[0].partition("_")[0].rstrip(digits).lower()
+
+
+def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
+    """The normal component laid off from the pivot's second image, parallel to the bar."""
+    start, component = pen.the("acceleration", pivot), pen.steps[vector].of
+    assert isinstance(component, NormalComponent)
+    with pen.calls_for(Effect.NORMAL):
+        end = pen.draw(lay_off, start, vector)
+    pen.make(LaidOff(component=component, start=start, corner=end))
+    component_arrow(pen, start, end, "ν", pin, pivot)
+    return end
+
+
+def square(pen: Pen, pivot: str, pin: str, corner: int) -> int:
+    """Through the end of a normal component the perpendicular to its bar."""
+    ends = pen.the("position", pivot), pen.the("position", pin)
+    says: Says = {"p": letter(pivot), "q": letter(pin), "i": about(pen, pin, pivot)}
+    says |= {"w": owned(pin), "x": owned(pivot)}
+    with pen.calls_for(Effect.TANGENTIAL):
+        return pen.draw(square_to, corner, *ends, **says)

@@ -1,0 +1,209 @@
+"""The relations of angular velocities and accelerations: by bars, by sums, by gears, by trials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from graphkin.construction.core.bodies import Disc
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import driver_index
+from graphkin.construction.core.naming import index_of, rate_symbol
+from graphkin.construction.core.program import Step
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.result_tables import sense
+from graphkin.construction.sentence_fields import SUMS
+from graphkin.drawing.symbol_markup import TAGS, bar, symbol
+from graphkin.scene.model import FRAME, Driver
+from graphkin.text import MINUS
+
+FINE = 6
+"""Significant digits of rates put into sums, whose digits may cancel."""
+
+
+def of_turning(drawing: Drawing) -> Iterator[Relation]:
+    """Angular velocities or accelerations: relative motion over length, with the sense.
+
+    A link that turns as another does comes after that one.
+    """
+    found = list(of_links(drawing))
+    names = names_of(found)
+    waiting: list[Relation] = []
+    for relation in found:
+        names.discard(relation.left)
+        if relation.symbols in names:
+            waiting.append(relation)
+            continue
+        yield relation
+        yield from (other for other in waiting if other.symbols == relation.left)
+    for relation in of_gears(drawing):
+        again = drawing.words("calculation.willis") if relation.left in names_of(found) else ""
+        remark = "; ".join(filter(None, (relation.remark, again)))
+        yield replace(relation, remark=remark)
+
+
+def names_of(found: Sequence[Relation]) -> set[str]:
+    """The symbols that some relations give."""
+    return {relation.left for relation in found}
+
+
+def of_links(drawing: Drawing) -> Iterator[Relation]:
+    """The rate of each link by the step that gives it, in the order of the links."""
+    key, letter, unit = rate_of(drawing)
+    program = drawing.trace.program
+    for link in drawing.scene.links:
+        number = program.targets.get((key, link), -1)
+        value = drawing.turning(link)
+        if value is None or number not in drawing.trace.values:
+            continue
+        step = program.steps[number]
+        name, action = symbol(f"{letter}_{link}"), step.action.key if step.action else ""
+        tail = (answer(drawing, abs(value)), unit, sense(drawing.words, value))
+        if action and step.name != link:
+            yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
+        elif action == key:
+            yield by_bar(drawing, step, name, tail)
+        elif action == "between":
+            yield by_trials(drawing, step, name, letter, tail)
+
+
+def rate_of(drawing: Drawing) -> tuple[str, str, str]:
+    """The rate that a sheet is about: its name, its letter, its unit."""
+    if drawing.kind == "velocity":
+        return "omega", "ω", "rad/s"
+    return "epsilon", "ε", "rad/s^2"
+
+
+def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) -> Relation:
+    """A rate from the relative motion of two points of the link."""
+    p, q = step.says["p"], step.says["q"]
+    indices = [index_of(drawing, step.says), p + q]
+    form = "v_{}" if drawing.kind == "velocity" else "a_{}^τ"
+    drawn = {step.says["symbol"] for _, step, _ in drawing.steps(drawing.plane) if step.arrow}
+    vectors = [form.format(index) for index in indices]
+    relative = symbol(next((vector for vector in vectors if vector in drawn), vectors[0]))
+    length = length_of(drawing, p, q)
+    size = abs(float(drawing.trace.values[drawing.number_of(step)])) * length
+    size = 0.0 if drawing.turning(step.name) == 0 else size
+    figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
+    return Relation(name, f"{relative}/{bar(p, q)}", figures, *tail, over=(p, q))
+
+
+def by_trials(
+    drawing: Drawing, step: Step, name: str, letter: str, tail: tuple[str, str, str]
+) -> Relation:
+    """A rate that was tried itself, divided as every line of the two trials is."""
+    first, second, share = (float(drawing.trace.values[arg]) for arg in step.args)
+    figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
+    figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
+    one, two = (symbol(f"{letter}_{step.name}{tag}") for tag in TAGS)
+    whole = f"{one} + *λ*·({two} − {one})"
+    result, unit, turning = tail
+    if first + share * (second - first) < 0:
+        result = f"{MINUS}{result}"
+    return Relation(name, whole, figures, result, unit, turning)
+
+
+def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
+    """The rate of a crank that turns on a moving link: that link's rate and its own."""
+    program, (key, letter, unit) = drawing.trace.program, rate_of(drawing)
+    for link, action in ((driver.link, "sum"), (driver.against, "difference")):
+        step = program.steps[program.targets.get((key, link), 0)]
+        known = set(step.args) <= set(drawing.trace.values)
+        if step.action is None or step.action.key != action or step.name != link or not known:
+            continue
+        one, two = (float(drawing.trace.values[arg]) for arg in step.args)
+        whole = one + two if action == "sum" else one - two
+        relative = f"*{letter}*_{{{driver_index(driver)}}}"
+        yield Relation(
+            symbol(f"{letter}_{link}"),
+            f"{rate_symbol(drawing, step.args[0], letter)} {SUMS[action]} {relative}",
+            f"{figure(drawing, one, FINE)} {SUMS[action]} {within(drawing, two)}",
+            figure(drawing, whole, FINE),
+            unit,
+            sense(drawing.words, whole),
+        )
+
+
+def within(drawing: Drawing, value: float) -> str:
+    """A number after a sign: in brackets if it is negative."""
+    text = figure(drawing, value, FINE)
+    return f"({text})" if value < 0 else text
+
+
+# --- gears ---------------------------------------------------------------------------------------
+
+
+def of_gears(drawing: Drawing) -> Iterator[Relation]:
+    """Willis' relation for wheels that roll on one another: rates against the arm by the radii.
+
+    On the first sheet those of gears, before they are used, from module and number of teeth.
+    """
+    _, letter, unit = rate_of(drawing)
+    told: set[str] = set()
+    links = (drawing.scene.frame, *drawing.scene.links.values())
+    for touch in drawing.standing.touches:
+        if touch.other is None:
+            continue
+        centres = {touch.disc.wheel.centre, touch.other.wheel.centre}
+        arms = [link.name for link in links if centres <= set(link.points)]
+        names = (touch.disc.link, *arms[:1], touch.other.link)
+        rates = [rate for name in names if (rate := rate_at(drawing, name)) is not None]
+        if len(rates) == 3 and names[0] != FRAME:
+            for disc in (touch.disc, touch.other):
+                if drawing.kind == "velocity" and disc.wheel.teeth and disc.link not in told:
+                    told.add(disc.link)
+                    yield by_teeth(drawing, disc)
+            yield by_radii(drawing, names, rates, (touch.disc, touch.other), letter, unit)
+
+
+def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
+    """The radius of a gear, half its module times its number of teeth."""
+    assert disc.wheel.teeth is not None
+    module, teeth = drawing.length(disc.module), float(disc.wheel.teeth.si(drawing.scene.values))
+    figures = f"{figure(drawing, module)}·{figure(drawing, teeth)}/2"
+    radius = answer(drawing, drawing.length(disc.radius))
+    count = f"*m*·{symbol(f'z_{disc.link}')}/2"
+    return Relation(radius_of(disc), count, figures, radius, drawing.scene.units["length"])
+
+
+def rate_at(drawing: Drawing, link: str) -> float | None:
+    """The rate of a link on this sheet; nought for the frame."""
+    return 0.0 if link == FRAME else drawing.turning(link)
+
+
+def by_radii(
+    drawing: Drawing,
+    names: Sequence[str],
+    rates: Sequence[float],
+    discs: tuple[Disc, Disc],
+    letter: str,
+    unit: str,
+) -> Relation:
+    """The rate of a wheel from that of the arm and that of the wheel on which it rolls."""
+    wheel, arm, track = (symbol(f"{letter}_{name}") for name in names)
+    _, carried, rolled = rates
+    ring = any(disc.wheel.inside for disc in discs)
+    sign, factor = ("+", 1) if ring else ("−", -1)
+    radii = f"{radius_of(discs[1])}/{radius_of(discs[0])}"
+    numbers = f"{figure(drawing, discs[1].radius)}/{figure(drawing, discs[0].radius)}"
+    ratio = discs[1].radius / discs[0].radius
+    whole = carried + factor * (rolled - carried) * ratio
+    if names[1] == FRAME:
+        lead = "−" if factor < 0 else ""
+        symbols = f"{lead}{track}·{radii}"
+        figures = f"{lead}{within(drawing, rolled)}·{numbers}"
+    else:
+        symbols = f"{arm} {sign} ({track} − {arm})·{radii}"
+        less = f"({within(drawing, rolled)} − {within(drawing, carried)})"
+        figures = f"{figure(drawing, carried, FINE)} {sign} {less}·{numbers}"
+        if names[2] == FRAME:
+            symbols = f"{arm} {sign} (0 − {arm})·{radii}"
+    result = drawing.words.significant(whole, 4)
+    remark = sense(drawing.words, whole)
+    return Relation(wheel, symbols, figures, result, unit, remark)
+
+
+def radius_of(disc: Disc) -> str:
+    """Symbol of a wheel's radius."""
+    return symbol(f"r_{disc.link}")

@@ -1,0 +1,143 @@
+"""Tables of a sheet: what is read off the plans, and the angular values with their senses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from graphkin.construction.core.amounts import OnPaper, in_mm
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.naming import drawn_in, segment_of, way_of
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out
+from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.richtext import escape, flowed
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.plane import Vector
+from graphkin.text import Words
+
+VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
+"""Widths of the columns of the tables, in mm."""
+UNSEEN = 0.01
+"""Length of a vector in mm below which nobody sees it."""
+LEADING = 2.9
+"""Distance of the lines that say what is computed, in mm."""
+
+
+def vectors(drawing: Drawing) -> list[tuple[str, str, OnPaper, float]]:
+    """The vectors of the plan: symbol, segment, drawn length (mm), true magnitude (SI)."""
+    found = []
+    for _, step, value in drawing.steps(drawing.plane):
+        if step.arrow and isinstance(value, Vector):
+            size = drawing.settled(abs(value.tip - value.tail))
+            segment = segment_of(drawing, step)
+            length = drawn_in(drawing, drawing.plane, size)
+            found.append((step.says["symbol"], segment, length, size))
+    return found
+
+
+def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
+    """One row for each vector of the plan; the values left out on a task sheet.
+
+    A length stands in brackets where it is not measured: the vector is computed.
+    """
+    words = drawing.words
+    rows = []
+    for name, segment, length, size in vectors(drawing):
+        measured = in_mm(words, length)
+        drawn = f"({measured})" if symbol(name) in drawing.computed else measured
+        values = ("", "") if empty else (drawn, value_of(words, size, length))
+        rows.append(Row((symbol(name), segment, *values), name))
+    return rows
+
+
+def value_of(words: Words, size: float, length: OnPaper) -> str:
+    """The value of a vector that is so many mm long; in two digits where it is next to nothing."""
+    value = words.significant(size)
+    return words.significant(size, 2) if length < UNSEEN and "·" in value else value
+
+
+def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
+    """One row for each angular velocity or acceleration, with its sense."""
+    letter = "ω" if drawing.kind == "velocity" else "ε"
+    words = drawing.words
+    rows = []
+    for link in drawing.scene.links:
+        value = drawing.turning(link)
+        if value is None:
+            continue
+        cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))
+        rows.append(Row((symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
+    return rows
+
+
+def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
+    """One row for the motion of each block that is asked along its guide."""
+    words = drawing.words
+    rows = []
+    for block, name, value in slid(drawing):
+        cells = ("", "")
+        if not empty:
+            size = drawing.settled(abs(value))
+            cells = (words.significant(size), slide_sense(drawing, block, value) if size else "")
+        rows.append(Row((name, *cells), f"slide {block}"))
+    return rows
+
+
+def slid(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
+    """What is asked of blocks on this sheet: block, symbol, and value along the guide."""
+    velocity = drawing.kind == "velocity"
+    what, letter = ("slide speed", "v") if velocity else ("slide acceleration", "a")
+    for block in drawing.scene.ask.slides:
+        value = drawing.trace.value(what, block)
+        if value is not None:
+            on = drawing.scene.links[block].slides[0].on
+            yield block, f"*{letter}*_{{{escape(block)}/{escape(on)}}}", float(value)
+
+
+def slide_sense(drawing: Drawing, block: str, value: float) -> str:
+    """The words for the sense of a motion along a guide."""
+    key = "forward" if value > 0 else "backward"
+    return drawing.words(f"calculation.{key}", guide=way_of(drawing, block))
+
+
+def sense(words: Words, value: Any) -> str:
+    """The word for the sense of an angular value; nothing for nought."""
+    if value == 0:
+        return ""
+    return words("page.anticlockwise" if value > 0 else "page.clockwise")
+
+
+def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
+    """The vectors in one or more blocks, then the angular values, then what slides."""
+    words = drawing.words
+    unit = words(f"table.{drawing.kind}")
+    head = Row((words("table.symbol"), words("table.segment"), words("table.millimetres"), unit))
+    spin = "omega" if drawing.kind == "velocity" else "epsilon"
+    turn_head = Row((words("table.symbol"), words(f"table.{spin}"), words("table.sense")))
+    slide_head = Row((words("table.symbol"), unit, words("table.sense")))
+    every = (
+        ColumnTable(VECTORS, head, tuple(vector_rows(drawing, empty=empty))),
+        ColumnTable(TURNS, turn_head, tuple(turning_rows(drawing, empty=empty)), beside=True),
+        ColumnTable(SLID, slide_head, tuple(slide_rows(drawing, empty=empty))),
+    )
+    note = reasons(drawing, [row for table in every for row in table.rows], rect)
+    low = rect[3] - LEADING * len(note)
+    return [*note, *laid_out([table for table in every if table.rows], (*rect[:3], low))]
+
+
+def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:
+    """What is computed instead of measured, and why, in small lines below the tables."""
+    names: dict[str, list[str]] = {}
+    for row in rows:
+        why = drawing.computed.get(row.cells[0])
+        if why:
+            names.setdefault(why, []).append(row.cells[0])
+    mark = drawing.words("list_mark")
+    said = [f"{mark.join(dict.fromkeys(found))}: {why}" for why, found in names.items()]
+    lines = flowed(said, "; ", rect[2] - rect[0], SMALL)
+    first = rect[3] - LEADING * (len(lines) - 1)
+    return [
+        Text(rect[0], first + LEADING * i, line, "caption", SMALL, name="computed")
+        for i, line in enumerate(lines)
+    ]

@@ -1,0 +1,1 @@
+"""Wheels, gears and racks that roll without slip."""

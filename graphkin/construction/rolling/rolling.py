@@ -1,0 +1,341 @@
+"""Wheels that roll without slip: where they touch, how they are turned, the contact's images."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from graphkin.construction.core.bases import contact_name, no_construction, under
+from graphkin.construction.core.pen import Pen, Says, letter
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import coordinate, difference, sum_of
+from graphkin.construction.guides.guide_actions import placed, set_at
+from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.rolling.touching import by_contact
+from graphkin.construction.rolling.wheel_actions import (
+    arm_between,
+    axis_turned,
+    between_tracks,
+    contact_of_wheels,
+    contact_on_track,
+    counted_link,
+    counted_near,
+    less_axis,
+    opposite,
+    rack_at,
+    radius_along,
+    rolled_on_track,
+    rolled_on_wheel,
+    turned_to,
+    way_rolled,
+)
+from graphkin.scene.model import FRAME, Driver, Wheel
+from graphkin.scene.quantity import exact
+from graphkin.structure.groups import Geared, Train
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.turn_counting import stated
+from graphkin.text.errors import Problem, StructureError
+
+
+@by_contact
+def track_of(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+    """The line of a straight track in the plane."""
+    key = ("track", *contact.links)
+    if key not in pen.shared:
+        wheel, on = contact.links
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            pen.shared[key] = guide_line(pen, shapes, contact.rolling, on, wheel)
+        pen.want("track", wheel, pen.shared[key])
+    return pen.shared[key]
+
+
+@by_contact
+def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
+    """The radius of a wheel, negative where it rolls to the right of a track or is a ring."""
+    chosen = contact.wheel if wheel else contact.track
+    assert chosen is not None
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        radius = pen.given("length", chosen.radius)
+        if chosen.inside or (contact.track is None and contact.rolling.side < 0):
+            return pen.draw(opposite, radius)
+    return radius
+
+
+@by_contact
+def path_of_centre(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+    """The line on which a wheel's centre moves along a straight track."""
+    line = track_of(pen, shapes, contact)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        return pen.draw(radius_along, line, radius_of(pen, contact), k=contact.links[0])
+
+
+def start_turn(pen: Pen, contact: Contact, link: str) -> int:
+    """The angle in radians of a link's x axis in the position that the rolling counts from."""
+    angle = contact.rolling.start.get(link)
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.given("nought") if angle is None else pen.given("number", angle)
+
+
+@by_contact
+def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
+    """How far a driver has rolled, or by turning has made roll, a wheel along a straight track."""
+    if driver.kind == "roll":
+        return pen.drive(driver).position
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        ends = start_turn(pen, contact, contact.links[0]), radius_of(pen, contact)
+        return pen.draw(way_rolled, pen.driven_angle(driver), *ends)
+
+
+@by_contact
+def set_on_track(pen: Pen, shapes: LinkShapes, contact: Contact, centre: str, way: int) -> None:
+    """A wheel that has rolled a way along a straight track: centre, contact, axis."""
+    path = path_of_centre(pen, shapes, contact)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        found = pen.draw(set_at, path, way, name=centre, q=centre, k=contact.links[0])
+    pen.want("position", centre, found)
+    touch_and_turn(pen, shapes, contact)
+
+
+@by_contact
+def touch_and_turn(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
+    """A wheel whose centre stands: its contact with the straight track, and its axis."""
+    wheel, on = contact.links
+    line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
+    touch = mark_contact(
+        pen, contact, lambda: pen.draw(contact_on_track, line, centre, **named(contact))
+    )
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        way = pen.draw(coordinate, line, touch)
+    pen.want("rolled", wheel, way)
+    if pen.has("axis", wheel):
+        return
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        lead, start = angle_of(pen, shapes, on), start_turn(pen, contact, wheel)
+        turn = pen.draw(rolled_on_track, lead, start, way, radius_of(pen, contact))
+        settle_turn(pen, wheel, turn)
+    pen.want("turned from", wheel, start)
+
+
+def named(contact: Contact) -> Says:
+    """The name of a contact and the links that touch there."""
+    return {"name": letter(contact_name(contact)), "k": contact.links[0], "g": contact.links[1]}
+
+
+def mark_contact(pen: Pen, contact: Contact, draw: Callable[[], int]) -> int:
+    """The place of a contact, known under its name and as a point of either link."""
+    name = contact_name(contact)
+    if not pen.has("position", name):
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            pen.want("position", name, draw())
+        for link in contact.links:
+            pen.want("position", under(name, link), pen.the("position", name))
+    return pen.the("position", name)
+
+
+@by_contact
+def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
+    """A wheel on its pin, a rack on its guide, or a roller between two tracks: where it stands."""
+    match group.pair:
+        case Contact() as own:
+            roller(pen, shapes, group, own)
+        case Sliding() as slide:
+            rack(pen, shapes, group, slide)
+        case Pin():
+            if group.contact.track is None:
+                touch_and_turn(pen, shapes, group.contact)
+            else:
+                wheel_on_wheel(pen, shapes, group)
+
+
+@dataclass(frozen=True, slots=True)
+class ContactSide:
+    """A contact seen from one of its wheels: the other link, both wheels and both radii."""
+
+    other: str
+    own: Wheel
+    track: Wheel
+    radius: int
+    track_radius: int
+
+
+def seen_from(pen: Pen, contact: Contact, link: str) -> ContactSide:
+    """A contact of two wheels as one of them sees it."""
+    assert contact.track is not None
+    mine, its = radius_of(pen, contact), radius_of(pen, contact, wheel=False)
+    if contact.links[0] == link:
+        return ContactSide(contact.links[1], contact.wheel, contact.track, mine, its)
+    return ContactSide(contact.links[0], contact.track, contact.wheel, its, mine)
+
+
+def wheel_on_wheel(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
+    """A wheel on its pin: the contact on the line of centres, its turning by the radii."""
+    contact, link = group.contact, group.link
+    assert contact.arm is not None
+    touch_wheels(pen, contact, link)
+    if not pen.has("axis", link):
+        roll_round(pen, shapes, contact, link)
+
+
+def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
+    """The contact of two wheels whose centres stand."""
+    side = seen_from(pen, contact, link)
+    ends = pen.the("position", side.track.centre), pen.the("position", side.own.centre)
+    radii = side.track_radius, side.radius
+    mark_contact(pen, contact, lambda: pen.draw(contact_of_wheels, *ends, *radii, **named(contact)))
+
+
+def roll_round(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> None:
+    """The axis of a wheel from how far its arm and the wheel that it rolls on have turned."""
+    side, arm = seen_from(pen, contact, link), contact.arm
+    assert arm is not None
+    turns = [turned_by(pen, shapes, contact, each) for each in (arm, side.other)]
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        since = pen.draw(rolled_on_wheel, *turns, side.track_radius, side.radius)
+        start = start_turn(pen, contact, link)
+        settle_turn(pen, link, pen.draw(sum_of, start, since))
+    pen.want("turned from", link, start)
+
+
+def settle_turn(pen: Pen, link: str, turn: int) -> None:
+    """The angle of a link's x axis in radians, whole turns counted, and so its axis."""
+    pen.want("turned", link, turn)
+    pen.want("axis", link, pen.draw(axis_turned, turn))
+
+
+@by_contact
+def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
+    """The arm of a planet between two wheels: how far they have turned says where it is."""
+    sides = [seen_from(pen, contact, group.wheel) for contact in group.contacts]
+    contact, centre = group.contacts[0], group.centre.point
+    both = list(zip(group.contacts, sides, strict=True))
+    turns = [turned_by(pen, shapes, each, side.other) for each, side in both]
+    starts = [start_turn(pen, each, group.arm) for each in group.contacts]
+    planets = [start_turn(pen, each, group.wheel) for each in group.contacts]
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        radii = [side.track_radius for side in sides] + [side.radius for side in sides]
+        turn = pen.draw(arm_between, *turns, *starts, *planets, *radii)
+        settle_turn(pen, group.arm, turn)
+    ends = shapes.local(group.arm, group.pivot.point), shapes.local(group.arm, centre)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        start, lead = pen.the("position", group.pivot.point), pen.the("axis", group.arm)
+        says: Says = {"p": group.pivot.point, "g": group.arm, "q": centre}
+        pen.want("position", centre, pen.draw(placed, start, lead, *ends, name=centre, **says))
+    for each in group.contacts:
+        touch_wheels(pen, each, group.wheel)
+    roll_round(pen, shapes, contact, group.wheel)
+
+
+def turned_by(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> int:
+    """How far a link has turned since the start of a contact."""
+    angle = angle_of(pen, shapes, link)
+    if link == FRAME or link not in contact.rolling.start:
+        return angle
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        return pen.draw(difference, angle, start_turn(pen, contact, link))
+
+
+def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
+    """The angle of a link's x axis in radians.
+
+    Whole turns are counted for driven links and rolling wheels; for others it is that within half
+    a turn of the angle that they count near.
+    """
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        if link == FRAME:
+            return pen.given("nought")
+        if pen.has("turned", link):
+            return pen.the("turned", link)
+        if driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
+            return pen.want("turned", link, driven_turn(pen, shapes, driver))
+        near = pen.near.get(link, exact(0, "deg"))
+        ends = pen.given("direction", near, k=link), pen.given("number", near, k=link)
+        says: Says = {"k": link} if pen.turns(link) else {}
+        found = pen.draw(counted_near, axis(pen, shapes, link), *ends, **says)
+        return pen.want("turned", link, found)
+
+
+def refuse_idle_turns(pen: Pen) -> None:
+    """Raise StructureError for stated turns of links that no wheel counts by their pins."""
+    counted = {counted_link(step) for step in pen.steps}
+    problems = []
+    for link, rolling in stated(pen.scene).items():
+        if link in counted:
+            continue
+        found = f"no wheel depends on how often link {link} went round"
+        if any(turns_link(driver, link) for driver in pen.scene.drivers):
+            found = f"a driver gives the angle of link {link}, whole turns included"
+        elif pen.has("turned", link):
+            found = f"link {link} rolls, which counts its whole turns"
+        expected = "links that only their pins turn, and that carry wheels"
+        problems.append(Problem(rolling.turns[link].place, found, expected, "leave it out"))
+    if problems:
+        raise StructureError(problems)
+
+
+def turns_link(driver: Driver, link: str) -> bool:
+    """Whether a driver gives the angle of a link."""
+    return driver.kind == "turn" and driver.link == link
+
+
+def driven_turn(pen: Pen, shapes: LinkShapes, driver: Driver) -> int:
+    """The angle of a driven link's x axis, whole turns counted."""
+    before = angle_of(pen, shapes, driver.against)
+    angle = pen.driven_angle(driver)
+    if driver.of:
+        ends = [shapes.local(driver.link, point) for point in driver.of]
+    else:
+        ends = [pen.given("origin"), pen.given("ahead")]
+    return pen.draw(turned_to, before, angle, *ends)
+
+
+def roller(pen: Pen, shapes: LinkShapes, group: Geared, own: Contact) -> None:
+    """A roller between two parallel tracks: where on the first it stands, then as any wheel."""
+    other = group.contact
+    lines = [track_of(pen, shapes, each) for each in (own, other)]
+    values = [pen.peek(line) for line in lines]
+    way = -1 if all(values) and (values[0].along.conjugate() * values[1].along).real < 0 else 1
+    leads = []
+    for each in (own, other):
+        angle = angle_of(pen, shapes, each.links[1])
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            leads.append(pen.draw(sum_of, angle, start_turn(pen, each, group.link)))
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        lean = pen.draw(difference, *leads)
+        radii = radius_of(pen, own), radius_of(pen, other)
+        where = pen.draw(between_tracks, *lines, lean, *radii, extra=(way,))
+    path = path_of_centre(pen, shapes, own)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        centre = own.wheel.centre
+        found = pen.draw(set_at, path, where, name=centre, q=centre, k=group.link)
+    pen.want("position", centre, found)
+    for each in (own, other):
+        touch_and_turn(pen, shapes, each)
+
+
+def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
+    """A rack on its guide: the wheel's turning says how far it has come along the track."""
+    contact, link = group.contact, group.link
+    point, wheel = pen.scene.link(link).points[0], contact.links[0]
+    if wheel == link or contact.track is not None:
+        raise no_construction(group)
+    path_of(pen, shapes, slide, link, point)
+    ends = local_line(pen, shapes, contact.rolling, link)
+    radius, axis_ = radius_of(pen, contact), axis(pen, shapes, link)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        turn = angle_of(pen, shapes, wheel)
+        if pen.turns(link):
+            known = partner(slide, link)
+            own = pen.draw(
+                counted_near, axis_, axis(pen, shapes, known), angle_of(pen, shapes, known)
+            )
+            turn = pen.draw(difference, turn, own)
+        else:
+            turn = pen.draw(less_axis, turn, axis_)
+        way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
+    centre = pen.the("position", contact.wheel.centre)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        where = centre, axis_, *ends, shapes.local(link, point), radius, way
+        pen.want("position", point, pen.draw(rack_at, *where, name=point, q=point, g=link))
+    touch_and_turn(pen, shapes, contact)

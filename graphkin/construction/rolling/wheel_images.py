@@ -1,0 +1,316 @@
+"""The images of the points of wheels: a wheel moves with its track where they touch."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.arrows import (
+    acceleration_arrow,
+    component_arrow,
+    relative_arrow,
+    velocity_arrows,
+)
+from graphkin.construction.core.bases import contact_name, under
+from graphkin.construction.core.pen import (
+    Pen,
+    Says,
+    about,
+    against,
+    image,
+    letter,
+    named,
+    owned,
+    second_image,
+)
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import (
+    alike,
+    along_bar,
+    centripetal,
+    driven_tangential,
+    epsilon,
+    in_proportion,
+    join,
+    lay_off,
+    meet,
+    omega,
+    parallel_to,
+    similar_point,
+    turned_velocity,
+)
+from graphkin.construction.coriolis.coincident_points import carried, omega_of, second_image_under
+from graphkin.construction.guides.guides import known_guide
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.normal_component.normal_component import (
+    lay_off_normal,
+    normal_component,
+    square,
+)
+from graphkin.construction.rolling.rolling import radius_of
+from graphkin.construction.rolling.touching import by_contact
+from graphkin.construction.rolling.wheel_actions import rolling_normal, speed_rolled
+from graphkin.scene.model import Driver
+from graphkin.structure.groups import Geared, Train
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Pin, Sliding
+
+
+@by_contact
+def given_speed(pen: Pen, driver: Driver, contact: Contact, which: str) -> int:
+    """The speed, or acceleration, of a driven wheel's centre along its track."""
+    given = getattr(pen.drive(driver), which)
+    if driver.kind == "roll":
+        return int(given)
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.draw(speed_rolled, given, radius_of(pen, contact))
+
+
+@by_contact
+def touch(pen: Pen, contact: Contact) -> int:
+    """The image of a wheel's point of contact: that of the track's point under it."""
+    wheel, on = contact.links
+    return touched(pen, contact, wheel, on)
+
+
+@by_contact
+def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
+    """The image of one link's point of contact, from the other link."""
+    name = contact_name(contact)
+    found = carried(pen, known, name, "velocity")
+    return pen.want("velocity", under(name, link), found)
+
+
+@by_contact
+def geared(pen: Pen, group: Geared) -> None:
+    """A wheel or rack: the contact has the velocity of what it touches."""
+    link, contact = group.link, group.contact
+    name = contact_name(contact)
+    start = touched(pen, contact, link, partner(contact, link))
+    match group.pair:
+        case Pin():
+            return
+        case Sliding():
+            point = pen.bases[link].start
+            if pen.turns(link):
+                ends = pen.the("position", name), pen.the("position", point)
+                says: Says = {"p": letter(name), "q": point, "s": named(pen, start)}
+                says["i"] = against(pen, point, under(name, link))
+                with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+                    rate = omega_of(pen, link)
+                    start = pen.draw(turned_velocity, start, *ends, rate, name=image(point), **says)
+            else:
+                with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+                    start = pen.draw(alike, start, name=image(point), p=letter(name), q=point)
+            pen.want("velocity", point, start)
+            velocity_arrows(pen, point, under(name, link) if pen.turns(link) else None)
+        case Contact() as own:
+            first = touched(pen, own, link, partner(own, link))
+            names = [under(contact_name(own), link), under(name, link)]
+            centre = own.wheel.centre
+            places = [pen.the("position", each) for each in (*names, centre)]
+            with pen.on(Part.SHAPE, Plane.NUMBERS):
+                ratio = pen.draw(in_proportion, *places)
+            says = {"p": letter(names[0]), "q": letter(names[1]), "r": centre}
+            says |= {"c": image(names[0]), "d": image(names[1])}
+            with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+                found = pen.draw(similar_point, first, start, ratio, name=image(centre), **says)
+            pen.want("velocity", centre, found)
+            velocity_arrows(pen, centre, None)
+            relative_arrow(pen, names[1], names[0])
+            says["i"] = against(pen, names[1], names[0])
+            with pen.on(Part.RESULT, Plane.NUMBERS):
+                turning = pen.draw(omega, *places[:2], first, start, name=link, **says)
+            pen.want("omega", link, turning)
+
+
+@by_contact
+def second_touch(pen: Pen, contact: Contact) -> int:
+    """The second image of a wheel's point of contact, from the track's point under it."""
+    wheel, on = contact.links
+    return second_touched(pen, contact, wheel, on)
+
+
+@by_contact
+def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
+    """The second image of one link's point of contact, from its centre and the other link.
+
+    Rolling points move towards one another along the common normal only, so the parallel to it
+    through the other's image crosses the tangential line of the wheel.
+    """
+    name = contact_name(contact)
+    own = under(name, link)
+    centre = pen.bases[link].start
+    other = carried(pen, known, name, "acceleration")
+    vector = normal_component(pen, centre, own)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = lay_off_normal(pen, centre, own, vector)
+        line = square(pen, centre, own, corner)
+        ends = pen.the("position", centre), pen.the("position", own)
+        says: Says = {"s": pen.steps[other].name, "p": letter(centre), "q": letter(own)}
+        along = pen.draw(along_bar, other, *ends, **says)
+        found = pen.draw(meet, line, along, name=second_image(own), q=own)
+        component_arrow(pen, corner, found, "τ", own, centre)
+    return pen.want("acceleration", own, found)
+
+
+@by_contact
+def train(pen: Pen, group: Train) -> None:
+    """A planet between two wheels: its centre divides the line of its contacts' images."""
+    link, centre = group.wheel, group.centre.point
+    names = [contact_name(contact) for contact in group.contacts]
+    images = [touched(pen, each, link, partner(each, link)) for each in group.contacts]
+    divided = on_line_of(pen, names, images, centre)
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        says: Says = {"p": letter(under(names[0], link)), "q": letter(under(names[1], link))}
+        found = pen.draw(similar_point, *divided, name=image(centre), r=centre, **says)
+    pen.want("velocity", centre, found)
+    velocity_arrows(pen, centre, None)
+
+
+def on_line_of(pen: Pen, names: list[str], images: list[int], centre: str) -> tuple[int, int, int]:
+    """Two images and the ratio in which a wheel's centre divides the way of its contacts."""
+    places = [pen.the("position", each) for each in (*names, centre)]
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return images[0], images[1], pen.draw(in_proportion, *places)
+
+
+@by_contact
+def second_train(pen: Pen, group: Train) -> None:
+    """Second image of a planet's centre: normal about the arm's pin, and as the contacts move.
+
+    Along the arm the wheels push the planet as they like; across it the contacts' second images
+    say how its centre moves.
+    """
+    link, centre, pivot = group.wheel, group.centre.point, group.pivot.point
+    names = [contact_name(contact) for contact in group.contacts]
+    others = [
+        carried(pen, partner(each, link), contact_name(each), "acceleration")
+        for each in group.contacts
+    ]
+    vector = normal_component(pen, pivot, centre)
+    ends = pen.the("position", pivot), pen.the("position", centre)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = lay_off_normal(pen, pivot, centre, vector)
+        line = square(pen, pivot, centre, corner)
+        says: Says = {"p": letter(names[0]), "q": letter(names[1]), "r": centre}
+        across = pen.draw(similar_point, *on_line_of(pen, names, others, centre), **says)
+        says = {"s": "", "p": pivot, "q": centre}
+        along = pen.draw(along_bar, across, *ends, **says)
+        found = pen.draw(meet, line, along, name=second_image(centre), q=centre)
+        component_arrow(pen, corner, found, "τ", centre, pivot)
+    pen.want("acceleration", centre, found)
+    acceleration_arrow(pen, centre)
+    second_touched(pen, group.contacts[0], link, partner(group.contacts[0], link))
+
+
+@by_contact
+def second_geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
+    """A wheel or rack in the acceleration plan, from the contact that settles it."""
+    link, contact = group.link, group.contact
+    match group.pair:
+        case Pin():
+            second_touched(pen, contact, link, partner(contact, link))
+        case Sliding() as slide:
+            second_rack(pen, shapes, group, slide)
+        case Contact() as own:
+            second_roller(pen, group, own)
+
+
+def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
+    """Second image of a rack's point: on the line of its guide, and square to it from the wheel."""
+    link, contact = group.link, group.contact
+    if pen.turns(link):
+        turning_rack(pen, group)
+        return
+    point, wheel = pen.bases[link].start, contact.links[0]
+    name = contact_name(contact)
+    start = second_image_under(pen, partner(slide, link), point)
+    other = carried(pen, wheel, name, "acceleration")
+    guide = known_guide(pen, shapes, slide)
+    centre = pen.the("position", contact.wheel.centre), pen.the("position", name)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        line = pen.draw(parallel_to, start, guide, s=named(pen, start), g=link)
+        says: Says = {"s": named(pen, other), "p": contact.wheel.centre, "q": letter(name)}
+        found = pen.draw(
+            meet,
+            line,
+            pen.draw(along_bar, other, *centre, **says),
+            q=point,
+            name=second_image(point),
+        )
+    pen.want("acceleration", point, found)
+    acceleration_arrow(pen, point)
+
+
+def turning_rack(pen: Pen, group: Geared) -> None:
+    """Second image of the point of a rack that turns with its guide: from its point of contact.
+
+    That moves against the wheel's straight away from the wheel's centre, as the wheel's to it.
+    """
+    link, contact, point = group.link, group.contact, pen.bases[group.link].start
+    name, wheel, centre = contact_name(contact), contact.links[0], contact.wheel.centre
+    start = carried(pen, wheel, name, "acceleration")
+    ends = pen.the("position", name), pen.the("position", centre)
+    rates = omega_of(pen, wheel), omega_of(pen, link)
+    says: Says = {"p": centre, "q": letter(name), "s": named(pen, start)}
+    says["i"] = letter(name) + centre
+    with pen.on(Part.NORMAL, Plane.NUMBERS):
+        vector = pen.draw(rolling_normal, *ends, *rates, name=f"a_{says['i']}^ν", **says)
+    called = second_image(under(name, link))
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = pen.draw(lay_off, start, vector, name=called, **says)
+        rolling_arrow(pen, start, corner, says)
+    pen.want("acceleration", under(name, link), corner)
+    ends = pen.the("position", name), pen.the("position", point)
+    turning, twist = omega_of(pen, link), omega_of(pen, link, "epsilon")
+    rim = under(name, link)
+    says = {"p": letter(rim), "q": point, "s": called, "k": link}
+    says |= {"i": about(pen, point, rim), "x": owned(rim)}
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        end = pen.draw(centripetal, corner, *ends, turning, **says)
+        named_ = second_image(point)
+        found = pen.draw(driven_tangential, end, *ends, twist, name=named_, **says)
+        component_arrow(pen, corner, end, "ν", point, rim)
+        component_arrow(pen, end, found, "τ", point, rim)
+    pen.want("acceleration", point, found)
+    acceleration_arrow(pen, point)
+
+
+def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
+    """A roller between tracks: its points of contact move against them to its centre only."""
+    link, centre = group.link, own.wheel.centre
+    images, names, starts = [], [], []
+    for contact in (own, group.contact):
+        name, known = contact_name(contact), partner(contact, link)
+        start = carried(pen, known, name, "acceleration")
+        ends = pen.the("position", centre), pen.the("position", name)
+        rates = omega_of(pen, link), omega_of(pen, known)
+        says: Says = {"p": letter(name), "q": centre, "s": named(pen, start)}
+        says["i"] = letter(name) + centre
+        with pen.on(Part.NORMAL, Plane.NUMBERS):
+            vector = pen.draw(rolling_normal, *ends, *rates, name=f"a_{says['i']}^ν", **says)
+        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+            named_ = second_image(under(name, link))
+            images.append(pen.draw(lay_off, start, vector, name=named_, **says))
+            rolling_arrow(pen, start, images[-1], says)
+        pen.want("acceleration", under(name, link), images[-1])
+        names.append(name)
+        starts.append(start)
+    places = [pen.the("position", each) for each in (*names, centre)]
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        ratio = pen.draw(in_proportion, *places)
+    rims = [under(name, link) for name in names]
+    says = {"p": letter(rims[0]), "q": letter(rims[1]), "r": centre}
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        found = pen.draw(similar_point, *images, ratio, name=second_image(centre), **says)
+        if not any(pen.turns(partner(contact, link)) for contact in (own, group.contact)):
+            component_arrow(pen, starts[0], starts[1], "τ", rims[1], rims[0])
+    pen.want("acceleration", centre, found)
+    acceleration_arrow(pen, centre)
+    says["i"] = about(pen, rims[1], rims[0])
+    with pen.on(Part.RESULT, Plane.NUMBERS):
+        pen.want("epsilon", link, pen.draw(epsilon, *places[:2], *images, name=link, **says))
+
+
+def rolling_arrow(pen: Pen, start: int, end: int, says: Says) -> None:
+    """The arrow of the acceleration of a rolling point of contact against its track."""
+    symbol = f"a_{says['i']}^ν"
+    pen.arrow(join, start, end, name=symbol, symbol=symbol, kind="ν", q=says["q"], p=says["p"])

@@ -1,0 +1,230 @@
+"""Wheels, gears, rings, racks and tracks on the mechanism, in the manner of ISO 2203."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterator
+from math import hypot, pi
+
+from graphkin.construction.core.bodies import Disc, Touch
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.guides.slide_symbols import ALIKE, REACH, places_of, seat, within
+from graphkin.construction.rolling.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
+from graphkin.drawing.field import XY, Field
+from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.marks import CircleMark, LineMark, Mark
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbols import across, hatched
+from graphkin.numbers.plane import cross, dot
+from graphkin.scene.model import FRAME, Link
+
+RIM = 2.4
+"""Width of a ring without teeth, in mm."""
+CONTACT = 0.6
+"""Radius of the mark of a contact, in mm."""
+SPARE = 60.0
+"""The farthest that a track is drawn on towards where it counts from, in mm."""
+
+
+def draw_wheels(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The wheels, the largest below."""
+    for disc in drawing.standing.discs:
+        board.marks += wheel(drawing, field, disc)
+
+
+def draw_tracks(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The straight tracks that wheels roll on."""
+    for _, marks in straight_tracks(drawing, field):
+        board.marks += marks
+
+
+def straight_tracks(drawing: Drawing, field: Field) -> Iterator[tuple[Touch, list[Mark]]]:
+    """The marks of each straight track, with where its wheel touches it."""
+    for touch in drawing.standing.touches:
+        if touch.zero is not None:
+            yield touch, list(within(track(drawing, field, touch), field.rect))
+
+
+def draw_fixed_wheels(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The wheels of the frame without their teeth, hatched, which the task sheet shows, too."""
+    for disc in drawing.standing.discs:
+        if disc.link == FRAME:
+            centre, radius = field(disc.centre), disc.radius * field.mm
+            ground = hatching(centre, radius, outward=disc.wheel.inside)
+            board.marks.append(CircleMark(*centre, radius, "wheel", FRAME))
+            board.marks += within(ground, field.rect)
+
+
+def draw_contacts(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The spokes that show how far wheels have turned, and the marks of their contacts."""
+    for disc in drawing.standing.discs:
+        board.marks += spokes(drawing, field, disc)
+    for touch in drawing.standing.touches:
+        at, name = field(touch.at), drawing.standing.name_at(touch.at)
+        board.marks.append(CircleMark(*at, CONTACT, "contact", touch.disc.link))
+        if name:
+            board.labels.append(Label(symbol(name), "", at, 2.5, name, priority=1, radius=CONTACT))
+
+
+def wheel(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
+    """One wheel: a disc, a ring, or a gear with its pitch circle."""
+    centre, radius, name = field(disc.centre), disc.radius * field.mm, disc.link
+    fixed, ring = disc.link == FRAME, disc.wheel.inside
+    if disc.module:
+        yield from gear(drawing, field, disc)
+    elif ring:
+        yield CircleMark(*centre, radius, "wheel", name)
+        if not fixed:
+            yield CircleMark(*centre, radius + RIM, "wheel", name)
+    else:
+        yield CircleMark(*centre, radius, "wheel" if fixed else "disc", name)
+    if fixed:
+        edge = disc.outer * field.mm if ring else root_of(disc, field)
+        yield from within(hatching(centre, edge, outward=ring), field.rect)
+
+
+def root_of(disc: Disc, field: Field) -> float:
+    """Radius of the circle that the teeth of a wheel stand on, in mm; of a plain wheel its rim."""
+    return (disc.radius - ROOT * disc.module) * field.mm
+
+
+def hatching(centre: XY, radius: float, *, outward: bool) -> Iterator[Mark]:
+    """Short strokes around a circle of the frame."""
+    count = max(8, int(2 * pi * radius / 2.4))
+    for i in range(count):
+        here, there = 2 * pi * i / count, 2 * pi * (i + 0.8) / count
+        far = radius + (2 if outward else -2)
+        yield LineMark(*polar(centre, radius, here), *polar(centre, max(far, 0.1), there), "ground")
+
+
+def spokes(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
+    """A radius to each point on the wheel, or along its x axis: they show how far it has turned."""
+    if disc.link == FRAME or disc.wheel.inside:
+        return
+    ends = [p for p in places_of(drawing, disc.link) if p != disc.centre]
+    axis = drawing.standing.axis(disc.link)
+    if not ends and axis is not None:
+        ends = [disc.centre + (disc.radius - ROOT * disc.module) * axis]
+    if is_all_wheel(drawing, disc.link) or len(ends) == 1:
+        for end in ends:
+            yield LineMark(*field(disc.centre), *field(end), "spoke", disc.link)
+
+
+def is_all_wheel(drawing: Drawing, link: str) -> bool:
+    """True for a link whose points all lie on one of its wheels: it needs no bar or plate."""
+    places = places_of(drawing, link)
+    return any(
+        all(abs(place - disc.centre) <= disc.radius * (1 + 1e-6) for place in places)
+        for disc in drawing.standing.discs
+        if disc.link == link and not disc.wheel.inside
+    )
+
+
+def track(drawing: Drawing, field: Field, touch: Touch) -> Iterator[Mark]:
+    """A straight track: hatched if it is of the frame, a bar of its link if not; a rack's teeth."""
+    low, high = track_ends(drawing, field, touch)
+    on, side = touch.rolling.on, touch.rolling.side
+    at, way = field(touch.at), field.way(touch.along)
+    bars = [(low, high)]
+    if touch.disc.module:
+        ends = rack_ends(drawing, field, touch, low, high)
+        bars = [(low, ends[0]), (ends[1], high)]
+        low, high = ends
+    for start, end in bars if on != FRAME else ():
+        if start < end:
+            yield LineMark(*across(at, way, start, 0), *across(at, way, end, 0), "guide-bar", on)
+    if touch.disc.module:
+        yield from rack(field, touch, low, high)
+    elif on == FRAME:
+        first, last = across(at, way, low, 0), across(at, way, high, 0)
+        yield from hatched(*((first, last) if side > 0 else (last, first)))
+    if on != FRAME:
+        yield from arm_to_track(drawing, field, touch, low, high)
+
+
+def track_ends(drawing: Drawing, field: Field, touch: Touch) -> tuple[float, float]:
+    """The drawn part of a straight track, in mm from the contact."""
+    assert touch.zero is not None
+    half = max(REACH, 0.8 * touch.disc.radius * field.mm)
+    zero = dot(touch.zero - touch.at, touch.along) * field.mm
+    ends = [-half, half, *seats(drawing, field, touch)]
+    if abs(zero) < SPARE or isinstance(touch.rolling.through, str):
+        ends += [zero - 4, zero + 4]
+    if touch.rolling.on != FRAME:
+        near = ALIKE * drawing.standing.size + 2.5 * touch.disc.module
+        for place in places_of(drawing, touch.rolling.on):
+            if abs(cross(touch.along, place - touch.at)) < near:
+                ends.append(dot(place - touch.at, touch.along) * field.mm)
+    return min(ends), max(ends)
+
+
+def seats(drawing: Drawing, field: Field, touch: Touch) -> list[float]:
+    """Where the blocks of a track's link stand on it, in mm from the contact."""
+    return [
+        dot(seat(drawing, way) - touch.at, touch.along) * field.mm
+        for way in drawing.standing.guideways
+        if way.block == touch.rolling.on and way.slide.on == FRAME
+    ]
+
+
+def rack_ends(
+    drawing: Drawing, field: Field, touch: Touch, low: float, high: float
+) -> tuple[float, float]:
+    """The part of a track that has the body of a rack: clear of the guides of its link."""
+    full = teeth_beside(touch) * pi * touch.disc.module * field.mm + BASE
+    low, high = min(low, -full), max(high, full)
+    for place in seats(drawing, field, touch):
+        if place > 0:
+            high = min(high, place - REACH - 2)
+        else:
+            low = max(low, place + REACH + 2)
+    return low, high
+
+
+def arm_to_track(
+    drawing: Drawing, field: Field, touch: Touch, low: float, high: float
+) -> Iterator[Mark]:
+    """The arm from a link's nearest point to its track, where the track misses all of them."""
+    places = places_of(drawing, touch.rolling.on)
+    if not places:
+        return
+    thick = 2.5 * touch.disc.module * field.mm
+
+    def foot(place: complex) -> float:
+        return min(max(float(dot(place - touch.at, touch.along)) * field.mm, low), high)
+
+    at, way = field(touch.at), field.way(touch.along)
+    side = touch.rolling.side
+    aside = side * (ROOT * touch.disc.module * field.mm + BASE) if touch.disc.module else 0.0
+
+    def gap(place: complex) -> float:
+        here, there = field(place), across(at, way, foot(place), aside)
+        return hypot(here[0] - there[0], here[1] - there[1])
+
+    nearest = min(places, key=gap)
+    if gap(nearest) > max(thick + BASE, 0.5):
+        there = across(at, way, foot(nearest), aside)
+        yield LineMark(*field(nearest), *there, "guide-bar", touch.rolling.on)
+
+
+def number_beside(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
+    """The part of a wheel's rim at which its link's number stands."""
+    for disc in drawing.standing.discs:
+        if disc.link == link.name:
+            away = free_side(drawing, disc)
+            centre, radius = field(disc.centre), disc.outer * field.mm
+            return polar(centre, radius, away - 0.2), polar(centre, radius, away + 0.2)
+    return None
+
+
+def free_side(drawing: Drawing, disc: Disc) -> float:
+    """A direction (radians) from a wheel's centre that leads away from what it touches."""
+    ways = [
+        (touch.at - disc.centre) / abs(touch.at - disc.centre)
+        for touch in drawing.standing.touches
+        if disc in (touch.disc, touch.other)
+    ]
+    total = sum(ways)
+    if not ways or abs(total) < 0.1:
+        return (phase(ways[0]) + pi / 2) if ways else 0.75 * pi
+    return phase(-total) + 0.5

@@ -1,0 +1,106 @@
+"""The marks of steps: each value of the trace placed on the page, under its action's own look."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from graphkin.construction.centres.centre_marks import (
+    put_centre,
+    put_circle_point,
+    put_inflection_circle,
+    put_named_centre,
+    put_ray,
+)
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.paper_canvas import draw_part
+from graphkin.construction.core.plan_marks import (
+    put_arc,
+    put_arrow,
+    put_driver_ray,
+    put_line,
+    put_point,
+    put_pole,
+)
+from graphkin.construction.core.plot import Plot
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.higher_class.misclosure_marks import put_gaps
+from graphkin.construction.higher_class.trial_marks import (
+    put_divided,
+    put_trial,
+    put_trial_line,
+    raise_trials,
+)
+from graphkin.construction.velocity.image_marks import put_similar
+
+Put = Callable[[Plot, int, Step, Any], None]
+
+
+def draw_mechanism_steps(plot: Plot, *, found: bool) -> None:
+    """Put down the steps on the mechanism: those that found its points, or all the others."""
+    for number, step, value in plot.drawing.mechanism_steps():
+        if (step.part is Part.POSITION) is found:
+            put_step(plot, number, step, value)
+
+
+def draw_plan_steps(plot: Plot) -> None:
+    """Put down every step of the plan, in order."""
+    for number, step, value in plot.drawing.steps(plot.drawing.plane):
+        put_step(plot, number, step, value)
+    put_gaps(plot)
+    raise_trials(plot)
+
+
+def put_step(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """Put down one step in the look of its action, if it has one."""
+    kind = construction(step)
+    if kind is not None and step.plane is Plane.MECHANISM:
+        draw_part(plot, number, step, kind)
+        return
+    key = step.action.key if step.action else "given"
+    plane = Plane.MECHANISM if step.plane is Plane.MECHANISM else Plane.NUMBERS
+    put = PUTS.get((plane, key))
+    if number in plot.drawing.tags and put is not put_similar:
+        put = put_trial
+    if put:
+        put(plot, number, step, value)
+
+
+PUTS: dict[
+    tuple[Plane, str], Put
+] = {  # the look of each action on the mechanism, and on a plan (NUMBERS)
+    (Plane.MECHANISM, "compass"): put_arc,
+    (Plane.MECHANISM, "ray"): put_driver_ray,
+    (Plane.MECHANISM, "set-on"): put_arrow,
+    (Plane.MECHANISM, "set-on-twice"): put_arrow,
+    (Plane.MECHANISM, "velocity-normal"): put_ray,
+    (Plane.MECHANISM, "pole-ray"): put_ray,
+    (Plane.MECHANISM, "instant-centre"): put_centre,
+    (Plane.MECHANISM, "acceleration-pole"): put_centre,
+    (Plane.MECHANISM, "pin-centre"): put_named_centre,
+    (Plane.MECHANISM, "guide-centre"): put_centre,
+    (Plane.MECHANISM, "relative-centre"): put_centre,
+    (Plane.MECHANISM, "kennedy-line"): put_ray,
+    (Plane.MECHANISM, "normals-meet"): put_centre,
+    (Plane.MECHANISM, "inflection-point"): put_circle_point,
+    (Plane.MECHANISM, "inflection-square"): put_ray,
+    (Plane.MECHANISM, "inflection-pole"): put_centre,
+    (Plane.MECHANISM, "inflection-circle"): put_inflection_circle,
+    (Plane.NUMBERS, "pole"): put_pole,
+    (Plane.NUMBERS, "square-to"): put_line,
+    (Plane.NUMBERS, "parallel-to"): put_line,
+    (Plane.NUMBERS, "join"): put_arrow,
+    (Plane.NUMBERS, "to-corner"): put_arrow,
+    (Plane.NUMBERS, "from-corner"): put_arrow,
+    (Plane.NUMBERS, "turned-velocity"): put_point,
+    (Plane.NUMBERS, "meet"): put_point,
+    (Plane.NUMBERS, "similar-point"): put_similar,
+    (Plane.NUMBERS, "alike"): put_point,
+    (Plane.NUMBERS, "centripetal"): put_point,
+    (Plane.NUMBERS, "driven-tangential"): put_point,
+    (Plane.NUMBERS, "driven-slide"): put_point,
+    (Plane.NUMBERS, "lay-off"): put_point,
+    (Plane.NUMBERS, "between"): put_divided,
+    (Plane.NUMBERS, "line-through"): put_trial_line,
+    (Plane.NUMBERS, "along-bar"): put_line,
+}

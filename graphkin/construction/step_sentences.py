@@ -1,0 +1,245 @@
+"""The words of single steps: which sentence an action takes, and what fills its gaps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from graphkin.construction.centres.centre_words import (
+    CENTRES,
+    OWN_WORDS,
+    SAID,
+    at_rest,
+    far_end,
+    oddity,
+    same_centre,
+)
+from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_pairs import SWINGS
+from graphkin.construction.core.naming import beyond, is_driven
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.zero_vectors import falls_key
+from graphkin.construction.rolling.rolling_words import (
+    is_first_roll,
+    is_halfway,
+    is_moving_track,
+    untold_track,
+)
+from graphkin.construction.sentence_fields import LAID_OFF, fields_of
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.model import FRAME
+
+LINES = (
+    "square-to",
+    "parallel-to",
+    "compass",
+    "ray",
+    "lay-off",
+    "along-bar",
+    "shifted",
+    "guide-back",
+    "radius-along",
+    "velocity-normal",
+    "centripetal",
+    "line-through",
+    "kennedy-line",
+    "inflection-square",
+)
+"""Actions that are said within the sentence of the point that they help to find."""
+FOLLOWING = (
+    "square-to",
+    "parallel-to",
+    "shifted",
+    "radius-along",
+)
+"""Those of them that begin where another one ended."""
+WHOLE = (
+    "acceleration-pole",
+    "beside",
+    "arm",
+    "pin-centre",
+    "guide-centre",
+    "contact-on-track",
+    "contact-of-wheels",
+    "rack-at",
+    "set-back",
+)
+"""Actions whose own sentence says all that the hand does."""
+
+
+def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
+    """Through what lines a point is found, and how they find it."""
+    by_hand = step.by_hand is not None and step.by_hand in drawing.trace.values
+    last = drawing.trace.program.steps[step.by_hand] if by_hand and step.by_hand else step
+    assert step.action is not None
+    if step.action.key in WHOLE:
+        track = untold_track(drawing, step)
+        parts = [phrase(drawing, track, "", track)] if track else []
+        return "; ".join([*parts, phrase(drawing, step, step.name, step)])
+    parts = [clause for arg in last.args for clause in clauses(drawing, arg, last.plane)]
+    parts.append(phrase(drawing, last, step.name, step))
+    return "; ".join(parts)
+
+
+def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
+    """The clause of a line or an arc of a drawing, after that of the vector laid off before it."""
+    step, laid = drawing.trace.program.steps[number], laid_off(drawing.trace.program, number)
+    if laid is not None:
+        if not laid.is_short(drawing) and step.plane is plane:
+            yield from clauses(drawing, laid.start, plane) if laid.component.follows else ()
+            yield laid.clause(drawing)
+        return
+    if step.action is None or step.action.key not in LINES or step.name:
+        return
+    if step.plane is not plane or is_lever(drawing, number):
+        return
+    if step.action.key in FOLLOWING:
+        for arg in step.args:
+            yield from clauses(drawing, arg, plane)
+    yield phrase(drawing, step, step.name, step)
+
+
+def is_left_out(drawing: Drawing, number: int) -> bool:
+    """True for a component laid off from a named point that is too short to be drawn, or none."""
+    laid = laid_off(drawing.trace.program, number)
+    return laid is not None and laid.is_short(drawing)
+
+
+def is_lever(drawing: Drawing, number: int) -> bool:
+    """True for the line of a lever that a sentence of its own has laid through a pin."""
+    steps = drawing.trace.program.steps
+    actions = (steps[arg].action for arg in steps[number].args)
+    return any(action is not None and action.key in SWINGS for action in actions)
+
+
+def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
+    """The words of one step with the symbols of its names."""
+    says = {**words_of.says, **step.says}
+    fields = fields_of(drawing, step, says)
+    if step.action and step.action.key in FOLLOWING and is_left_out(drawing, step.args[0]):
+        start = drawing.trace.program.steps[step.args[0]].args[0]
+        fields["s"] = symbol(drawing.trace.program.steps[start].name)
+    key = key_of(drawing, step, words_of, fields)
+    return drawing.words(f"step.{key}", **{"name": symbol(name), **fields})
+
+
+# --- which sentence ------------------------------------------------------------------------------
+
+
+def key_of(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, str]) -> str:
+    """The key of the sentence of a step."""
+    assert step.action is not None
+    key = step.action.key
+    whole = words_of.action.key if words_of.action else ""
+    if step.plane is Plane.MECHANISM and step.part in (Part.CENTRE, Part.POLE):
+        return centre_key(drawing, step, words_of, fields)
+    if whole in CENTRES:
+        return centre_key(drawing, step, words_of, fields)
+    if step.plane is Plane.MECHANISM:
+        return mechanism_key(drawing, step, key, fields)
+    return plan_key(drawing, step, key)
+
+
+def centre_key(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, str]) -> str:
+    """The key of the sentence of a centre, a pole, or a line to one."""
+    assert step.action is not None and words_of.action is not None
+    key, whole = step.action.key, words_of.action.key
+    if key in OWN_WORDS:
+        return key + far_end(drawing, step, fields)
+    if whole in CENTRES and (odd := oddity(drawing, words_of)):
+        if whole == "instant-centre" and odd == "still":
+            odd = at_rest(drawing, words_of, fields)
+        return f"{whole}-{odd}"
+    if key == "acceleration-pole" and step.by_hand is None:
+        return f"{key}-{step.says.get('how', 'pivot')}"
+    if key in SAID and "how" in step.says:
+        return f"{key}-{step.says['how']}"
+    if key == "kennedy-meet" and (same := same_centre(drawing, words_of)):
+        fields["same"] = symbol(same.name)
+        return "kennedy-meet-again"
+    if whole == "instant-centre":
+        return whole if words_of.by_hand else f"{whole}-pivot"
+    return key
+
+
+def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, str]) -> str:
+    """The key of the sentence of a step that draws the mechanism."""
+    scene, steps = drawing.scene, drawing.trace.program.steps
+    if key == "ray" and is_moving_track(step):
+        return "track-of"
+    if key in ("ray", "along-bar") and "g" in step.says:
+        ways = sum(len(link.slides) + len(link.rolls) for link in scene.links.values())
+        return "guide" if ways == 1 and scene.links[step.says["g"]].slides else "guide-named"
+    if key == "ray" and "line" in fields:
+        return "ray-produced" if "produced" in fields else "ray-against"
+    if key == "guide-back" and is_tried(steps[step.args[1]]):
+        return "guide-back-found"
+    if key == "beside" and not scene.links[step.says["g"]].slides:
+        return "beside-rolled" if "turned" in fields else "beside-turned"
+    if key == "contact-on-track" and step.says["g"] != FRAME:
+        return "contact-on-track-of"
+    if key == "mark-off" and is_lever(drawing, step.args[0]):
+        return "mark-off-lever"
+    if key == "step-along" and beyond(drawing, step):
+        return "step-along-beyond"
+    if key in ("set-at", "arm") and is_tried(steps[step.args[1]]):
+        return f"{key}-found"
+    if key == "set-at" and is_halfway(drawing, steps[step.args[1]]):
+        return "set-halfway"
+    return f"{key}.say" if key == "arcs-meet" else key
+
+
+def is_tried(step: Step) -> bool:
+    """True for a value that the closing of a group has found."""
+    return step.action is not None and step.action.key == "part"
+
+
+def plan_key(drawing: Drawing, step: Step, key: str) -> str:
+    """The key of the sentence of a step that draws a plan."""
+    number = drawing.number_of(step)
+    if key in ("square-to", "parallel-to") and is_left_out(drawing, step.args[0]):
+        return key
+    if key == "square-to" and step.plane is Plane.ACCELERATIONS:
+        return "square-to-end"
+    if key == "square-to" and step.says.get("c", step.says["s"]) != step.says["s"]:
+        return "square-to-touch"
+    if key == "square-to" and "c" in step.says:
+        return "square-to-both"
+    if key == "along-bar":
+        return "common-normal"
+    if key == "parallel-to" and not step.says["s"]:
+        before = laid_off(drawing.trace.program, step.args[0])
+        return "parallel-to-tail" if before is not None and before.back else "parallel-to-end"
+    if key == "similar-point" and "c" in step.says and in_line(drawing, step):
+        return "similar-touch"
+    if key == "similar-point" and in_line(drawing, step):
+        return "similar-in-line"
+    if key == "centripetal" and not step.name:
+        return "lay-off-none" if has_no_length(drawing, number) else "lay-off-computed"
+    if key == "lay-off" and step.name:
+        return "lay-off-rolling" if is_first_roll(drawing, step) else "lay-off-named"
+    alone = key == "driven-tangential" and has_no_length(drawing, step.args[0])
+    if key in LAID_OFF and has_no_length(drawing, number):
+        at_end = not step.says["s"] or (key == "driven-tangential" and not alone)
+        return "falls-end" if at_end else falls_key(drawing, step)
+    if alone:
+        return "driven-tangential-only"
+    if key == "driven-slide" and not step.says["s"]:
+        return "driven-slide-end"
+    if key in ("turned-velocity", "centripetal"):
+        as_long = drawing.scales.as_crank(drawing.kind) and is_driven(drawing, step.args[3])
+        return key if as_long else f"{key}-scaled"
+    return key
+
+
+def has_no_length(drawing: Drawing, number: int) -> bool:
+    """True for a vector that is laid off from a point of a plan and is nought."""
+    start = drawing.trace.program.steps[number].args[0]
+    values = drawing.trace.values
+    return not drawing.settled(abs(values[number] - values[start]))
+
+
+def in_line(drawing: Drawing, step: Step) -> bool:
+    """True when a plate point lies on the line of the two points that it follows from."""
+    ratio = drawing.trace.values[step.args[2]]
+    return bool(abs(ratio.imag) <= 1e-9 * abs(ratio))

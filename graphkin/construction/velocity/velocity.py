@@ -1,0 +1,252 @@
+"""The velocity plan: perpendiculars and parallels through known images, and their crossings."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.arrows import arrow_between, velocity_arrows
+from graphkin.construction.core.bases import Base, crank_tip, sides_of, under
+from graphkin.construction.core.pen import Pen, Says, against, image, letter, named
+from graphkin.construction.core.program import CONTACT, Part, Plane
+from graphkin.construction.core.vocabulary import (
+    alike,
+    difference,
+    join,
+    meet,
+    parallel_to,
+    part_along,
+    similar_point,
+    square_to,
+    sum_of,
+    turned_velocity,
+)
+from graphkin.construction.coriolis.coincident_points import image_under, omega_of, source_of
+from graphkin.construction.guides.guide_actions import driven_slide
+from graphkin.construction.guides.guides import known_guide
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.plate_points import crosses_well
+from graphkin.construction.links.position import led_path
+from graphkin.construction.rolling import wheel_images
+from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
+from graphkin.structure.joints import Joint, partner
+from graphkin.structure.pairs import Contact, Pin, Sliding
+
+
+def frame(pen: Pen) -> None:
+    """All fixed points have their image in the pole o."""
+    for point in pen.scene.frame.points:
+        pen.want("velocity", point, pen.pole(Plane.VELOCITIES))
+
+
+# --- driven links --------------------------------------------------------------------------------
+
+
+def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
+    """Image of a driven tip: omega times the bar, square to it, in the sense of omega."""
+    pivot, tip = group.pivot, crank_tip(pen.scene, group)
+    speed = pen.drive(group.driver).speed
+    pen.want("omega", group.link, driven_rate(pen, group, "omega", speed))
+    if tip is not None:
+        turn_tip(pen, group.link, pivot, tip)
+
+
+def driven_rate(pen: Pen, group: Crank, quantity: str, given: int) -> int:
+    """Angular velocity or acceleration of a driven link: the given one, on top of the other's."""
+    against = other_of(group.driver, group.link)
+    if not pen.turns(against):
+        return given if group.driver.link == group.link else turned_round(pen, given)
+    rate = omega_of(pen, against, quantity)
+    action = sum_of if group.driver.link == group.link else difference
+    with pen.on(Part.RESULT, Plane.NUMBERS):
+        return pen.draw(action, rate, given, name=group.link)
+
+
+def turned_round(pen: Pen, given: int) -> int:
+    """A given rate of the frame against a link, as the link's own."""
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.draw(difference, pen.given("nought"), given)
+
+
+def turn_tip(pen: Pen, link: str, pivot: str, tip: str) -> None:
+    """Image of a point of a link whose angular velocity is known, from that of its pivot."""
+    ends = pen.the("position", pivot), pen.the("position", tip)
+    start = pen.the("velocity", pivot)
+    says: Says = {"p": pivot, "q": tip, "s": named(pen, start), "k": link}
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        rate = pen.the("omega", link)
+        found = pen.draw(turned_velocity, start, *ends, rate, name=image(tip), **says)
+    pen.want("velocity", tip, found)
+    velocity_arrows(pen, tip, pivot)
+
+
+def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
+    """Image of a driven slider, or of a driven wheel's centre: the given speed on its guide."""
+    if isinstance(group.pair, Contact):
+        speed = wheel_images.given_speed(pen, group.driver, group.pair, "speed")
+    else:
+        speed = pen.drive(group.driver).speed
+    slide_on(pen, shapes, group.pair, group.link, speed)
+
+
+def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, speed: int) -> None:
+    """Image of the point of a link that slides, or rolls, at a speed along its guide."""
+    point, known = pen.bases[link].start, partner(pair, link)
+    way = 1 if pair.links[0] == link else -1
+    line = line_of(pen, shapes, pair, link, point)
+    start = image_under(pen, known, point)
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        says: Says = {"q": point, "g": pair.links[0], "s": named(pen, start)}
+        found = pen.draw(driven_slide, start, line, speed, name=image(point), extra=(way,), **says)
+    pen.want("velocity", point, found)
+    velocity_arrows(pen, point, None)
+    slide_arrow(pen, pair, link, point)
+    if isinstance(pair, Contact):
+        wheel_images.touch(pen, pair)
+
+
+def line_of(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, point: str) -> int:
+    """The line of a guide, or of the way of a wheel's centre, in the plane."""
+    if isinstance(pair, Contact):
+        return led_path(pen, shapes, pair, link, point)
+    return known_guide(pen, shapes, pair)
+
+
+# --- dyads and ties ------------------------------------------------------------------------------
+
+
+def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+    """Image of the point that closes a dyad: each relative velocity has its known direction."""
+    cross(pen, shapes, *sides_of(pen.bases, group))
+
+
+def cross(
+    pen: Pen, shapes: LinkShapes, name: str, point: str, sides: list[tuple[Joint, str]]
+) -> None:
+    """The image of a point where the lines meet that two pairs leave it free on."""
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        lines = [ray(pen, shapes, *side, name, point) for side in sides]
+        found = pen.draw(meet, *lines, name=image(name), q=name)
+    pen.want("velocity", name, found)
+    for pair, link in sides:
+        velocity_arrows(pen, name, source(pair, name))
+        if isinstance(pair, Sliding) and "@" not in name:
+            slide_arrow(pen, pair, link, name)
+        if isinstance(pair, Contact):
+            wheel_images.touch(pen, pair)
+
+
+def source(pair: Joint, point: str) -> str | None:
+    """The point about which a pair leaves a point free, or the pin over the point of a guide."""
+    if isinstance(pair, Pin):
+        return pair.point
+    return point.partition("@")[0] if "@" in point else None
+
+
+def ray(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, name: str, point: str) -> int:
+    """The line on which a pair of a link leaves the image of a point free."""
+    if isinstance(pair, Pin):
+        return square(pen, pair.point, name)
+    line, known = line_of(pen, shapes, pair, link, point), partner(pair, link)
+    own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
+    start = pen.the("velocity", point) if own else image_under(pen, known, point)
+    return pen.draw(parallel_to, start, line, s=named(pen, start), g=pair.links[0])
+
+
+def square(pen: Pen, pivot: str, pin: str) -> int:
+    """Through the image of one end of a bar the perpendicular to the bar."""
+    start = pen.the("velocity", pivot)
+    ends = pen.the("position", pivot), pen.the("position", pin)
+    says: Says = {"s": named(pen, start), "p": letter(pivot), "q": letter(pin)}
+    if pivot.startswith(CONTACT):
+        says |= {"c": image(pivot), "i": against(pen, pin, pivot)}
+    return pen.draw(square_to, start, *ends, **says)
+
+
+def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+    """A link between two known ones: on two guides its image is found, at two pins it is there."""
+    if isinstance(group.first, Sliding):
+        point = pen.bases[group.link].start
+        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
+
+
+# --- the rest of a link --------------------------------------------------------------------------
+
+
+def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
+    """Images of the other points of a link: the triangle abc is similar to ABC, turned 90°."""
+    if base.end is None:
+        led_points(pen, base)
+        return
+    ends = pen.the("velocity", base.start), pen.the("velocity", base.end)
+    for point in base.others:
+        if pen.has("velocity", point):
+            continue
+        ratio = shapes.ratio_of(base, point)
+        by_hand = None
+        with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+            if crosses_well(pen, ratio):
+                with pen.hands_way():
+                    lines = square(pen, base.start, point), square(pen, base.end, point)
+                    by_hand = pen.draw(meet, *lines)
+            says: Says = {"p": letter(base.start), "q": letter(base.end), "r": point}
+            found = pen.draw(
+                similar_point, *ends, ratio, name=image(point), by_hand=by_hand, **says
+            )
+        pen.want("velocity", point, found)
+        velocity_arrows(pen, point, base.start)
+        if base.end in pen.scene.link(base.link).points:
+            velocity_arrows(pen, point, base.end)
+
+
+def led_points(pen: Pen, base: Base) -> None:
+    """The other points of a link that turns with its guide; where it only shifts, one image."""
+    for point in base.others:
+        if pen.has("velocity", point):
+            continue
+        if pen.turns(base.link):
+            omega_of(pen, base.link)
+            turn_tip(pen, base.link, base.start, point)
+            continue
+        start = pen.the("velocity", base.start)
+        with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+            found = pen.draw(alike, start, name=image(point), p=base.start, q=point)
+        pen.want("velocity", point, found)
+        velocity_arrows(pen, point, None)
+
+
+def turning(pen: Pen, base: Base) -> None:
+    """Angular velocity of a link: relative velocity over length, with its sense."""
+    omega_of(pen, base.link)
+
+
+def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
+    """Speed of a block along its guide."""
+    pair = pen.first_slide(block)
+    first = pen.scene.link(block).points[0]
+    start = image_under(pen, pair.links[1], first)
+    with pen.on(Part.RESULT, Plane.NUMBERS):
+        guide = known_guide(pen, shapes, pair)
+        found = pen.draw(part_along, guide, start, pen.the("velocity", first))
+    pen.want("slide speed", block, found)
+    slide_arrow(pen, pair, block, first)
+
+
+# --- arrows --------------------------------------------------------------------------------------
+
+
+def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
+    """The arrow of a relative velocity along a guide that moves.
+
+    Of one that only shifts, so that no component of an acceleration comes of it, that of the guide
+    along the block suffices.
+    """
+    known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
+    start, tip = image_under(pen, known, point), pen.the("velocity", point)
+    told = not pen.turns(known) and tip != o and is_joined(pen, tip, start)
+    if start not in (o, tip) and not told:
+        arrow_between(pen, start, tip, point, letter(under(point, known)))
+
+
+def is_joined(pen: Pen, tail: int, tip: int) -> bool:
+    """Whether an arrow leads from one image to another, or between others on which they fall."""
+    ends = source_of(pen, tail), source_of(pen, tip)
+    arrows = (step.args for step in pen.steps if step.arrow and step.action is join)
+    return any((source_of(pen, start), source_of(pen, end)) == ends for start, end in arrows)

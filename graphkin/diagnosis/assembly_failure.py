@@ -1,0 +1,269 @@
+"""Why a step cannot be drawn, by how much it misses, and for which positions it could be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from graphkin.construction.core.program import Part, Program, Step
+from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate
+from graphkin.construction.higher_class.closure_solver import (
+    ClosingError,
+    ClosureSolver,
+    sign_table,
+)
+from graphkin.diagnosis.exact_intersection import Meeting, loci_of, meeting
+from graphkin.diagnosis.ranges import closes_where, closings, where_it_closes
+from graphkin.diagnosis.singularity_words import closed_by, in_line
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.model import Scene
+from graphkin.scene.quantity import LENGTHS, shortest
+from graphkin.text.errors import ClosureError, Problem
+
+TOUCH = 1e-9
+"""Share of its loci by which a crossing is missed beside a dead point."""
+FLAT = 1e-6
+"""Sine of a crossing as flat as rounding makes one of loci that touch."""
+BLIND = 2.0**-26
+"""Sine of a crossing, the root of eps, below which no digit of a velocity is right."""
+MOVING = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION)
+DEAD = (
+    "at this dead point, or so near to one that doubles cannot tell (solve --digits can), the "
+    "driver's speed determines no other: change the driver's position"
+)
+
+ALONE = "it closes at this dead point alone: change the lengths"
+
+
+# --- why a step fails ----------------------------------------------------------------------------
+
+
+def does_not_close(
+    scene: Scene, program: Program, needed: Sequence[int], failed: StepFailed
+) -> ClosureError:
+    """The error for a step that cannot be drawn: which, by how much, and where it could be."""
+    step = failed.step
+    if isinstance(failed.__cause__, ClosingError):
+        return ClosureError(no_such_closure(scene, failed, failed.__cause__))
+    if falls(step):
+        return ClosureError(no_direction(step))
+    loci = loci_of(failed.args_found)
+    if loci is not None and loci[0] == loci[1]:
+        return ClosureError(no_single_crossing(step))
+    early = step.part in (Part.SHAPE, Part.POSITION)
+    if not early:
+        values = run_before(program, needed, failed.number, scene.values)
+        for number, found in doubtful(scene, program, values):
+            if found.apart:
+                return ClosureError(missed(scene, program, number, found))
+    if early and loci is not None:
+        found = meeting(scene, program, failed.number, loci)
+        return ClosureError(missed(scene, program, failed.number, found))
+    reason = why(scene, program, failed)
+    hint = where_it_closes(scene) if early else DEAD
+    return ClosureError(not_found(program, failed.number, reason, hint))
+
+
+def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
+    """The problem of two loci that miss each other, or touch and do not cross."""
+    if found.lost:
+        return lost(scene, program, number, found)
+    hint = DEAD
+    if found.apart:
+        known = closings(scene)
+        alone = found.missed < TOUCH * found.size and not any(each.ranges for each in known)
+        hint = ALONE if alone else closes_where(scene, known)
+    return not_found(program, number, why_not(scene, program, number, found), hint)
+
+
+def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
+    """The problem of two loci that cross, but not where rounding has moved them to."""
+    step = program.steps[number]
+    loci = "the arcs" if "q" in step.says else "the arc and the guide"
+    depth, moved = -found.missed, found.rounded - found.missed
+    return Problem(
+        f"position of {step.name}",
+        f"{step.name} cannot be found in doubles: {loci} cross, by {measured(scene, depth)}, "
+        f"but the crossings before enlarge rounding to {measured(scene, moved)}",
+        "crossings that are less flat, one after the other",
+        "solve --digits finds it",
+    )
+
+
+def not_found(program: Program, number: int, reason: str, hint: str) -> Problem:
+    """The problem of a step that finds nothing, for some reason."""
+    step = program.steps[number]
+    what = " of ".join(part for part in (step.part.value, sought(program, number)) if part)
+    found = f"{step.name or 'a value'} cannot be found: {reason}"
+    return Problem(what, found, "loci that cross", hint)
+
+
+def sought(program: Program, number: int) -> str:
+    """What a step was to find: its letter, else the points or the links that it is about."""
+    step = program.steps[number]
+    if step.action is not None and step.action.key == "share":
+        return f"links {', '.join(closed_by(program, number))}"
+    return step.name or "-".join(step.says[key] for key in ("p", "q") if key in step.says)
+
+
+def falls(step: Step) -> bool:
+    """Whether a step looks for the direction from one point to another, which fall together."""
+    return step.action is not None and step.action.key == "swing-through"
+
+
+def no_direction(step: Step) -> Problem:
+    """The problem of a slot through a pivot on which the pin in the slot has come to stand."""
+    says = step.says
+    return Problem(
+        f"position of link {says['k']}",
+        f"{says['q']} falls on {says['p']}, so that the guide through both may have any direction",
+        f"{says['q']} and {says['p']} apart",
+        f"move the driver, or give the guide an offset from {says['p']}",
+    )
+
+
+def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
+    """The problem of a group of higher class that does not close, or not in so many ways."""
+    links = failed.step.says["list"]
+    if not error.ways:
+        found = f"links {links} do not close{least_miss(scene, failed)}"
+        return Problem("position", found, "loci that cross", where_it_closes(scene))
+    elsewhere = ""
+    known = closings(scene)
+    if any(each.ranges for each in known):
+        elsewhere = f"; with closure {error.asked} {closes_where(scene, known)}"
+    ways = "1 way" if error.ways == 1 else f"{error.ways} ways"
+    return Problem(
+        f"branches.{branch_of(scene, links)}",
+        f"links {links} close in {ways} here, closure {error.asked} is asked",
+        '"closure 1"' if error.ways == 1 else f'"closure 1" to "closure {error.ways}"',
+        "graphkin check lists them" + elsewhere,
+    )
+
+
+def branch_of(scene: Scene, links: str) -> str:
+    """The link under which the closure of some links is written."""
+    names = links.split(", ")
+    return next((name for name in names if name in scene.branches), names[0])
+
+
+def least_miss(scene: Scene, failed: StepFailed) -> str:
+    """By how much a group of higher class fails to close, at the trial that comes nearest."""
+    import numpy as np
+
+    action = failed.step.action
+    assert action is not None and isinstance(action.value, ClosureSolver)
+    trying = action.value.trying
+    if trying.facing is not None:
+        return ""
+    known = [np.atleast_1d(value) for value in failed.args_found]
+    tried = trying.grid(known, 1).ravel()
+    here = [np.repeat(array, len(tried)) for array in known]
+    least = np.inf
+    for signs in sign_table(len(trying.signs)):
+        rows = np.broadcast_to(np.array(signs, dtype=float), (len(tried), len(signs)))
+        missed = np.abs(trying.misfits(here, tried, rows))
+        least = np.nanmin(missed, initial=least)
+    if not np.isfinite(least):
+        return ", wherever the first of them is tried"
+    return f": they miss each other by {measured(scene, least)}"
+
+
+def why(scene: Scene, program: Program, failed: StepFailed) -> str:
+    """Words for what hinders a step: loci that miss each other, or parallel lines."""
+    step = failed.step
+    key = step.action.key if step.action else ""
+    if key == "swing":
+        return f"{step.says['q']} stands nearer to {step.says['p']} than the guide passes it"
+    return in_line(scene, program, failed.number)
+
+
+def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
+    """Words for two loci that miss each other, or touch and do not cross."""
+    step = program.steps[number]
+    if found.missed >= TOUCH * found.size:
+        return miss_words(scene, step, found.missed)
+    words = f"{in_line(scene, program, number)}, a dead point"
+    return f"{words}, but {miss_words(scene, step, found.missed)}" if found.apart else words
+
+
+def miss_words(scene: Scene, step: Step, missed: float) -> str:
+    """By how much the loci of a step miss each other."""
+    loci = "the arcs miss each other" if "q" in step.says else "the arc misses the guide"
+    return f"{loci} by {measured(scene, missed)}"
+
+
+def no_single_crossing(step: Step) -> Problem:
+    """The problem of two bars of one length whose outer pins have come to fall together."""
+    p, q, pin = step.says["p"], step.says["q"], step.name
+    return Problem(
+        f"position of {pin}",
+        f"{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {pin} may stand anywhere about it",
+        f"{p} and {q} apart",
+        "this is a change point: move the driver",
+    )
+
+
+# --- whether loci meet, decided apart from where they do -----------------------------------------
+
+
+def run_before(
+    program: Program, needed: Sequence[int], number: int, values: Values
+) -> dict[int, Any]:
+    """The values of the steps before one that failed."""
+    found: dict[int, Any] = {}
+    for earlier in (n for n in needed if n < number and not program.steps[n].hand):
+        found[earlier] = evaluate(program.steps[earlier], earlier, found, values, FLOAT, {})
+    return found
+
+
+def doubtful(
+    scene: Scene, program: Program, values: Mapping[int, Any]
+) -> Iterator[tuple[int, Meeting]]:
+    """The steps that cross two loci as flatly as rounding does, with what is true of these."""
+    for number in values:
+        step = program.steps[number]
+        if step.part is not Part.POSITION or step.hand or step.action is None:
+            continue
+        if step.action.margin is None or (loci := loci_of([values[a] for a in step.args])) is None:
+            continue
+        if step.action.margin(*loci, 1) < FLAT:
+            yield number, meeting(scene, program, number, loci)
+
+
+def refuse_touching(scene: Scene, trace: Trace) -> None:
+    """Raise ClosureError where rounded numbers cross two loci that in truth touch or miss.
+
+    What the scene states in rational numbers is decided by these. Where loci touch, or cross more
+    flatly than rounding tells, positions may be drawn, and velocities may not.
+    """
+    program = trace.program
+    moving = any(program.steps[number].part is Part.VELOCITY for number in trace.values)
+    if moving:
+        refuse_blind(scene, trace)
+    for number, found in doubtful(scene, program, trace.values):
+        if (found.proved and found.apart) or (moving and found.barely):
+            raise ClosureError(missed(scene, program, number, found))
+
+
+def refuse_blind(scene: Scene, trace: Trace) -> None:
+    """Raise ClosureError where two loci cross so flatly that rounding makes their crossing up.
+
+    The error of a velocity is eps over the square of the sine: below the root of eps nothing of it
+    is known.
+    """
+    program = trace.program
+    for number, margin in trace.margins.items():
+        step = program.steps[number]
+        if step.hand or step.part not in MOVING or margin >= BLIND:
+            continue
+        if falls(step):
+            raise ClosureError(no_direction(step))
+        words = f"{in_line(scene, program, number)} as far as doubles tell, a dead point"
+        raise ClosureError(not_found(program, number, words, DEAD))
+
+
+def measured(scene: Scene, length: float) -> str:
+    """A length (m) in the unit of the scene, with four digits."""
+    unit = scene.units["length"]
+    return f"{shortest(float(f'{length / float(LENGTHS[unit]):.4g}'))} {unit}"

@@ -1,0 +1,276 @@
+"""Which effects of the motion are in a construction and which are out, by counting its steps.
+
+Every step is drawn for exactly one effect (``Step.effect``, or what its part of the work says), so
+that the numbers of an explanation add up to the steps that what is asked needs.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.program import Part, Program, Step, Target
+from graphkin.construction.core.timing import Timing, timed
+from graphkin.mechanism import Mechanism
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.pairs import Contact, contacts, meshes, turns
+
+BY_HAND = "by-hand marks"
+PENCIL = "pencil"
+CERTIFICATION = "certification"
+OF_PART = {
+    Part.SHAPE: Effect.SHAPE,
+    Part.POSITION: Effect.POSITION,
+    Part.VELOCITY: Effect.VELOCITY,
+    Part.NORMAL: Effect.NORMAL,
+    Part.ACCELERATION: Effect.ACCELERATION,
+    Part.CENTRE: Effect.CENTRE,
+    Part.POLE: Effect.POLE,
+    Part.RESULT: Effect.RESULT,
+}
+"""What a step is drawn for where it does not say so itself."""
+NAMES = tuple(effect.value for effect in Effect)
+"""The effects whose steps add up to those of what is asked."""
+BY_COMMAND = {
+    PENCIL: "only `solve --pencil MM` asks what a pencil makes of each step",
+    CERTIFICATION: "only `solve --digits N` asks for digits that are proved",
+}
+"""Effects that no scene calls for: they run the same steps on other numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class EffectRow:
+    """One effect: whether it is in, the steps drawn for it, why, and what those steps cost.
+
+    ``time`` is None where nothing is run, and before it is measured.
+    """
+
+    name: str
+    steps: int
+    reason: str
+    included: bool
+    time: Timing | None = None
+
+
+def effects(mechanism: Mechanism) -> tuple[EffectRow, ...]:
+    """All effects of what [ask] asks, then what only a hand's drawing or a command adds."""
+    program, asked = mechanism.program, mechanism.asked()
+    counts = Counter(parted(mechanism).values())
+    wants = wanted_by(mechanism)
+    rows = [
+        EffectRow(
+            effect.value,
+            counts[effect],
+            reason(mechanism.scene, effect, wants.get(effect, []), asked),
+            is_in(mechanism.scene, effect, counts),
+        )
+        for effect in Effect
+    ]
+    by_command = [EffectRow(name, 0, why, False) for name, why in BY_COMMAND.items()]
+    return (*rows, by_hand(program, asked), *by_command)
+
+
+def measured(mechanism: Mechanism) -> tuple[EffectRow, ...]:
+    """The same, each with the time that its steps alone take on this scene."""
+    program, asked = mechanism.program, mechanism.asked()
+    trace = mechanism.trace(asked, by_hand=True)
+    numbers: dict[str, list[int]] = {BY_HAND: hand_steps(program, asked)}
+    for number, effect in parted(mechanism).items():
+        numbers.setdefault(effect.value, []).append(number)
+    return tuple(
+        replace(row, time=timed(trace, numbers[row.name], mechanism.scene.values))
+        if row.steps
+        else row
+        for row in effects(mechanism)
+    )
+
+
+def parted(mechanism: Mechanism) -> dict[int, Effect]:
+    """The steps that what is asked needs, in order, each with the one effect it is drawn for."""
+    program, asked = mechanism.program, mechanism.asked()
+    found = {number: effect_of(program.steps[number]) for number in program.needed(asked)}
+    for number in own_to_centrodes(mechanism.scene, program, asked):
+        found[number] = Effect.CENTRODE
+    return found
+
+
+def effect_of(step: Step) -> Effect:
+    """The one effect that a step is drawn for."""
+    if step.given is not None:
+        is_timed = any(TIME in quantity.uses() for quantity in step.given.quantities)
+        return Effect.TIME if is_timed else Effect.SHAPE
+    return step.effect or OF_PART[step.part]
+
+
+def own_to_centrodes(scene: Scene, program: Program, asked: tuple[Target, ...]) -> tuple[int, ...]:
+    """The steps of centres that nothing but centrodes asks for."""
+    links = set(scene.ask.centrodes) - set(scene.ask.centres)
+    others = [target for target in asked if not (target[0] == "centre" and target[1] in links)]
+    shared = set(program.needed(others))
+    return tuple(
+        number
+        for number in program.needed(asked)
+        if number not in shared and program.steps[number].part is Part.CENTRE
+    )
+
+
+def wanted_by(mechanism: Mechanism) -> Mapping[Effect, list[Target]]:
+    """For each effect the targets whose own construction contains it."""
+    program, whole = mechanism.program, parted(mechanism)
+    wants: dict[Effect, list[Target]] = {}
+    for target in dict.fromkeys(mechanism.asked()):
+        for effect in {whole[number] for number in program.needed([target])}:
+            wants.setdefault(effect, []).append(target)
+    return wants
+
+
+def is_in(scene: Scene, effect: Effect, counts: Mapping[Effect, int]) -> bool:
+    """Whether an effect is in: it has steps, or shares those of centres that are asked too."""
+    return counts[effect] > 0 or (effect is Effect.CENTRODE and bool(scene.ask.centrodes))
+
+
+def hand_steps(program: Program, asked: Iterable[Target]) -> list[int]:
+    """The steps that only the drawing by hand adds."""
+    wanted = tuple(asked)
+    return sorted(set(program.needed(wanted, by_hand=True)) - set(program.needed(wanted)))
+
+
+def by_hand(program: Program, asked: tuple[Target, ...]) -> EffectRow:
+    """The steps that only the drawing by hand adds: right triangles, arcs, rays and arrows."""
+    extra = len(hand_steps(program, asked))
+    if not extra:
+        return EffectRow(BY_HAND, 0, "nothing that is asked has a construction to show", False)
+    words = "drawn on the sheets only: right triangles, arcs, rays and arrows"
+    return EffectRow(BY_HAND, extra, words, True)
+
+
+# --- why -----------------------------------------------------------------------------------------
+
+
+def reason(scene: Scene, effect: Effect, wants: list[Target], asked: tuple[Target, ...]) -> str:
+    """Why an effect is in or out, in one sentence that names what in the scene decides it."""
+    if wants:
+        cause = cause_of(scene, effect)
+        every = len(wants) == len(set(asked))
+        needed = "all that is asked" if every else targets_words(wants)
+        return f"{cause}; needed for {needed}" if cause else f"needed for {needed}"
+    if effect is Effect.CENTRODE and scene.ask.centrodes:
+        return "the centres that are asked anyway, followed over the motion"
+    return absence_of(scene, effect) or f"{targets_words(asked)} can be found without"
+
+
+def targets_words(targets: Sequence[Target]) -> str:
+    """Targets in words, those of one quantity together: velocity of D; pole of 3, 4."""
+    of: dict[str, list[str]] = {}
+    for quantity, name in dict.fromkeys(targets):
+        of.setdefault(quantity, []).append(name)
+    return "; ".join(f"{quantity} of {', '.join(names)}" for quantity, names in of.items())
+
+
+def cause_of(scene: Scene, effect: Effect) -> str:
+    """What in the scene brings an effect in; empty where only what is asked does."""
+    match effect:
+        case Effect.TIME:
+            return f"{drivers_words(timed_drivers(scene))} a law of time"
+        case Effect.ROLLING:
+            return f"without slip roll {', '.join(rolling(scene))}"
+        case Effect.GEARS:
+            return f"in mesh are {', '.join(meshing(scene))}"
+        case Effect.DRIVER:
+            return f"{drivers_words(accelerated_drivers(scene))} an acceleration"
+        case Effect.CORIOLIS:
+            return f"{guides_words(moving_guides(scene))} with its link"
+        case Effect.NORMAL:
+            return "points that move about others need a normal component"
+        case Effect.TANGENTIAL:
+            return "links that no driver turns at a given rate speed up or slow down"
+        case Effect.SHAPE:
+            return "numbers that the scene states, and the shapes of its links"
+        case Effect.CENTRODE:
+            return "the centres of a whole motion, which only the sheet and the cycle follow"
+    return ""
+
+
+def absence_of(scene: Scene, effect: Effect) -> str:
+    """What in the scene keeps an effect out; empty where only what is asked does."""
+    ask = scene.ask
+    match effect:
+        case Effect.TIME if not timed_drivers(scene):
+            return "no driver is written in t"
+        case Effect.ROLLING if not rolling(scene):
+            return "no wheel rolls along a track"
+        case Effect.GEARS if not meshing(scene):
+            return "no wheels are in mesh"
+        case Effect.DRIVER if not accelerated_drivers(scene):
+            return "every driver has a constant speed"
+        case Effect.CORIOLIS if not moving_guides(scene):
+            return no_moving_guide(scene)
+        case Effect.CENTRE if not (ask.centres or ask.pairs or ask.inflection):
+            return "[ask] names no centres"
+        case Effect.CENTRODE if not ask.centrodes:
+            return "[ask] names no centrodes"
+        case Effect.POLE if not (ask.poles or ask.inflection):
+            return "[ask] names no poles"
+    return ""
+
+
+def drivers_words(numbers: list[int]) -> str:
+    """Driver 1 has, or drivers 1, 2 have, counted from one as they are written."""
+    return f"driver{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))} " + (
+        "have" if len(numbers) > 1 else "has"
+    )
+
+
+def guides_words(blocks: list[str]) -> str:
+    """The guide of 2 turns, or the guides of 2, 3 turn."""
+    if len(blocks) > 1:
+        return f"the guides of {', '.join(blocks)} turn, each"
+    return f"the guide of {''.join(blocks)} turns"
+
+
+def timed_drivers(scene: Scene) -> list[int]:
+    """Drivers whose position is written in t."""
+    return [i for i, driver in enumerate(scene.drivers, 1) if TIME in driver.position.uses()]
+
+
+def accelerated_drivers(scene: Scene) -> list[int]:
+    """Drivers that do not run at constant speed."""
+    return [i for i, driver in enumerate(scene.drivers, 1) if not driver.acceleration.is_zero()]
+
+
+def rolling(scene: Scene) -> list[str]:
+    """Wheels that roll along a track, each with its track: 3 on 0."""
+    return [pair_words(contact) for contact in contacts(scene) if not meshes(scene, contact)]
+
+
+def meshing(scene: Scene) -> list[str]:
+    """Wheels in mesh with a wheel or a rack, as pairs of links."""
+    return [pair_words(contact) for contact in contacts(scene) if meshes(scene, contact)]
+
+
+def pair_words(contact: Contact) -> str:
+    """The two links of a contact in words."""
+    wheel, track = contact.links
+    return f"{wheel} on {'the frame' if track == FRAME else track}"
+
+
+def moving_guides(scene: Scene) -> list[str]:
+    """Blocks whose guide is on a link that turns."""
+    return [
+        link.name
+        for link in scene.links.values()
+        if any(slide.on != FRAME and turns(scene, slide.on) for slide in link.slides)
+    ]
+
+
+def no_moving_guide(scene: Scene) -> str:
+    """Why nothing slides on a link that turns."""
+    fixed = [link.name for link in scene.links.values() if link.slides]
+    if not fixed:
+        return "no link slides"
+    if len(fixed) > 1:
+        return f"the guides of {', '.join(fixed)} do not turn"
+    return f"the guide of {fixed[0]} does not turn"

@@ -1,0 +1,219 @@
+"""For which positions of a driver a mechanism closes, while the other drivers stand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from graphkin.scene.known_names import quoted
+from graphkin.scene.model import Driver, Scene
+from graphkin.scene.quantity import LENGTHS
+
+if TYPE_CHECKING:
+    from graphkin.motion.course import Course
+    from graphkin.motion.sweep import Sweep
+
+WORK = 60_000_000
+"""Steps of trials within which positions are searched: about a second."""
+FEWEST = 180
+"""Positions that are searched whatever they cost."""
+NARROWINGS = 5
+"""How often the last step at the end of a range is cut into parts."""
+PARTS = 16
+"""Parts into which it is cut, all at once."""
+NOISE = 1e-12
+"""Sine of crossing of lines that are parallel throughout, but for rounding."""
+MOST = 3
+"""Drivers told with their ranges."""
+LISTED = 6
+"""Ranges told of one driver."""
+FREE = {
+    (False, False): "{0} to {1} {2}",
+    (True, False): "up to {1} {2}",
+    (False, True): "{0} {2} and more",
+    (True, True): "of any size",
+}
+"""Words for a range of a sliding driver, by whether it reaches below and above what was tried."""
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class ClosingRanges:
+    """Where a mechanism closes while one driver moves: ranges of its position (degrees or m).
+
+    ``searched`` counts the positions that were looked at, where a bound on the work left out some;
+    it is 0 elsewhere.
+    """
+
+    ranges: list[Range]
+    searched: int = 0
+
+    @property
+    def bound(self) -> str:
+        """Words for a search that was bounded; empty elsewhere."""
+        if not self.searched:
+            return ""
+        return (
+            f"searched at {self.searched} positions of the driver; "
+            "what lies between two of them is not seen"
+        )
+
+
+def where_it_closes(scene: Scene) -> str:
+    """Words for the positions of each driver at which every position can be drawn."""
+    return closes_where(scene, closings(scene))
+
+
+def closings(scene: Scene) -> list[ClosingRanges]:
+    """Where each driver closes a mechanism, the other drivers as they stand."""
+    return [closing(scene, n) for n in range(1, len(scene.drivers[:MOST]) + 1)]
+
+
+def closes_where(scene: Scene, known: Sequence[ClosingRanges]) -> str:
+    """Words for where each driver closes a mechanism."""
+    bound = next((f" ({found.bound})" for found in known if found.bound), "")
+    if len(scene.drivers) == 1:
+        noun = "angle" if scene.drivers[0].kind == "turn" else "position"
+        if known[0].ranges:
+            return f"it closes for driver {noun}s {reached_words(scene, known[0].ranges)}{bound}"
+        return f"it closes for no {noun} of the driver: check the lengths{bound}"
+    told = [
+        f"{driver_words(driver)} from {reached_words(scene, found.ranges, n)}"
+        for n, (driver, found) in enumerate(zip(scene.drivers, known, strict=False), 1)
+        if found.ranges
+    ]
+    if not told:
+        words = "no driver alone can close it: check lengths, sides and the drivers' positions"
+        return f"{words}{bound}"
+    return f"it closes, the other drivers as they stand, for {'; or for '.join(told)}{bound}"
+
+
+def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
+    """The ranges of one driver, counted from 1, in the scene's units; empty without any."""
+    if scene.drivers[number - 1].kind == "turn":
+        words = [f"{low:.2f}° to {high:.2f}°" for low, high in found]
+    else:
+        words = [slid_words(scene, each, number) for each in found]
+    more = f" and {len(words) - LISTED} more ranges" if len(words) > LISTED else ""
+    return ", ".join(words[:LISTED]) + more
+
+
+def slid_words(scene: Scene, found: Range, number: int) -> str:
+    """One range of a driver that slides or rolls."""
+    from graphkin.motion.driving import GRID
+
+    sweep, unit = swept(scene, number), scene.units["length"]
+    low, high = found
+    step = (sweep.high - sweep.low) / GRID
+    free = low <= sweep.low + step, high >= sweep.high - step
+    first, last = (f"{end / float(LENGTHS[unit]):.6g}" for end in found)
+    return FREE[free].format(first, last, unit)
+
+
+def closing(scene: Scene, number: int = 1) -> ClosingRanges:
+    """For which positions of a driver all positions can be drawn.
+
+    The closures are those that the scene picks, the other drivers stand. One turn is looked at, or
+    as far as all lengths together reach; [(0, 360)] is a whole turn. Where groups are closed by
+    trial so many positions are searched as the work allows, which the result says.
+    """
+    from graphkin.motion.course import Course
+    from graphkin.motion.driving import GRID
+    from graphkin.motion.pieces import wheels
+    from graphkin.text.errors import GraphkinError
+
+    course = Course(swept(scene, number), scene.branches)
+    try:
+        if course.sweep.whole and wheels(course) and not course.trials:
+            return ClosingRanges(ranges_followed(course))
+        count = min(GRID, max(FEWEST, WORK // max(course.trials, 1)))
+        found = ranges_of(course, count)
+    except GraphkinError:
+        return ClosingRanges([])
+    return ClosingRanges(found, count if count < GRID else 0)
+
+
+def ranges_of(course: Course, count: int) -> list[Range]:
+    """The ranges in which a course closes, from so many positions, evenly spread."""
+    import numpy as np
+
+    from graphkin.motion.counted import led_both
+    from graphkin.motion.driving import TURN
+
+    sweep = course.sweep
+    start = TURN * (sweep.start // TURN) if sweep.whole else sweep.low
+    step = (sweep.high - sweep.low) / count
+    grid = start + np.arange(count + (not sweep.whole)) * step
+    course = led_both(course, sweep.start, float(grid[0]), float(grid[-1]))
+    margins = course.margins(grid)
+    closed = np.isfinite(margins).all(axis=0)
+    if len(margins) > 1 and np.nanmin(margins[:-1], axis=0, initial=1.0).max(initial=0.0) < NOISE:
+        return []
+    if closed.all():
+        return [(0.0, TURN)] if sweep.whole else [(float(grid[0]), float(grid[-1]))]
+    if not closed.any():
+        return []
+    if not sweep.whole:
+        closed = np.concatenate([[False], closed, [False]])
+        grid = np.concatenate([[grid[0] - step], grid, [grid[-1] + step]])
+    starts = np.flatnonzero(closed & ~np.roll(closed, 1))
+    ends = np.flatnonzero(closed & ~np.roll(closed, -1))
+    if ends[0] < starts[0]:
+        ends = np.roll(ends, -1)
+    steps = np.repeat([-step, step], [len(starts), len(ends)])
+    at = refined(course, np.concatenate([grid[starts], grid[ends]]), steps)
+    lows, highs = at[: len(starts)].tolist(), at[len(starts) :].tolist()
+    pairs = zip(lows, highs, strict=True)
+    begun = [(low - (TURN if high < low else 0), high) for low, high in pairs]
+    over = TURN if sweep.whole else float("inf")
+    return sorted((low - TURN, high - TURN) if high > over else (low, high) for low, high in begun)
+
+
+def ranges_followed(course: Course) -> list[Range]:
+    """The same of a driver after whose turn wheels stand otherwise: as far as the motion leads."""
+    from graphkin.motion.driving import TURN
+    from graphkin.motion.pieces import followed
+
+    path = followed(course.sweep)
+    if path.whole:
+        return [(0.0, TURN)]
+    return sorted((pieces[0].low.at, pieces[-1].high.at) for pieces in path.ranges)
+
+
+def swept(scene: Scene, number: int) -> Sweep:
+    """One turn of a driver, or as far to both sides of nought as all lengths together reach."""
+    from graphkin.motion.driving import reach_of, stated
+    from graphkin.motion.sweep import sweep_of
+
+    driver = scene.drivers[number - 1]
+    if driver.kind == "turn":
+        return sweep_of(scene, driver=number)
+    far = 2 * reach_of(scene) + abs(stated(driver, scene)[0])
+    return sweep_of(scene, driver=number, low=-far, high=far)
+
+
+def refined(course: Course, at: Any, steps: Any) -> Any:
+    """The ends of closing ranges, each between a position that closes and one a step further."""
+    import numpy as np
+
+    share = np.arange(1, PARTS) / PARTS
+    for _ in range(NARROWINGS):
+        between = at[:, None] + steps[:, None] * share
+        tried = within_turn(course, between)
+        closes = course.closes(tried.ravel()).reshape(between.shape)
+        passed = np.cumprod(closes, axis=1).sum(axis=1)
+        at, steps = at + steps * passed / PARTS, steps / PARTS
+    return at
+
+
+def within_turn(course: Course, at: Any) -> Any:
+    """Positions of a driver that turns fully, taken into the turn in which it stands."""
+    if not course.sweep.whole:
+        return at
+    return course.sweep.start // 360 * 360 + at % 360
+
+
+def driver_words(driver: Driver) -> str:
+    """A driver in short, as it is written: turn = 1."""
+    return f"{driver.kind} = {quoted(driver.link)}"

@@ -1,0 +1,113 @@
+"""What lies in line, parallel or square where a crossing fails or is flat, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from graphkin.construction.core.program import Program, Step
+from graphkin.construction.higher_class.trial import needed_of
+from graphkin.diagnosis.ranges import MOST, driver_words
+from graphkin.scene.model import Driver, Scene
+
+
+def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> str:
+    """Which bars and guides are in line, parallel or square where a crossing fails or is flat.
+
+    ``nearly`` is put before these words where the crossing is flat only.
+    """
+    step = program.steps[number]
+    key = step.action.key if step.action else ""
+    says, pin = step.says, step.name
+    if key == "arcs-meet" and pin and "q" in says:
+        return f"{says['p']}{pin} and {says['q']}{pin} are {nearly}in line"
+    if key == "arc-cuts-line" and pin and "p" in says:
+        return f"{says['p']}{pin} is {nearly}square to {guide_under(program, step)}"
+    if key == "swing-through":
+        return f"{says['q']} {nearly}falls on {says['p']}"
+    if key == "swing":
+        return f"{says['p']}{says['q']} is {nearly}square to the guide of {says['g']}"
+    if key.startswith(("close", "part", "share")) and (links := closed_by(program, number)):
+        bars = arms(scene, links)
+        if bars:
+            return f"the lines {', '.join(bars[:-1])} and {bars[-1]} {nearly}meet in one point"
+        return f"two closures of links {', '.join(links)} {nearly}meet"
+    return parallel(program, step, nearly)
+
+
+def closed_by(program: Program, number: int) -> list[str]:
+    """The links of the group of higher class that a step helps to close."""
+    for earlier in reversed(needed_of(program, (number,))):
+        says = program.steps[earlier].says
+        if "list" in says:
+            return says["list"].split(", ")
+    return []
+
+
+def arms(scene: Scene, links: Sequence[str]) -> list[str]:
+    """The three bars that hold the middle link of a group of class III; empty for other groups.
+
+    That link can move although the driver stands where the three lines meet in one point.
+    """
+    for middle in links:
+        points = set(scene.links[middle].points)
+        bars = [scene.links[name].points for name in links if name != middle]
+        if len(bars) == 3 and all(len(bar) == 2 and len(points & {*bar}) == 1 for bar in bars):
+            return ["".join(bar) for bar in bars]
+    return []
+
+
+def parallel(program: Program, step: Step, nearly: str = "") -> str:
+    """Which lines of the mechanism are parallel, or square to one another, when a crossing fails.
+
+    Perpendiculars to two bars are parallel when the bars are.
+    """
+    lines = [program.steps[arg] for arg in step.args]
+    unnamed = f"its two lines are {nearly}parallel"
+    if len(lines) != 2 or any(line.action is None for line in lines):
+        return unnamed
+    (first, square), (second, other) = (line_words(program, line) for line in lines)
+    if not first or not second:
+        return unnamed
+    how = "parallel" if square == other else "perpendicular to each other"
+    return f"{first} and {second} are {nearly}{how}"
+
+
+def line_words(program: Program, line: Step) -> tuple[str, bool]:
+    """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
+    key = line.action.key if line.action else ""
+    says = line.says
+    if key == "square-to" and "q" in says:
+        return f"{says['p']}{says['q']}", True
+    if key == "along-bar" and "q" in says:
+        return f"{says['p']}{says['q']}", False
+    if "g" in says:
+        return f"the guide of {says['g']}", False
+    if key == "shifted":
+        return line_words(program, program.steps[line.args[0]])
+    return "", False
+
+
+def guide_under(program: Program, step: Step) -> str:
+    """The guide on which a step seeks its point, from the words of the lines before it."""
+    for arg in step.args:
+        words, _ = line_words(program, program.steps[arg])
+        if words:
+            return words
+    return "its guide"
+
+
+def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
+    """What is nearly in line where a crossing is flat, and which driver positions to leave."""
+    drivers = zip(scene.drivers, program.drives, strict=False)
+    needed = set(needed_of(program, (number,)))
+    causes = [driver for driver, drive in drivers if drive.position in needed]
+    places = [f"{driver_words(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
+    words = in_line(scene, program, number, "nearly ")
+    return f"{words}: move {' or '.join(places)} to another position" if places else words
+
+
+def stands(scene: Scene, driver: Driver) -> str:
+    """A driver's position as the scene has it, with its unit."""
+    number = float(driver.position.number(scene.values))
+    unit = driver.position.unit
+    return f"{number:.10g}°" if unit == "deg" else f"{number:.10g} {unit}"

@@ -1,0 +1,140 @@
+"""The A4 calculation pages: every relation with its number, symbols, figures, result and sense."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.parameter_words import parameters
+from graphkin.construction.core.relation import Relation
+from graphkin.documents.relations import relations
+from graphkin.documents.sheet import title_of
+from graphkin.drawing.areas import A4_AREA, A4_SIZE
+from graphkin.drawing.frame import page_frame
+from graphkin.drawing.marks import Mark, Page, Text
+from graphkin.drawing.richtext import escape, extent, flowed, plain, words_of
+from graphkin.text.errors import PageError, Problem
+
+LETTER = 2.5
+LINE, GAP = 6.0, 3.0
+"""Distance of lines, and what a heading adds above it, in mm."""
+LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
+TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
+BLANK = ". " * 14
+"""Room to write in, on the form that is to be filled in."""
+NUMBER = 12.0
+"""Width kept at the right for the relation's number, in mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class CalculationRow:
+    """A line of the page: a heading, or a relation with its number."""
+
+    markup: str
+    number: str = ""
+    heading: bool = False
+
+
+NOTHING: Mapping[str, str] = {}
+
+
+def calculation(
+    drawings: Sequence[Drawing], view: str, computed: Mapping[str, str] = NOTHING
+) -> tuple[Page, ...]:
+    """The calculation pages of the sheets that were drawn: solved, or to be filled in.
+
+    ``computed`` says by the symbol why a quantity is computed, not measured.
+    """
+    rows = list(all_rows(drawings, computed, solved=view == "key"))
+    pages = list(paged(rows))
+    return tuple(
+        page_of(drawings[0], page, view, f"{i}/{len(pages)}") for i, page in enumerate(pages, 1)
+    )
+
+
+def all_rows(
+    drawings: Sequence[Drawing], computed: Mapping[str, str], *, solved: bool
+) -> Iterator[CalculationRow]:
+    """All lines in order, relations numbered through."""
+    number = 0
+    for section, found in relations(drawings, solved=solved):
+        if not found:
+            continue
+        yield CalculationRow(drawings[0].words(f"calculation.{section}"), heading=True)
+        for relation in found:
+            number += bool(relation.result)
+            tag = f"({number})" if relation.result else ""
+            hint = computed.get(relation.left, "") if relation.result else ""
+            yield from broken(relation, tag, drawings[0], hint, solved=solved)
+
+
+def broken(
+    relation: Relation, tag: str, drawing: Drawing, hint: str = "", *, solved: bool
+) -> Iterator[CalculationRow]:
+    """A relation in as many lines as it needs, its number beside the last, a hint after it."""
+    parts = relation.parts(solved=solved)
+    room = RIGHT - LEFT - NUMBER
+    parts = [
+        piece
+        for part in parts
+        for piece in (words_of(part) if extent(part, LETTER)[0] > room else [part])
+    ]
+    if relation.blank and not solved:
+        parts = [*parts[:-1], f"{parts[-1]} {relation.blank[0]}", *relation.blank[1:]]
+    elif relation.result and not solved:
+        parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
+        if relation.unit.startswith("rad/"):
+            parts.append(f"({drawing.words('table.sense')}: {BLANK.rstrip()})")
+    parts += [f"({hint})"] if hint else []
+    lines = flowed(parts, "", room, LETTER)
+    for i, line in enumerate(lines):
+        if extent(line, LETTER)[0] > room:
+            raise PageError(
+                Problem(
+                    "calculation",
+                    f"does not fit: {plain(line)}",
+                    "a shorter relation",
+                    "shorten the names of the points",
+                )
+            )
+        yield CalculationRow(line, tag if i == len(lines) - 1 else "")
+
+
+def paged(rows: Sequence[CalculationRow]) -> Iterator[list[tuple[float, CalculationRow]]]:
+    """The lines with their places, page by page; no heading stands last on a page."""
+    page: list[tuple[float, CalculationRow]] = []
+    y = TOP
+    for row in rows:
+        step = LINE + (GAP if row.heading and page else 0)
+        need = step + (LINE if row.heading else 0)
+        if page and y + need > BOTTOM:
+            yield page
+            page, y, step = [], TOP, LINE
+        y = y + step if page else y
+        page.append((y, row))
+    if page:
+        yield page
+
+
+def page_of(
+    drawing: Drawing, rows: Sequence[tuple[float, CalculationRow]], view: str, number: str
+) -> Page:
+    """One A4 page."""
+    words = drawing.words
+    title = "; ".join([escape(title_of(drawing)), *parameters(drawing.scene, words)])
+    name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
+    sheet = drawing.scene.sheet
+    marks: list[Mark] = [
+        *page_frame((title, name), (escape(sheet.author) or words("page.student"), number))
+    ]
+    for y, row in rows:
+        if row.heading:
+            marks.append(Text(LEFT, y, row.markup, "caption", 3.5))
+            continue
+        marks.append(Text(LEFT + 3, y, row.markup, "caption", LETTER))
+        if row.number:
+            marks.append(Text(RIGHT, y, row.number, "caption", LETTER, "end"))
+    page = Page(*A4_SIZE, tuple(marks), f"{title_of(drawing)} – {name}", words.language)
+    page.check()
+    return page

@@ -1,0 +1,178 @@
+"""Centres and poles of links: at a point, at infinity, or none where the link is at rest."""
+
+from __future__ import annotations
+
+from cmath import isfinite, phase
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from math import degrees
+from typing import Any
+
+from graphkin.construction.core.solution import UNKNOWN, LinkMotion, PointMotion, Solution
+from graphkin.numbers.arithmetic import at
+from graphkin.numbers.plane import Ratio
+from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.pairs import guides_under
+from graphkin.text.plain_table import NOISE, Cell, number, table
+
+FAR = 1e9
+"""Breadths of the mechanism beyond which a centre counts as at infinity."""
+NOT_SURE = "not sure"
+
+
+def place_of(ratio: Ratio | None, breadth: float) -> complex | None:
+    """The point that a ratio names (m); None at infinity, and where no point is singled out.
+
+    NaN where no digit of it is sure.
+    """
+    if ratio is not None and not isfinite(ratio.shift):
+        return UNKNOWN
+    if ratio is None or abs(ratio.shift) >= FAR * breadth * abs(ratio.size):
+        return None
+    return complex(ratio.start + ratio.shift / ratio.size)
+
+
+def breadth_of(solution: Solution) -> float:
+    """Half the perimeter of the box around all points (m), 1 when they all coincide."""
+    places = [p.position for p in solution.points.values() if p.position is not None]
+    places = [z for z in places if isfinite(z)]
+    xs, ys = [z.real for z in places], [z.imag for z in places]
+    return (max(xs) - min(xs) + max(ys) - min(ys) if places else 0.0) or 1.0
+
+
+def largest(values: Iterable[complex | float | None]) -> float:
+    """The largest magnitude among values that are known; zero when there is none."""
+    known = (abs(value) for value in values if value is not None)
+    return max((size for size in known if isfinite(size)), default=0.0)
+
+
+def completed(scene: Scene, solution: Solution) -> Solution:
+    """The solution with every moving link in it: a block turns as its guide does.
+
+    A link at rest has neither centre nor pole, for each of its points is one.
+    """
+    turning = largest(link.omega for link in solution.links.values())
+    spinning = largest(link.epsilon for link in solution.links.values())
+    speeds = largest(point.velocity for point in solution.points.values())
+    rates = largest(point.acceleration for point in solution.points.values())
+    links = {}
+    for name in scene.links:
+        motion = with_pole(solution.links.get(name), carried(scene, name, solution))
+        points = [solution.points[p] for p in scene.links[name].points if p in solution.points]
+        stops = still([motion.omega], turning)
+        if stops and still((p.velocity for p in points), speeds):
+            motion = replace(motion, instant_centre=None)
+        unmoved = stops and still([motion.epsilon], spinning)
+        if unmoved and still((p.acceleration for p in points), rates):
+            motion = replace(motion, acceleration_pole=None)
+        links[name] = motion
+    return replace(solution, links=links)
+
+
+def with_pole(motion: LinkMotion | None, turned: LinkMotion) -> LinkMotion:
+    """The motion of a link, its pole from its turning where no two of its points gave one."""
+    if motion is None:
+        return turned
+    if motion.acceleration_pole is not None or motion.epsilon is None:
+        return motion
+    return replace(motion, acceleration_pole=turned.acceleration_pole)
+
+
+def still(values: Iterable[complex | float | None], biggest: float) -> bool:
+    """True when every value is known and nothing beside the largest of its kind."""
+    found = list(values)
+    return bool(found) and all(z is not None and abs(z) <= NOISE * biggest for z in found)
+
+
+def carried(scene: Scene, name: str, solution: Solution) -> LinkMotion:
+    """Motion of a block that turns with its guide: on the frame it does not turn."""
+    point = next((p for p in scene.links[name].points if p in solution.points), None)
+    motion = solution.points[point] if point is not None else PointMotion()
+    own = solution.links.get(name)
+    omega, epsilon = (own.omega, own.epsilon) if own else turning_of_guide(scene, name, solution)
+    if motion.position is None or omega is None:
+        return LinkMotion(omega, epsilon)
+    centre = pole = None
+    if motion.velocity is not None:
+        centre = Ratio(motion.position, 1j * motion.velocity, omega)
+    if motion.acceleration is not None and epsilon is not None:
+        pole = Ratio(motion.position, -motion.acceleration, at(-omega * omega, epsilon))
+    return LinkMotion(omega, epsilon, centre, pole)
+
+
+def turning_of_guide(
+    scene: Scene, name: str, solution: Solution
+) -> tuple[float | None, float | None]:
+    """ω and ε of the link that carries the guides under a block, however many lie between."""
+    for link in guides_under(scene, name):
+        if link == FRAME:
+            return 0.0, 0.0
+        if link in solution.links:
+            return solution.links[link].omega, solution.links[link].epsilon
+    return None, None
+
+
+def centre_words(ratio: Ratio | None, breadth: float) -> str:
+    """Where an instantaneous centre lies (m), or the direction in which it is at infinity."""
+    if ratio is not None and not isfinite(ratio.shift):
+        return NOT_SURE
+    place = place_of(ratio, breadth)
+    if place is not None:
+        return point_words(place)
+    if ratio is None or ratio.shift == 0:
+        return "every point: the link is at rest"
+    return f"at infinity, in direction {number(degrees(phase(ratio.shift)) % 180)}°"
+
+
+def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float) -> str:
+    """Where an acceleration pole lies (m), or the common direction when it is at infinity."""
+    if ratio is not None and not isfinite(ratio.shift):
+        return NOT_SURE
+    place = place_of(ratio, breadth)
+    if place is not None:
+        return point_words(place)
+    if ratio is None or not acceleration:
+        return "every point: none of them accelerates"
+    return f"at infinity: all accelerate alike, towards {number(degrees(phase(acceleration)))}°"
+
+
+def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
+    """Where the relative centres of two links lie (m)."""
+    breadth = breadth_of(solution)
+    rows: list[list[Cell]] = []
+    for name in names:
+        ratio = solution.centres[name]
+        words = centre_words(ratio, breadth)
+        if place_of(ratio, breadth) is None and ratio.shift == 0:
+            words = "every point: they move as one"
+        rows.append([name.replace("-", " and "), words])
+    return table(["links", "centre of both, m"], rows) if rows else []
+
+
+def inflection_table(links: Mapping[str, dict[str, Any]]) -> list[str]:
+    """The inflection circle of each link that has one reported (m)."""
+    rows: list[list[Cell]] = []
+    for name, link in links.items():
+        if "inflection" not in link:
+            continue
+        circle = link["inflection"]
+        pole, centre, radius = "at infinity", None, None
+        if circle is not None:
+            pole, centre = (pair_words(circle[key]) for key in ("pole", "centre"))
+            radius = circle["radius"]
+        rows.append([name, pole, centre, radius])
+    heads = ["link", "inflection pole, m", "centre of circle, m", "radius, m"]
+    return table(heads, rows) if rows else []
+
+
+def pair_words(pair: list[float | None]) -> str:
+    """The coordinates of a pair in brackets."""
+    known = [part for part in pair if part is not None]
+    return point_words(complex(*known)) if len(known) == len(pair) else NOT_SURE
+
+
+def point_words(place: complex) -> str:
+    """A point's coordinates in brackets."""
+    largest_part = max(abs(place.real), abs(place.imag))
+    x, y = (0.0 if abs(part) <= NOISE * largest_part else part for part in (place.real, place.imag))
+    return f"({number(x)}, {number(y)})"

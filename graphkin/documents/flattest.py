@@ -1,0 +1,93 @@
+"""The quiet line on the sheet's margin that says where a pencil's error grows most."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+from math import degrees
+
+from graphkin.construction.core.component import Component, is_hidden
+from graphkin.construction.core.crossings import Crossing, crossings, flattest
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.program import Part
+from graphkin.construction.higher_class.coincident_images import fallen_on
+from graphkin.drawing.areas import BELOW, TABLES
+from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.symbol_markup import symbol
+
+HEIGHT = 1.8
+"""Height of the lettering in mm."""
+APART = 2.5
+"""Room in mm between this line and what stands before it."""
+END = TABLES[0] - 22.0
+"""Where the line ends, in mm from the page's left edge: clear of the centring mark."""
+OWN = {
+    "velocity": (Part.POSITION, Part.VELOCITY, Part.CENTRE),
+    "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION, Part.POLE),
+}
+"""The parts of the work that are drawn on each sheet."""
+
+
+def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
+    """The flattest crossing of a sheet, its angle, and what a millimetre of pencil becomes there.
+
+    ``start`` is where there is room, in mm; a name that has none there goes without its index,
+    then without what a millimetre becomes.
+    Nothing where no lines cross. What stands on a sheet before this one is not drawn again.
+    """
+    worst = flattest(crossings_on(drawing))
+    if worst is None:
+        return
+    letter = letter_of_crossing(drawing, worst)
+    forms = "page.flattest", "page.flattest_angle"
+    for form, name in product(forms, (letter, letter.partition("_")[0])):
+        text = drawing.words(
+            form,
+            name=symbol(name),
+            angle=drawing.words.fixed(degrees(worst.angle), 0),
+            factor=drawing.words.significant(worst.factor, 2),
+        )
+        if END - extent(text, HEIGHT)[0] >= start + APART:
+            yield Text(END, BELOW[3] + 0.8, text, "caption", HEIGHT, "end", name="flattest")
+            return
+
+
+def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
+    """The crossings with a letter that a sheet draws itself, where its lines lead anywhere."""
+    parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
+    return tuple(
+        crossing
+        for crossing in crossings(drawing.trace)
+        if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
+        if crossing.number not in drawing.tags or not fallen_on(drawing, crossing.number)
+        if not is_hidden(drawing, crossing.number)
+    )
+
+
+def locus_of(drawing: Drawing, crossing: Crossing) -> tuple[int, str] | None:
+    """Of a crossing that closes a group the step that does, and the letter of the locus."""
+    steps = drawing.trace.program.steps
+    for number in steps[crossing.number].args:
+        action, letter = steps[number].action, steps[number].says.get("q")
+        if action is not None and action.key == "close" and letter:
+            return number, letter
+    return None
+
+
+def is_gap(drawing: Drawing, crossing: Crossing) -> bool:
+    """True where two loci show how a group closes: where they are a bar apart, not by crossing."""
+    locus = locus_of(drawing, crossing)
+    return locus is not None and " " in drawing.trace.program.steps[locus[0]].says["l"]
+
+
+def letter_of_crossing(drawing: Drawing, crossing: Crossing) -> str:
+    """The letter of a crossing as it is drawn; of one that closes a group that of the locus."""
+    locus, step = locus_of(drawing, crossing), drawing.trace.program.steps[crossing.number]
+    if locus:
+        return locus[1]
+    kind = construction(step)
+    if isinstance(kind, Component):
+        return kind.letter(drawing, step.role)
+    return step.name or crossing.name

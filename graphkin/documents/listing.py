@@ -1,0 +1,75 @@
+"""The numbered sentences of the construction below the drawings, in lettering that fits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.documents.sentences import sentences
+from graphkin.drawing.areas import MARKED
+from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.richtext import are_clear, flowed, words_of
+from graphkin.text.errors import PageError, Problem
+
+LOOKS = ((2.5, 5.6, 4.0), (1.8, 4.0, 3.4))
+"""Heights of lettering, each with the largest and the least distance of its lines, in mm."""
+FINE = 0.05
+"""By how much, in mm, lines are set closer until they fit."""
+INDENT = 7.0
+"""Where sentences begin, behind their numbers, in mm."""
+
+Numbered = tuple[str, str]
+"""A line, with the number of the sentence that it begins; with nothing where it goes on."""
+
+
+def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
+    """The sentences from a place on, as far apart as there is room for their lines.
+
+    In small lettering where signs of large lines would touch. Raises PageError where even small
+    lines are too many.
+    """
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    for height, most, least in LOOKS:
+        wide, narrow = (
+            [flowed(words, " ", across - INDENT, height) for words in said]
+            for across in (width, MARKED[0] - x)
+        )
+        for leading in distances(most, least):
+            lines = lined(wide, narrow, int((MARKED[1] - y) / leading + 1))
+            if y + (len(lines) - 1) * leading <= bottom:
+                break
+        else:
+            continue
+        if height == LOOKS[-1][0] or are_clear([line for _, line in lines], height, leading):
+            break
+    else:
+        raise PageError(
+            Problem(
+                "construction",
+                f"does not fit: {len(lines)} lines",
+                "a shorter construction",
+                "ask for less on one sheet",
+            )
+        )
+    marks: list[Mark] = []
+    for i, (number, line) in enumerate(lines):
+        if number:
+            marks.append(Text(x + 5, y + i * leading, number, "caption", height, "end"))
+        marks.append(Text(x + INDENT, y + i * leading, line, "caption", height))
+    return marks
+
+
+def distances(most: float, least: float) -> Iterator[float]:
+    """Distances of lines from the largest to the least."""
+    for i in range(round((most - least) / FINE) + 1):
+        yield round(most - i * FINE, 3)
+
+
+def lined(wide: list[list[str]], narrow: list[list[str]], above: int) -> list[Numbered]:
+    """The lines of sentences; those of one that goes on beneath so many lines are the narrow ones,
+    which stay clear of the centring mark."""
+    lines: list[Numbered] = []
+    for number, (own, short) in enumerate(zip(wide, narrow, strict=True), 1):
+        chosen = own if len(lines) + len(own) <= above else short
+        lines += [(f"{number}." if i == 0 else "", line) for i, line in enumerate(chosen)]
+    return lines

@@ -1,0 +1,113 @@
+"""On what a mark of the mechanism rests that is of no step: points, axes, what a driver turns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.program import CONTACT
+from graphkin.construction.guides.slide_symbols import frame_guides, places_of
+from graphkin.construction.links.plates import corners_of, farthest
+from graphkin.construction.rolling.wheel_symbols import is_all_wheel, straight_tracks
+from graphkin.drawing.field import Field
+from graphkin.drawing.marks import Mark
+from graphkin.scene.model import FRAME, Driver, Link
+
+Target = tuple[str, str]
+DRIVEN = ("x", "axis", "phi", "omega", "s", "speed")
+"""What the names of a driver's marks begin with; its link follows where there are several."""
+
+BODY = ("plate", "link", "number", "label", "leader")
+"""The classes of a link's bar or plate, and of its number."""
+
+
+def ground_of(drawing: Drawing, field: Field) -> Mapping[Mark, tuple[Target, ...]]:
+    """The guides and straight tracks of the frame, each with the points about which it is drawn.
+
+    Their lines alone, across the field, tell nothing of where blocks and wheels stand.
+    """
+    found: dict[Mark, tuple[Target, ...]] = {}
+    links = drawing.scene.links
+    for blocks, marks in frame_guides(drawing, field):
+        about = tuple(("position", links[block].points[0]) for block in blocks)
+        found |= dict.fromkeys(marks, about)
+    for touch, marks in straight_tracks(drawing, field):
+        if touch.rolling.on == FRAME:
+            found |= dict.fromkeys(marks, (("position", touch.disc.wheel.centre),))
+    return found
+
+
+def rests_on(drawing: Drawing, mark: Mark) -> Iterator[Target]:
+    """The targets of the program that a mark cannot stand without; none for what is given."""
+    name, link = mark.name, drawing.scene.links.get(mark.name)
+    if link is not None:
+        yield from of_link(drawing, link, mark.cls.split()[0])
+    elif driver := driver_of(drawing, name):
+        yield from of_driver(drawing, driver)
+    else:
+        yield "position", name
+        yield "position", CONTACT + name
+
+
+def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
+    """What the mark of a link rests on: points, and its axis where they do not show it."""
+    points = list(link.points)
+    turned = len(points) < 2
+    if kind == "contact":
+        points, turned = contacts_of(drawing, link), False
+    elif kind == "disc":
+        points, turned = [wheel.centre for wheel in link.wheels], False
+    elif kind == "slider":
+        points, turned = points[:1], False
+    elif kind == "block" or (is_carrier(drawing, link) and corners_of(drawing, link) is None):
+        points, turned = points[:1], True
+    elif kind in BODY and not any(wheel.teeth for wheel in link.wheels):
+        points = body_of(drawing, link)
+        level = link.wheels or any(slide.on == FRAME for slide in link.slides)
+        turned = len(points) < 2 and not level
+    yield from (("position", point) for point in points)
+    if turned:
+        yield "axis", link.name
+
+
+def contacts_of(drawing: Drawing, link: Link) -> list[str]:
+    """The points at which the wheels of a link touch their tracks."""
+    touches = [touch for touch in drawing.standing.touches if touch.disc.link == link.name]
+    return [CONTACT + drawing.standing.name_at(touch.at) for touch in touches]
+
+
+def is_carrier(drawing: Drawing, link: Link) -> bool:
+    """True for a link with a straight guide that another link slides on."""
+    return any(way.slide.on == link.name for way in drawing.standing.guideways)
+
+
+def body_of(drawing: Drawing, link: Link) -> list[str]:
+    """The points that a link's body needs: ends of a bar, corners of a plate, a wheel's centre."""
+    if link.wheels and is_all_wheel(drawing, link.name):
+        return [wheel.centre for wheel in link.wheels]
+    places = places_of(drawing, link.name)
+    if len(places) < 2:
+        return list(link.points)
+    ends = corners_of(drawing, link) or farthest(places)
+    return [point for point in link.points if drawing.positions.get(point) in ends]
+
+
+def driver_of(drawing: Drawing, name: str) -> Driver | None:
+    """The driver whose mark has a name."""
+    sign, _, link = name.partition(" ")
+    drivers = drawing.scene.drivers
+    if sign not in DRIVEN or name in drawing.positions:
+        return None
+    return next((d for d in drivers if d.link == link or (not link and len(drivers) == 1)), None)
+
+
+def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Target]:
+    """The points that show how a driver stands."""
+    link = drawing.scene.links[driver.link]
+    if driver.kind == "turn":
+        yield from (("position", point) for point in (driver.of or link.points)[:2])
+    elif driver.kind == "slide":
+        yield "position", link.points[0]
+        yield "guide", link.name
+    else:
+        yield from (("position", wheel.centre) for wheel in link.wheels)

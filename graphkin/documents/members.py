@@ -1,0 +1,27 @@
+"""What the links of a mechanism are, in a line: their points, blocks and wheels."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.model import Link
+from graphkin.text import Words
+
+
+def members(drawing: Drawing) -> str:
+    """The links by their numbers and the points that they join, as a task tells them."""
+    words = drawing.words
+    links = drawing.scene.links.items()
+    told = [f"{escape(name)} = {of_link(words, link)}" for name, link in links]
+    return words("page.members", list=words("list_mark").join(told))
+
+
+def of_link(words: Words, link: Link) -> str:
+    """The points of a link in order; one with a single point is a block, or a wheel on it."""
+    points = "".join(symbol(point) for point in link.points)
+    if link.slides and len(link.points) < 2:
+        return words("page.member_block", points=points)
+    if link.wheels:
+        return words("page.member_wheel", points=points)
+    return points

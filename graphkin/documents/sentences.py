@@ -1,0 +1,153 @@
+"""The construction in words: one numbered sentence for each point that is found, in order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from graphkin.construction.centres.centre_words import with_centres_together
+from graphkin.construction.centres.parallel_velocities import set_before
+from graphkin.construction.core.component import Component, component_of, laid_off
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_pairs import SWINGS
+from graphkin.construction.core.naming import drawn_amount, height_above
+from graphkin.construction.core.plot import TINY
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.higher_class.closing_words import closing_sentence, idle_sentences
+from graphkin.construction.higher_class.trial_words import (
+    share_sentence,
+    trial_sentence,
+    with_trials_together,
+)
+from graphkin.construction.normal_component.component_words import with_normals_together
+from graphkin.construction.rolling.rolling_words import with_starts_together
+from graphkin.construction.step_sentences import point_sentence
+from graphkin.documents.indices import with_indices
+from graphkin.documents.step_numbers import READ_OFF
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar, symbol
+
+TURNING = "turning"
+"""The name of the last sentence where it says how the turning of links is read off."""
+
+
+def sentences(drawing: Drawing) -> list[Sentence]:
+    """What to draw on a sheet, in the order of drawing, and what to read off at the end."""
+    found: list[Sentence] = []
+    if drawing.again:
+        found.append(Sentence(-1, "again", drawing.words("step.again")))
+    found += said_of_steps(drawing)
+    if not drawing.again:
+        steps = drawing.trace.program.steps
+        place = sum(said.step >= 0 and steps[said.step].part is Part.POSITION for said in found)
+        found[place:place] = idle_sentences(drawing)
+    found += [
+        Sentence(-1, curve.kind, drawing.words(f"step.{curve.kind}", of=symbol(curve.of)))
+        for curve in drawing.curves
+        if curve.kind not in ("fixed-centrode", "locus")
+    ]
+    last = list(read_off(drawing))
+    found = with_starts_together(drawing, with_trials_together(drawing, found))
+    found = with_centres_together(drawing, found)
+    return with_indices(drawing, [*with_normals_together(drawing, found), *last])
+
+
+def read_off(drawing: Drawing) -> Iterator[Sentence]:
+    """What is read off at the end, if anything; how a link turns only where one is said to."""
+    words, velocity = drawing.words, drawing.kind == "velocity"
+    turns = any(drawing.turning(link) is not None for link in drawing.scene.links)
+    turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
+    if markup := set_on_mechanism(drawing, turning):
+        yield Sentence(-1, TURNING if turns else "", markup)
+
+
+def set_on_mechanism(drawing: Drawing, turning: str) -> str:
+    """Which vectors are set on the mechanism, and how what turns is read off."""
+    words, velocity = drawing.words, drawing.kind == "velocity"
+    part = Part.VELOCITY if velocity else Part.ACCELERATION
+    early = set_before(drawing)
+    lengths = [
+        (symbol(step.says["symbol"]), abs(arrow.tip - arrow.tail))
+        for number, step, arrow in drawing.steps(Plane.MECHANISM)
+        if step.action and step.action.key in READ_OFF and step.part is part
+        if number not in early
+    ]
+    if not lengths:
+        return turning.removeprefix("; ")
+    set_on = [name for name, length in lengths if length * 1000 >= TINY * drawing.scales.kL]
+    named = words("list_mark").join(dict.fromkeys(set_on))
+    if named:
+        return words("step.read-off", list=named, turning=turning)
+    metres = drawing.scales.metres(drawing.kind)
+    nought = not any(drawing.settled(length / metres) for _, length in lengths)
+    return words(f"step.read-{'none' if nought else 'short'}", turning=turning)
+
+
+def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
+    """The sentences of the steps of a sheet, in their order."""
+    program, shown = drawing.trace.program, set[type[Component]]()
+    for number, step, _ in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
+        key = step.action.key if step.action else ""
+        component, laid = component_of(program, number), laid_off(program, number)
+        if component is not None:
+            first = type(component) not in shown and component.is_drawn(drawing)
+            shown |= {type(component)} if first else set()
+            yield Sentence(number, *component.sentence(drawing, first=first))
+        elif number in drawing.tags:
+            yield from trial_sentence(drawing, number)
+        elif laid is not None:
+            if is_own(drawing, step) and (markup := laid.sentence(drawing)):
+                yield Sentence(number, key, markup)
+        elif key in OWN and is_own(drawing, step):
+            if markup := OWN[key](drawing, number, step):
+                yield Sentence(number, key, markup)
+        elif is_found_point(drawing, number, step) and not is_again(drawing, step):
+            divided = key == "between" and step.by_hand not in drawing.trace.values
+            markup = "" if divided else point_sentence(drawing, number, step)
+            yield Sentence(number, step.name, markup)
+
+
+def is_again(drawing: Drawing, step: Step) -> bool:
+    """True for a step that the sheet before has shown: the mechanism itself."""
+    return drawing.again and step.part is Part.POSITION
+
+
+def is_own(drawing: Drawing, step: Step) -> bool:
+    """True for a step that this sheet is about: not what the sheet before has found."""
+    found_before = (Part.POSITION, Part.VELOCITY) if drawing.kind == "acceleration" else ()
+    return not is_again(drawing, step) and step.part not in found_before
+
+
+def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
+    """True for a step that finds a point, a pole or a centre of this sheet."""
+    if step.action is None or not step.name or step.arrow or number in drawing.results:
+        return False
+    if step.plane is Plane.MECHANISM:
+        wanted = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
+        return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.frame.points
+    return step.plane is drawing.plane and step.action.key != "pole"
+
+
+# --- sentences of their own ----------------------------------------------------------------------
+
+
+def swing_sentence(drawing: Drawing, number: int, step: Step) -> str:
+    """A lever laid through a pin; at an offset as the tangent by Thales' circle."""
+    says = step.says
+    key = "step.swing" if step.by_hand in drawing.trace.values else "step.swing-through"
+    return drawing.words(
+        key,
+        p=symbol(says["p"]),
+        q=symbol(says["q"]),
+        k=escape(says["k"]),
+        bar=bar(says["p"], says["q"]),
+        radius=drawn_amount(drawing, height_above(drawing, step)) if len(step.args) > 2 else "",
+    )
+
+
+OWN: dict[str, Callable[[Drawing, int, Step], str]] = {
+    **dict.fromkeys(SWINGS, swing_sentence),
+    "close": closing_sentence,
+    "share": share_sentence,
+}
+"""Steps that find no point by themselves and have a sentence all the same."""

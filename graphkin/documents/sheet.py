@@ -1,0 +1,249 @@
+"""An A3 sheet: mechanism and plan side by side, data above, construction and tables below."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from graphkin.construction import step_marks
+from graphkin.construction.core.curve_marks import draw_curves
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import given
+from graphkin.construction.core.layout import Layout, lay_out
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.naming import called
+from graphkin.construction.core.plan_marks import put_pole
+from graphkin.construction.core.plot import Plot, above_foot
+from graphkin.construction.drivers import driver_symbols
+from graphkin.construction.guides.slide_symbols import covered
+from graphkin.construction.higher_class.closing_words import draw_closing_arcs
+from graphkin.construction.links import mechanism_symbols
+from graphkin.construction.result_tables import tables
+from graphkin.documents.captions import headlines
+from graphkin.documents.detail import parted
+from graphkin.documents.flattest import flattest_line
+from graphkin.documents.inset import insets
+from graphkin.documents.listing import listed
+from graphkin.documents.members import members
+from graphkin.documents.task_scale import plan_at
+from graphkin.drawing.areas import A3_AREA, AREA, BELOW, TABLES
+from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import LineMark, Mark, Page, Text
+from graphkin.drawing.richtext import escape, extent, flowed
+from graphkin.drawing.style import VECTORS
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.text.errors import PageError, Problem
+
+TITLE = 182.0
+"""Widest title that stays clear of the centring mark, in mm."""
+LEADING = 4.6
+"""Distance of lines of text in mm."""
+RAISED = (*VECTORS, "arrowhead")
+"""What stands above bars and pins, so that one sees where vectors begin and where they point."""
+
+
+def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None) -> Page:
+    """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
+    layout = layout or lay_out(drawing)
+    boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
+    (left, detail), (right, other) = parted(*boards)
+    if view != "task":
+        detail += insets(drawing, layout.mechanism, [*left, *detail])
+    marks: list[Mark] = [
+        *sheet_frame(title_block(drawing, view, number)),
+        *heading(drawing),
+        *(*left, *detail, *right, *other),
+        *panels(layout),
+        *below(drawing, view),
+    ]
+    title = f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
+    return Page(420, 297, tuple(marks), title, drawing.words.language)
+
+
+def panels(layout: Layout) -> list[Mark]:
+    """The lines between the mechanism, the plan and what stands below them."""
+    x = layout.plan.rect[0]
+    return [
+        LineMark(x, AREA[1] - 6, x, AREA[3] - 2, "panel"),
+        LineMark(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
+    ]
+
+
+def title_of(drawing: Drawing) -> str:
+    """The scene's title in the sheet's language."""
+    return drawing.scene.titles.get(drawing.words.language, drawing.scene.title)
+
+
+def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
+    """The fields of the title block."""
+    words, sheet = drawing.words, drawing.scene.sheet
+    fields = (
+        "legal_owner",
+        "title",
+        "creator",
+        "approved_by",
+        "document_type",
+        "identification",
+        "date_of_issue",
+        "sheet",
+        "language",
+        "scale",
+        "revision",
+    )
+    return TitleBlock(
+        legal_owner=sheet.owner,
+        title=title_of(drawing),
+        creator=sheet.author,
+        approved_by=sheet.approved,
+        document_type=words(f"sheet.document_{called(drawing)}", view=words(f"sheet.{view}")),
+        identification=sheet.number,
+        date_of_issue=sheet.date,
+        sheet=number,
+        language=words.language,
+        scale=words.decimal(drawing.scales.words),
+        labels={name: words(f"block.{name}") for name in fields},
+    )
+
+
+def heading(drawing: Drawing) -> list[Mark]:
+    """The sheet's title and the data, in as many lines as they need."""
+    words = drawing.words
+    left, top = AREA[0] + 2, A3_AREA[1]
+    name = f"{words('sheet.' + called(drawing))} – {title_of(drawing)}"
+    height = next((h for h in (5, 3.5) if extent(escape(name), h)[0] <= TITLE), 2.5)
+    marks: list[Mark] = [Text(left, top + 10, escape(name), "title", height, name="title")]
+    marks += check_bar(AREA[2] - 106, top + 7, "")
+    bar = words("page.check_bar")
+    marks.append(Text(AREA[2] - 109, top + 7, bar, "check-bar", 1.8, "end"))
+    return [*marks, *data_lines(drawing, left, top + 15.2, AREA[2] - left - 3)]
+
+
+def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]:
+    """The data in two lines, or in three of smaller lettering."""
+    first, *pieces = given(drawing)
+    pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
+    for height, leading, room, above in ((2.5, 4.2, 2, 0.0), (1.8, 3.2, 3, 1.0)):
+        lines = flowed(pieces, "; ", width, height)
+        if len(lines) <= room:
+            return [
+                Text(x, y - above + i * leading, line, "caption", height, name="data")
+                for i, line in enumerate(lines)
+            ]
+    raise PageError(
+        Problem(
+            "data",
+            f"does not fit: {len(lines)} lines of small lettering",
+            "three lines above the drawing",
+            "shorten names and notes, or split the scene",
+        )
+    )
+
+
+def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
+    """The mechanism's field."""
+    field = layout.mechanism
+    board = FieldContent(field.rect, unnamed=drawing.words("page.unnamed"))
+    board.marks += headlines(drawing, layout, view)[0]
+    if view == "task":
+        mechanism_symbols.draw_frame(board, drawing, field)
+        return board
+    plot = Plot(board, field, drawing, layout)
+    mechanism_symbols.draw_plates(board, drawing, field)
+    draw_curves(board, drawing, field, above_foot(field.rect))
+    step_marks.draw_mechanism_steps(plot, found=True)
+    draw_closing_arcs(board, drawing, field)
+    loci = list(board.marks)
+    mechanism_symbols.draw_ground(board, drawing, field)
+    mechanism_symbols.draw_guides(board, drawing, field)
+    raise_marks(board, covered(loci, board.marks))
+    mechanism_symbols.draw_upper(board, drawing, field)
+    step_marks.draw_mechanism_steps(plot, found=False)
+    if drawing.kind == "velocity":
+        driver_symbols.draw_drivers(board, drawing, field)
+    mechanism_symbols.draw_pins(board, drawing, field)
+    raise_marks(board, vectors(board.marks))
+    return board
+
+
+def raise_marks(board: FieldContent, some: Sequence[Mark]) -> None:
+    """Put some marks above all others that are drawn so far."""
+    raised = {id(mark) for mark in some}
+    board.marks = [*(mark for mark in board.marks if id(mark) not in raised), *some]
+
+
+def vectors(marks: Sequence[Mark]) -> list[Mark]:
+    """The vectors of steps with their heads."""
+    own = {(m.step, m.name) for m in marks if m.step is not None and m.cls.split()[0] in VECTORS}
+    return [m for m in marks if (m.step, m.name) in own and m.cls.split()[0] in RAISED]
+
+
+def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
+    """The plan's field."""
+    field = layout.plan
+    board = FieldContent(field.rect, unnamed=drawing.words("page.unnamed"))
+    board.marks += headlines(drawing, layout, view)[1]
+    plot = Plot(board, field, drawing, layout)
+    if view == "task":
+        for number, step, value in drawing.steps(drawing.plane):
+            if step.action and step.action.key == "pole":
+                put_pole(plot, number, step, value)
+        return board
+    step_marks.draw_plan_steps(plot)
+    return board
+
+
+def below(drawing: Drawing, view: str) -> list[Mark]:
+    """The construction in words, the tables, the check bar and the witness's verdict."""
+    words = drawing.words
+    left, top = BELOW[0] + 2, BELOW[1]
+    marks: list[Mark] = []
+    width = TABLES[0] - left - 5
+    bottom = BELOW[3] - 3.5
+    if view == "key":
+        marks.append(Text(left, top + 4.5, words("page.construction"), "caption", 3.5))
+        marks += listed(drawing, left, top + 10.5, width, bottom)
+    else:
+        marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
+        lines = flowed(asked(drawing), "; ", width - 5, 2.5)
+        for told in filter(None, (members(drawing), plan_at(drawing))):
+            lines += ["", *flowed(told.split(" "), " ", width - 5, 2.5)]
+        marks += [
+            Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5)
+            for i, line in enumerate(lines)
+            if line
+        ]
+    marks += tables(drawing, TABLES, empty=view == "task")
+    worst = words.significant(drawing.verdict.largest_difference, 2)
+    text = words("page.verified", difference=worst)
+    marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
+    if view == "key":
+        marks += flattest_line(drawing, left + extent(text, 1.8)[0])
+    return marks
+
+
+def asked(drawing: Drawing) -> list[str]:
+    """What a sheet asks for, in words."""
+    words, ask = drawing.words, drawing.scene.ask
+    first = drawing.kind == "velocity"
+    groups = {
+        "velocity": ask.velocity if first else (),
+        "omega": ask.omega if first else (),
+        "centres": ask.centres if first else (),
+        "pairs": ask.pairs if first else (),
+        "centrodes": ask.centrodes if first else (),
+        "curves": ask.curves if first else (),
+        "acceleration": () if first else ask.acceleration,
+        "epsilon": () if first else ask.epsilon,
+        "poles": () if first else ask.poles,
+        "inflection": () if first else ask.inflection,
+        f"slides_{drawing.kind}": ask.slides,
+    }
+    found = [
+        words(
+            f"ask.{what}" + ("_many" if len(names) > 1 else ""),
+            list=words("list_mark").join(symbol(lettered(name)) for name in names),
+        )
+        for what, names in groups.items()
+        if names
+    ]
+    return found or ([words("ask.for_accelerations")] if any(ask) else [])

@@ -1,0 +1,151 @@
+"""What is handed out: the sheets of a mechanism, each one proved right before it is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from graphkin.construction.core.crossings import letter_of
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.solution import FAIR, Solution, Verdict
+from graphkin.diagnosis.singularity_words import beside_dead_point
+from graphkin.documents.scaling import WANTED, drawing, scales, shown, targets_of
+from graphkin.drawing.scale import Scales
+from graphkin.mechanism import Mechanism
+from graphkin.motion.motion_curves import curves_of
+from graphkin.scene.model import Scene
+from graphkin.text import LANGUAGES, Words, words
+from graphkin.text.errors import Problem, SceneError, WitnessError
+
+if TYPE_CHECKING:
+    from graphkin.drawing.marks import Page
+
+CALCULATED = ("key", "task")
+"""The views that come with calculation pages."""
+
+
+@dataclass(frozen=True)
+class SheetDocument:
+    """The pages of one document: velocity, acceleration or calculation."""
+
+    kind: str
+    pages: tuple[Page, ...]
+
+
+def hand_out(
+    mechanism: Mechanism, view: str = "key", language: str | None = None
+) -> list[SheetDocument]:
+    """The sheets that a scene asks for, in a language (the scene's own if None).
+
+    Raises WitnessError when the independent route disagrees, PageError when a page does not fit.
+    """
+    from graphkin.documents.calculation import calculation
+
+    spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
+    if mechanism.scene.sheet.sheets != len(WANTED):
+        raise SceneError(
+            Problem("sheet.sheets", "one sheet for both plans is not drawn yet", "2, or left out")
+        )
+    verdict = proved(mechanism, shown(mechanism))
+    drawings = drawings_of(mechanism, verdict, spoken)
+    total = len(drawings)
+    sheets = [
+        SheetDocument(drawing.kind, drawn(drawing, view, f"{i}/{total}"))
+        for i, drawing in enumerate(drawings, 1)
+    ]
+    if view not in CALCULATED:
+        return sheets
+    return [*sheets, SheetDocument("calculation", calculation(drawings, view))]
+
+
+def drawn(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
+    """The pages of one drawing in a view."""
+    if view == "steps":
+        from graphkin.documents.step_pages import growing
+
+        return growing(drawing, number)
+    if view == "overlay":
+        from graphkin.documents.overlay import overlay
+
+        return (overlay(drawing, number),)
+    from graphkin.documents.sheet import sheet
+
+    return (sheet(drawing, view, number),)
+
+
+def language_of(mechanism: Mechanism, language: str | None) -> Words:
+    """The words of a language. Raises SceneError for one that is not there."""
+    code = language or mechanism.scene.sheet.language
+    if code not in LANGUAGES:
+        raise SceneError(
+            Problem("sheet.language", f'"{code}" is not a language', " or ".join(LANGUAGES))
+        )
+    return words(code)
+
+
+def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
+    """The witness's verdict. Raises WitnessError when it does not agree, or cannot be trusted."""
+    if solution.margin < FAIR:
+        raise WitnessError(nearly_singular(mechanism))
+    verdict = mechanism.witness(solution)
+    if not verdict.agrees:
+        raise WitnessError(disagreements(mechanism.scene, verdict))
+    if verdict.unsure:
+        raise WitnessError(lost(verdict))
+    return verdict
+
+
+def lost(verdict: Verdict) -> Problem:
+    """The problem of quantities of which no digit is sure, told of the first."""
+    return Problem(
+        verdict.unsure[0],
+        "no digit of it is sure: flat crossings enlarge the rounding of doubles beyond it",
+        "crossings that are less flat, one after the other",
+        "move the driver; no sheet is handed out",
+    )
+
+
+def disagreements(scene: Scene, verdict: Verdict) -> Iterator[Problem]:
+    """Why the witness does not agree: the numbers, the branches, or both."""
+    refused = "no sheet is handed out"
+    if verdict.differs:
+        difference = f"{verdict.largest_difference:.1e}"
+        found = f"construction and vector loops differ by {difference}"
+        yield Problem(verdict.quantity, found, f"at most {verdict.limit:.1e}", refused)
+    if verdict.branches:
+        found = f"{verdict.not_as_stated(scene.branches)} does not hold by the vector loops"
+        yield Problem("branches", found, "a construction that stands as stated", refused)
+
+
+def nearly_singular(mechanism: Mechanism) -> Problem:
+    """The problem of lines that cross too flatly to be drawn: where, and what is nearly in line."""
+    targets = dict.fromkeys(t for kind in WANTED for t in targets_of(mechanism, kind))
+    margins = mechanism.trace(targets or None).margins
+    number = min(margins, key=lambda step: float(margins[step]))
+    return Problem(
+        f"{mechanism.scene.name}: position",
+        f"the lines at {letter_of(mechanism.program, number)} cross at a sine of "
+        f"{float(margins[number]):.1e}, nearly singular",
+        f"at least {FAIR:g}",
+        beside_dead_point(mechanism.scene, mechanism.program, number),
+    )
+
+
+def drawings_of(
+    mechanism: Mechanism, verdict: Verdict, spoken: Words, held: Scales | None = None
+) -> list[Drawing]:
+    """The material of each sheet, all at the same scale: ``held``, else the one that fits best."""
+    curves = curves_of(mechanism)
+    chosen = held or scales(mechanism, curves)
+    drawings = [
+        drawing(mechanism, kind, found, chosen, verdict, spoken, curves)
+        for kind in WANTED
+        if (found := targets_of(mechanism, kind))
+    ]
+    drawings[1:] = [replace(later, again=True) for later in drawings[1:]]
+    if not drawings:
+        raise SceneError(
+            Problem("ask", "asks for nothing that is drawn", "velocities, accelerations, centres …")
+        )
+    return drawings

@@ -1,0 +1,142 @@
+"""At which sentence of the construction each mark of a sheet appears, for pages that grow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from graphkin.construction.centres.parallel_velocities import set_before
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.program import Part, Plane, Program, Step
+from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.higher_class.closing_words import IDLE
+from graphkin.documents.mark_dependencies import Target, rests_on
+from graphkin.drawing.marks import Mark
+
+READ_OFF = ("set-on", "set-on-twice")
+"""Arrows on the mechanism, which the last sentence asks for."""
+AT_LAST = ("detail", "note")
+"""The names of marks that stand when all is drawn."""
+PINS = ("pin", "hinge", "label", "leader")
+"""The classes of a pin, and of its letter."""
+TOLD_BY = {"fixed-centrode": "moving-centrode"}
+"""The names of sentences that tell of a curve of another kind than their name."""
+BEFORE = -1
+"""The stage of what stands before the first sentence."""
+
+
+def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
+    """For each step that was run the number of the sentence, from 0, that draws it.
+
+    A sentence draws what its own points hang on and no sentence before has drawn. An arrow or any
+    other step that no sentence finds appears as soon as all that it is drawn from is there. What
+    is given, the points of the frame and the pole of the plan, stands before the first sentence.
+    """
+    program = drawing.trace.program
+    found: dict[int, int] = {}
+    if drawing.again:
+        found |= dict.fromkeys(
+            (n for n in drawing.trace.values if program.steps[n].part is Part.POSITION), BEFORE
+        )
+    for stage, sentence in enumerate(said):
+        for number in behind(program, sentence.all_steps):
+            found.setdefault(number, stage)
+    early = set_before(drawing)
+    for number in drawing.trace.values:
+        step = program.steps[number]
+        if not step.args:
+            found[number] = BEFORE
+        elif step.action is not None and step.action.key in READ_OFF:
+            found[number] = found.get(early.get(number, BEFORE), len(said) - 1)
+        elif number not in found:
+            ends = (*step.args, *of_component(drawing, step))
+            found[number] = max((found.get(end, BEFORE) for end in ends), default=BEFORE)
+    return found
+
+
+def of_component(drawing: Drawing, step: Step) -> Iterator[int]:
+    """The images between which a tangential component is told: it is not there before them."""
+    if step.arrow and step.says.get("kind") == "τ":
+        ends = (step.says["p"], step.says["q"])
+        for (what, name), number in drawing.trace.program.targets.items():
+            if what == "acceleration" and lettered(name) in ends:
+                yield number
+
+
+def behind(program: Program, numbers: Iterable[int]) -> set[int]:
+    """Some steps and all those that they are drawn from, in the hand's way too."""
+    found: set[int] = set()
+    waiting = [number for number in numbers if number >= 0]
+    while waiting:
+        number = waiting.pop()
+        if number in found:
+            continue
+        found.add(number)
+        step = program.steps[number]
+        waiting += step.args
+        if step.by_hand is not None:
+            waiting.append(step.by_hand)
+    return found
+
+
+def stage_of(
+    drawing: Drawing,
+    mark: Mark,
+    staged: dict[int, int],
+    said: Sequence[Sentence],
+    ground: Mapping[Mark, tuple[Target, ...]],
+) -> int:
+    """The sentence at which a mark of a field appears; BEFORE for what stands from the start.
+
+    A mark that belongs to no step appears with the last of what it rests on: one of the ``ground``
+    with the points about which it is drawn.
+    """
+    if mark.step is not None:
+        return staged.get(mark.step, BEFORE)
+    if mark.name in AT_LAST:
+        return len(said) - 1
+    told = stage_of_closing(drawing, mark, said)
+    if told is None:
+        told = stage_of_curve(drawing, mark, said)
+    if told is not None:
+        return told
+    targets = drawing.trace.program.targets
+    rests = ground[mark] if mark in ground else rests_on(drawing, mark)
+    numbers = (targets[target] for target in rests if target in targets)
+    idle = (stage for stage, one in enumerate(said) if one.name == IDLE + mark.name)
+    return max((*idle, *(settled(drawing, number, staged) for number in numbers)), default=BEFORE)
+
+
+def settled(drawing: Drawing, number: int, staged: dict[int, int]) -> int:
+    """The sentence by which a value stands; that of a number as soon as it can be reckoned."""
+    step = drawing.trace.program.steps[number]
+    closes = step.action is not None and step.action.key == "close"
+    if number in staged and (closes or step.plane is not Plane.NUMBERS):
+        return staged[number]
+    return max((settled(drawing, arg, staged) for arg in step.args), default=BEFORE)
+
+
+def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
+    """The sentence that tells of a curve, of several of its kind each its own; else None."""
+    for curve in drawing.curves:
+        if mark.name == f"{curve.kind} {curve.of}":
+            if curve.kind == "locus":
+                return next(at for at, one in enumerate(said) if curve.of in traced(drawing, one))
+            alike = [other.of for other in drawing.curves if other.kind == curve.kind]
+            name = TOLD_BY.get(curve.kind, curve.kind)
+            stages = [stage for stage, sentence in enumerate(said) if sentence.name == name]
+            return stages[min(alike.index(curve.of), len(stages) - 1)]
+    return None
+
+
+def stage_of_closing(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
+    """The sentence that closes a group at a pin, for the pin's marks; None for all others."""
+    if mark.cls.split()[0] not in PINS or mark.name in drawing.scene.links:
+        return None
+    return next((at for at, one in enumerate(said) if mark.name in traced(drawing, one)), None)
+
+
+def traced(drawing: Drawing, said: Sentence) -> list[str]:
+    """The points whose loci a sentence has drawn."""
+    steps = drawing.trace.program.steps
+    return str(steps[said.step].says["l"]).split() if said.name == "close" else []

@@ -1,0 +1,131 @@
+"""Step by step: pages on which a sheet grows, each with the sentence that says what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from math import degrees
+
+from graphkin.construction.core.crossings import Crossing, flattest
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import Layout, lay_out
+from graphkin.construction.core.naming import called
+from graphkin.construction.core.sentence import Sentence
+from graphkin.documents.detail import parted
+from graphkin.documents.flattest import crossings_on, is_gap, letter_of_crossing, locus_of
+from graphkin.documents.inset import insets
+from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet import heading, left_board, panels, right_board, title_block, title_of
+from graphkin.documents.step_numbers import BEFORE, stages
+from graphkin.documents.step_visibility import appearing, grown, when_told
+from graphkin.drawing.areas import A3_TITLE_BLOCK, BELOW, MARKED
+from graphkin.drawing.frame import sheet_frame
+from graphkin.drawing.marks import LineMark, Mark, Page, Text
+from graphkin.drawing.richtext import flowed
+from graphkin.drawing.symbol_markup import symbol
+
+LEADING, SMALL_LEADING = 6.2, 4.6
+"""Distance of lines of the sentence to do, and of those that are done, in mm."""
+LEFT_OUT = "…"
+"""What stands for the sentences that are done and have no room."""
+
+
+def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tuple[Page, ...]:
+    """A page for each sentence of the construction: what it draws stands out, the rest follows.
+
+    ``number`` is that of the sheet; each page adds which step it is, of how many. Every mark and
+    letter has on each page the place that it has on the finished sheet.
+    """
+    layout = layout or lay_out(drawing)
+    said = sentences(drawing)
+    staged = stages(drawing, said)
+    boards = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
+    (left, detail), (right, other) = parted(*boards)
+    telling = when_told(drawing, staged)
+    given = 0 if drawing.again else BEFORE
+    field = layout.mechanism
+    standing = appearing(drawing, field, left, staged, said)
+    timed = [(max(stage, given), mark) for stage, mark in standing]
+    timed += appearing(drawing, field, right, staged, said)
+    last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
+    block, same = title_block(drawing, "steps", number), [*heading(drawing), *panels(layout)]
+    lines = [
+        (stage_of_crossing(drawing, each, staged), each)
+        for each in crossings_on(drawing)
+        if not is_gap(drawing, each)
+    ]
+    title = f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
+    return tuple(
+        Page(
+            420,
+            297,
+            (
+                *sheet_frame(replace(block, sheet=numbered(drawing, number, stage, len(said)))),
+                *same,
+                *grown(timed, stage, telling),
+                *(last if stage == len(said) - 1 else ()),
+                *told(drawing, said, stage),
+                *crossed(drawing, [line for at, line in lines if at == stage]),
+            ),
+            f"{title}, {stage + 1}/{len(said)}",
+            drawing.words.language,
+        )
+        for stage in range(len(said))
+    )
+
+
+def numbered(drawing: Drawing, number: str, stage: int, total: int) -> str:
+    """Which page of its sheet a step is, as the title block says it."""
+    return drawing.words("page.sheet_step", sheet=number, number=stage + 1, all=total)
+
+
+def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
+    """The flattest crossing of a sentence, and what a millimetre of pencil becomes there."""
+    worst = flattest(tuple(found))
+    if worst is None:
+        return
+    words = drawing.words
+    text = words(
+        "page.crossing",
+        name=symbol(letter_of_crossing(drawing, worst)),
+        angle=words.fixed(degrees(worst.angle), 0),
+        factor=words.significant(worst.factor, 2),
+    )
+    yield Text(BELOW[2] - 4, BELOW[1] + 4.5, text, "caption", 2.5, "end", name="crossing")
+
+
+def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int, int]) -> int:
+    """The sentence that draws a crossing."""
+    locus = locus_of(drawing, crossing)
+    return staged[locus[0] if locus else crossing.number]
+
+
+def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mark]:
+    """The sentence to do in large lettering, and below it the last of those that are done."""
+    words = drawing.words
+    left, top, right = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
+    caption = words("page.step_of", number=stage + 1, all=len(said))
+    yield Text(left, top, caption, "caption", 3.5, name="step")
+    y = top + 8
+    for line in flowed(said[stage].markup.split(" "), " ", right - left, 3.5):
+        yield Text(left, y, line, "caption", 3.5, name="sentence")
+        y += LEADING
+    yield LineMark(left, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
+    width = MARKED[0] - left - 7
+    done = [
+        (f"{number}." if i == 0 else "", line)
+        for number, sentence in enumerate(said[:stage], 1)
+        for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width, 2.5))
+    ]
+    room = max(int((BELOW[3] - y - 3.5) / SMALL_LEADING) + 1, 0)
+    shown = done
+    if len(done) > room:  # a line tells that sentences before are left out
+        shown = done[len(done) - room + 1 :]
+        while shown and not shown[0][0]:
+            shown = shown[1:]
+        shown = [("", LEFT_OUT), *shown][:room]
+    for i, (mark, line) in enumerate(shown):
+        base = y + 2.5 + i * SMALL_LEADING
+        if mark:
+            yield Text(left + 5, base, mark, "caption", 2.5, "end")
+        yield Text(left + 7, base, line, "caption", 2.5)

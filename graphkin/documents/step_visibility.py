@@ -1,0 +1,119 @@
+"""What stands in the fields of a sheet at each sentence of the construction, and what is new."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.program import Part
+from graphkin.construction.core.sentence import Sentence
+from graphkin.documents.mark_dependencies import ground_of
+from graphkin.documents.step_numbers import stage_of
+from graphkin.drawing.field import Field
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.style import NOW
+from graphkin.drawing.symbol_markup import symbol
+
+TOGETHER = re.compile(" [≡≈] ")
+"""What stands between the letters of points that fall together, or as good as together."""
+AMONG = "; "
+"""What stands between the notes at the foot of a field."""
+
+
+def appearing(
+    drawing: Drawing,
+    field: Field,
+    marks: Sequence[Mark],
+    staged: dict[int, int],
+    said: Sequence[Sentence],
+) -> Iterator[tuple[int, Mark]]:
+    """The marks of a field, each with the sentence at which it appears."""
+    ground = ground_of(drawing, field)
+    for mark, beside in accompanied(marks):
+        yield stage_of(drawing, beside, staged, said, ground), mark
+
+
+def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
+    """The marks of a field, each with the one with which it appears: itself, if it has a name.
+
+    The frame around a link's name appears with the name after it, the arrow of a driver's sense
+    with its angle before it.
+    """
+    named = marks[0] if marks else None
+    for mark, after in zip(marks, (*marks[1:], *marks[-1:]), strict=True):
+        named = mark if mark.name or named is None else named
+        framed, sense = (mark.cls.split()[-1] == cls for cls in ("number", "sense"))
+        yield mark, named if sense else after if framed and not mark.name else mark
+
+
+def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
+    """The sentence that finds each letter of the plan, each centre, each vector by its symbol."""
+    found: dict[str, int] = {}
+    for number, step in enumerate(drawing.trace.program.steps):
+        if number in staged:
+            vector = symbol(step.says.get("symbol", step.name))
+            found.setdefault(vector, staged[number])
+            if step.plane is drawing.plane or step.part in (Part.CENTRE, Part.POLE):
+                found[step.name] = staged[number]
+    return found
+
+
+def grown(
+    timed: Sequence[tuple[int, Mark]], stage: int, telling: Mapping[str, int]
+) -> Iterator[Mark]:
+    """The marks that stand at a sentence; those that it draws are marked as new.
+
+    ``telling`` gives the sentence at which each letter and each vector is found.
+    """
+    subjects = {mark.step: mark.cx for _, mark in timed if isinstance(mark, CircleMark)}
+    subjects |= {m.step: m.x1 for _, m in timed if isinstance(m, LineMark) and is_leader(m)}
+    keys = {m.markup: at for at, m in timed if isinstance(m, Text) and m.markup.endswith(")")}
+    for appears, mark in timed:
+        if isinstance(mark, Text) and TOGETHER.search(mark.markup) and mark.step is not None:
+            stages = [telling[name] for name in mark.name.split()]
+            yield from shared(mark, stage, stages, subjects[mark.step])
+        elif isinstance(mark, Text) and mark.name == "note" and stage < appears:
+            yield from noted(mark, stage, {**telling, **keys})
+        elif appears <= stage:
+            yield mark if appears < stage else replace(mark, cls=f"{mark.cls} {NOW}")
+
+
+def is_leader(mark: Mark) -> bool:
+    """True for the line that leads from a label to what it names."""
+    return mark.cls.startswith("leader")
+
+
+def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Iterator[Mark]:
+    """Of the letters that share a label those that stand already, as near as all to their point.
+
+    ``stages`` are those at which the letters appear, ``subject`` is where their leader or their
+    point stands from left to right.
+    """
+    letters, joints = TOGETHER.split(mark.markup), ["", *TOGETHER.findall(mark.markup)]
+    every = zip(joints, letters, stages, strict=True)
+    seen = [(joint, letter) for joint, letter, appears in every if appears <= stage]
+    markup = "".join(letter if i == 0 else joint + letter for i, (joint, letter) in enumerate(seen))
+    if markup:
+        whole, width = (extent(each, mark.height)[0] for each in (mark.markup, markup))
+        aside = min(max(subject - mark.x - width / 2, 0.0), whole - width)
+        cls = f"{mark.cls} {NOW}" if stage in stages else mark.cls
+        yield replace(mark, x=mark.x + aside, markup=markup, cls=cls)
+
+
+def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
+    """Of the notes in a line at the foot those of vectors and key numbers that stand already."""
+    parts = mark.markup.removesuffix(";").split(AMONG)
+    stands = [telling.get(of_note(part), stage + 1) <= stage for part in parts]
+    for i, part in enumerate(parts):
+        if stands[i]:
+            before = extent(AMONG.join(parts[: i + 1]), mark.height)[0]
+            ended = part + AMONG.rstrip() if any(stands[i + 1 :]) else part
+            yield replace(mark, x=mark.x + before - extent(part, mark.height)[0], markup=ended)
+
+
+def of_note(part: str) -> str:
+    """The symbol of a vector, or the key number, that a note begins with."""
+    return part.partition(" ")[0].removesuffix(":")

@@ -1,0 +1,47 @@
+"""The scale at which a task's plan is to be drawn: the rule that the crank gives, or a value."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.naming import has_plan
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.relation import figure
+from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
+from graphkin.drawing.scale import digits
+from graphkin.drawing.symbol_markup import bar, symbol
+
+
+def plan_at(drawing: Drawing) -> str:
+    """At which scale the plan of a task is to be drawn, as a sentence; nothing without a plan."""
+    if not has_plan(drawing):
+        return ""
+    return drawing.words("task.plan", rule=", ".join(rules(drawing)))
+
+
+def rules(drawing: Drawing) -> Iterator[str]:
+    """The scale of a plan: how the crank says it, with what is as long as what, or its value.
+
+    A plan without the velocity of a pin of the crank has nothing that is as long as the crank.
+    """
+    kL = drawing.words.decimal(digits(drawing.scales.kL))
+    scales, first = drawing.scales, drawing.kind == "velocity"
+    kv, ka = plan_scales(drawing, kL)
+    rule = kv if first else ka
+    parts = [rule.left, rule.symbols.replace("*m*", figure(drawing, scales.times))]
+    stated = not scales.from_driver or (scales.apart and not first)
+    parts += [f"{rule.result} {rule.unit}"] if stated else []
+    yield " = ".join(filter(None, parts))
+    if first and scales.as_crank(drawing.kind):
+        for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
+            yield f"{segment(drawing, q)} = {bar(p, q)}/*k*_L"
+
+
+def segment(drawing: Drawing, pin: str) -> str:
+    """The velocity of the crank's pin in the plan, by the letters of its ends."""
+    for _, step, _ in drawing.steps(Plane.VELOCITIES):
+        if step.action and step.action.key == "turned-velocity" and step.says["q"] == pin:
+            return symbol(drawing.pole) + symbol(step.name)
+    raise KeyError(pin)

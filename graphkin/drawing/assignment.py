@@ -1,0 +1,153 @@
+"""Which label has which of the places that are offered, and how labels make room for others."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+from math import inf
+
+from graphkin.drawing.candidate_sets import CandidateSet
+
+PUSH = 4.0  # what it is reckoned to cost, in mm, to push a label aside
+GAIN = 0.01  # mm that a chase must save in all to be kept
+WEAR = 4.0  # mm that a place costs more each time that it is taken in a chase
+
+LEAST = 500.0  # the least fine of labels that must have a place
+URGENT = 2500.0  # the least fine, in mm, of labels that choose first
+
+Moves = tuple[tuple[int, int], ...]
+
+
+class Assignment:
+    """Which label has which place, what each pays, and the taken places as bits of a number."""
+
+    def __init__(self, offers: CandidateSet, fine: Sequence[float]) -> None:
+        """Begin with no label on the page; each pays a fine as long as it has no place."""
+        self.offers, self.fine = offers, fine
+        self.pick = [-1] * len(fine)
+        self.paid = [*fine]
+        self.taken = 0
+
+    def order(self) -> list[int]:
+        """Return the labels: the urgent ones, then those with few places, then by priority."""
+        count, fine = [len(menu) for menu in self.offers.menus], self.fine
+        first = [(fine[i] < URGENT, count[i] > 7, -fine[i], count[i], i) for i in range(len(fine))]
+        return [i for *_, i in sorted(first)]
+
+    def regretted(self, limit: float) -> list[int]:
+        """Return the labels that pay this much above their cheapest place, worst first."""
+        regret = [paid - best for paid, best in zip(self.paid, self.offers.best, strict=True)]
+        worst = sorted(range(len(regret)), key=lambda i: -regret[i])
+        return [i for i in worst if regret[i] > limit]
+
+    def unplaced(self) -> list[int]:
+        """Return the labels without a place."""
+        return [i for i, k in enumerate(self.pick) if k < 0]
+
+    def seeking(self) -> list[int]:
+        """Return the labels without a place that must have one."""
+        return [i for i in self.unplaced() if self.fine[i] >= LEAST]
+
+    def settle(self, which: Iterable[int]) -> None:
+        """Give each of the labels the cheapest place that is left, if there is one."""
+        rows = self.offers.rows()
+        for i in which:
+            self._lift(i)
+            left = (k for k in self.offers.menus[i] if not rows[k] & self.taken)
+            self._put(i, next(left, -1))
+
+    def shift(self, labels: Iterable[int]) -> None:
+        """Give labels a place for which others, each in turn for the next one, can make room."""
+        rows = self.offers.rows()
+        for i in labels:
+            moves = self._moves(i, rows)
+            for label, _ in moves:
+                self._lift(label)
+            for label, place in moves:
+                self._put(label, place)
+
+    def _moves(self, i: int, rows: Sequence[int]) -> Moves:
+        """Return the fewest labels that must move for one to have a place, and where each goes.
+
+        Each makes room for one other only; nothing where no such chain leads to a free place.
+        """
+        moved = {i}
+        queue: deque[tuple[int, int, Moves]] = deque([(i, self.taken, ())])
+        while queue:
+            label, taken, moves = queue.popleft()
+            for k in self.offers.menus[label]:
+                clash = rows[k] & taken
+                if not clash:
+                    return (*moves, (label, k))
+                other = self.offers.label[clash.bit_length() - 1]
+                if clash.bit_count() == 1 and other not in moved:
+                    moved.add(other)
+                    queue.append((other, taken ^ clash | 1 << k, (*moves, (label, k))))
+        return ()
+
+    def improve(self, labels: Iterable[int], steps: int) -> None:
+        """Let each of the labels push others aside and those others in turn, if it pays in all."""
+        rows = self.offers.rows()
+        for i in labels:
+            if not self.offers.menus[i]:
+                continue
+            saved = [*self.pick], [*self.paid], self.taken
+            before = sum(self.paid)
+            least = before - self.paid[i] + self.offers.best[i]  # others paying their best
+            worn, queue = {self.pick[i]: WEAR}, deque([i])
+            self._lift(i)
+            for _ in range(steps):
+                least += self._push(queue, rows, worn)
+                if not queue or least > before - GAIN:
+                    break
+            if sum(self.paid) > before - GAIN:
+                self.pick, self.paid, self.taken = saved
+
+    def _push(self, queue: deque[int], rows: Sequence[int], worn: dict[int, float]) -> float:
+        """Put the first label of a queue on the place with the best price.
+
+        Those that it pushes aside queue up. Return how much more all pay above their best.
+        """
+        i = queue.popleft()
+        offers, taken, best, chosen, pushed = self.offers, self.taken, inf, -1, 0
+        cost = offers.cost
+        for k in offers.menus[i]:
+            price = cost[k]
+            if price >= best:  # and so are those after it
+                break
+            if clash := rows[k] & taken:
+                price += PUSH * clash.bit_count()
+            if k in worn:
+                price += worn[k]
+            if price < best:
+                best, chosen, pushed = price, k, clash
+        more: float = cost[chosen] - offers.best[i]
+        self.taken ^= pushed
+        for j in self._on(pushed):
+            more += offers.best[j] - self.paid[j]
+            self.pick[j], self.paid[j] = -1, self.fine[j]
+            queue.append(j)
+        self._put(i, chosen)
+        worn[chosen] = worn.get(chosen, 0.0) + WEAR
+        return more
+
+    def _on(self, places: int) -> list[int]:
+        """Return the labels of some places, which are the bits of a number, in order."""
+        found = []
+        while places:
+            k = places.bit_length() - 1
+            places ^= 1 << k
+            found.append(self.offers.label[k])
+        return sorted(found)
+
+    def _put(self, i: int, k: int) -> None:
+        """Put a label on a place, if there is one."""
+        if k >= 0:
+            self.pick[i], self.paid[i] = k, self.offers.cost[k]
+            self.taken |= 1 << k
+
+    def _lift(self, i: int) -> None:
+        """Take a label off the page."""
+        if self.pick[i] >= 0:
+            self.taken ^= 1 << self.pick[i]
+        self.pick[i], self.paid[i] = -1, self.fine[i]

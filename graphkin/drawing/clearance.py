@@ -1,0 +1,292 @@
+"""How far labels are from what is drawn on a page, and what their places cost (mm)."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphkin.drawing.candidates import Blots, Subjects, Tries, distance_cost
+from graphkin.drawing.clashes import PAD, OpenPlaces
+from graphkin.drawing.shapes import (
+    NOWHERE,
+    TINY,
+    Array,
+    Index,
+    Mask,
+    crossings,
+    distance,
+    joined,
+    meeting,
+    merged,
+    rectangles,
+    segments,
+    separation,
+    where,
+)
+
+OWN = 0.4  # mm within which a drawn line is taken for the subject itself
+ROOM = 1.4  # mm of air around a label beyond which more is no better
+LEADER = np.array([6.0, 3.7])  # what one costs to a point and to a segment; costs are in mm
+CROSSING = 0.9  # a line that a leader crosses
+SKIRT = 2.5  # a line that a leader runs along
+ASTRAY = 4.0  # a label further than FAR_OFF from its segment and nearer to another of length LONG
+FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
+BEYOND = 8.0  # another line between a label and its segment
+SLANT = 0.34  # sine of the angle to a line below which a leader runs along it
+AIR = 0.7  # each mm of air that is missing
+FEW = 8  # labels, whose candidates are compared with all that is drawn at once
+
+# Kinds of shapes; how far (mm) each should be beyond a label's own subject, and the cost of each
+# mm that is missing, for the labels of points and of segments.
+LINE, BOX, DOT, CORE = range(4)
+MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
+WEIGHT = np.array([[0.4, 0.0, 2.5, 0.5], [2.0, 0.0, 0.7, 1.5]])
+
+KEPT = 2**24  # bytes
+"""Once so large a block was freed, the C library of Linux hands out memory for arrays anew
+without giving it back to the system in between, which took a fifth of a crowded page's time."""
+np.empty(KEPT, dtype=np.uint8)
+
+
+class Open(NamedTuple):
+    """Candidates that nothing has ruled out yet, a row for each; mm."""
+
+    label: Index
+    x: Array  # centre
+    y: Array
+    hx: Array  # half extents of the label
+    hy: Array
+    cost: Array
+    own: Array  # distance from the label's own subject
+    root_x: Array  # the place on the subject that is meant
+    root_y: Array
+
+    def take(self, which: Index) -> Open:
+        """Return some of the candidates."""
+        return Open(self.label.take(which), *np.array(self[1:]).take(which, axis=1))
+
+    def boxes(self, more: Array | float = 0.0) -> Array:
+        """Return the labels' boxes as rows left, top, right, bottom, wider by a length in mm."""
+        wide, high = self.hx + more, self.hy + more
+        return np.array([self.x - wide, self.y - high, self.x + wide, self.y + high])
+
+    def leaders(self, radius: Array) -> Array:
+        """Return lines from 0.5 mm off the labels' boxes, aimed at their centres, to the subjects.
+
+        They end at circles of a radius in mm; columns are x0, y0, x1, y1.
+        """
+        way_x, way_y = self.root_x - self.x, self.root_y - self.y
+        length = np.maximum(np.sqrt(way_x * way_x + way_y * way_y), TINY)
+        share_x = (self.hx + 0.5) / np.maximum(np.abs(way_x), TINY)
+        share = np.minimum(share_x, (self.hy + 0.5) / np.maximum(np.abs(way_y), TINY))
+        back = radius / length
+        ends = self.root_x - way_x * back, self.root_y - way_y * back
+        return np.array([self.x + way_x * share, self.y + way_y * share, *ends]).T.copy()
+
+
+class Clearance:
+    """What labels must keep clear of, and what each place costs."""
+
+    def __init__(
+        self,
+        subjects: Subjects,
+        lines: ArrayLike,
+        boxes: ArrayLike,
+        field: ArrayLike,
+        stroke: ArrayLike,
+    ) -> None:
+        """Prepare for labels that stay in one field, or each in its own."""
+        drawn, taken = (np.asarray(a, dtype=np.float64).reshape(-1, 4) for a in (lines, boxes))
+        if not all(np.isfinite(ends).all() for ends in (drawn, taken, subjects.ends)):
+            raise ValueError("a line, a box or a subject of a label is not finite")
+        clear = np.broadcast_to(np.asarray(stroke, dtype=np.float64), len(drawn))
+        drawn, clear = merged(drawn, clear)
+        start, end = subjects.ends[:, :2], subjects.ends[:, 2:]
+        core = np.concatenate([start + (end - start) / 6, end - (end - start) / 6], axis=1)
+        self.subjects = subjects
+        self.field = np.broadcast_to(np.asarray(field, dtype=np.float64), (len(start), 4))
+        self.sides = np.concatenate([drawn, taken, core]).T.copy()
+        self.shapes = joined(segments(drawn), rectangles(taken), segments(core))
+        kinds = [np.full(len(drawn), LINE), np.full(len(taken), BOX)]
+        self.kind = np.concatenate([*kinds, np.where(subjects.line, CORE, DOT)])
+        self.first = len(drawn) + len(taken)  # of the labels' own subjects
+        self.long = (np.hypot(self.shapes.ex, self.shapes.ey) > LONG / 2) & (self.kind != BOX)
+        keep = np.where(subjects.line, -NOWHERE, subjects.radius + PAD)
+        self.clear = np.concatenate([clear, np.full(len(taken), PAD), keep])
+        self.own = self._owned()
+        self.drawn, self.pad = drawn, 0.7 * float(clear.min(initial=PAD))
+
+    @cached_property
+    def blots(self) -> Blots:
+        """Marks along what is drawn, which rule most candidates of many labels out at a glance."""
+        low, high = self.field[:, :2].min(axis=0), self.field[:, 2:].max(axis=0)
+        whole = float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        return Blots(self.drawn, whole, self.pad)
+
+    def near(self, some: Open) -> OpenPlaces:
+        """Return candidates as places without a leader."""
+        leader = np.full((len(some.label), 4), NOWHERE)
+        return OpenPlaces(*some[:5], some.cost + self._doubt(some), leader)
+
+    def led(self, some: Open) -> OpenPlaces:
+        """Return candidates as places with a leader, but those where it runs into what is named.
+
+        What it costs to cross lines or to run along them is added to their costs.
+        """
+        leader = some.leaders(self.subjects.radius.take(some.label))
+        toll = LEADER[self.subjects.line.take(some.label).astype(int)] + self._toll(some, leader)
+        places = OpenPlaces(*some[:5], some.cost + toll, leader)
+        return places.take(where(np.isfinite(toll)))
+
+    def open(self, which: Index, some: Tries, first: Index, last: Index) -> Open:
+        """Return the free ones among the candidates of labels.
+
+        Of each label those are looked at from a first to before a last, the nearest one being 0.
+        """
+        subjects = self.subjects.take(which)
+        x, y, (hx, hy) = some.x, some.y, subjects.half.T[:, :, None]
+        own = distance(x, y, hx, hy, segments(subjects.ends).upright())
+        own -= subjects.radius[:, None]
+        free = own >= subjects.gap[:, None] - TINY
+        left, top, right, bottom = self.field[which].T[:, :, None]
+        free &= (x - hx >= left) & (x + hx <= right)
+        free &= (y - hy >= top) & (y + hy <= bottom)
+        if len(self.subjects.gap) > FEW:
+            free &= ~self.blots.hit(x, y, hx, hy)
+        cost = np.where(free, distance_cost(some, own, subjects), np.inf)
+        order = np.argsort(cost, axis=1, kind="stable")
+        order += np.arange(len(which))[:, None] * cost.shape[1]
+        rank = np.arange(cost.shape[1])
+        at = order[(rank >= first[:, None]) & (rank < last[:, None])]
+        at = at.take(where(np.isfinite(cost.take(at))))
+        row = at // cost.shape[1]
+        columns = (column.take(at) for column in (cost, own, some.root_x, some.root_y))
+        wide, high = subjects.half[row].T
+        found = Open(which[row], x.take(at), y.take(at), wide, high, *columns)
+        return found.take(where(self._clear_of_all(found)))
+
+    def _clear_of_all(self, some: Open) -> Mask:
+        """Return which candidates are as far from all shapes as they must be."""
+        clear = self.clear
+        place, shape = meeting(some.boxes(), self.shapes.boxes(clear))
+        other = where(shape != some.label.take(place) + self.first)
+        place, shape = place.take(other), shape.take(other)
+        near = where(self._apart(some, place, shape) < clear.take(shape))
+        free = np.ones(len(some.label), dtype=np.bool_)
+        free[place.take(near)] = False
+        return free
+
+    def _apart(self, some: Open, place: Index, shape: Index) -> Array:
+        """Return how far candidates are from shapes, a pair in each row."""
+        x, y, hx, hy = (column.take(place) for column in some[1:5])
+        return separation(x, y, hx, hy, self.shapes.take(shape))
+
+    def _owned(self) -> Mask:
+        """Return which shapes (columns) run through a label's whole subject or are a part of it."""
+        ends, wide = self.subjects.ends, self.subjects.radius + OWN
+        low, high = np.minimum(ends[:, :2], ends[:, 2:]).T, np.maximum(ends[:, :2], ends[:, 2:]).T
+        label, shape = meeting(np.concatenate([low - wide, high + wide]), self.shapes.boxes(0.0))
+        zero = np.zeros(len(label))
+        near, mine = self.shapes.take(shape), segments(ends).take(label)
+        tips, ends = ends[label].T, self.sides.take(shape, axis=1)
+        through = [separation(tips[k], tips[k + 1], zero, zero, near) for k in (0, 2)]
+        part = [separation(ends[k], ends[k + 1], zero, zero, mine) for k in (0, 2)]
+        own = (np.maximum(*part) <= OWN) & (self.kind[shape] != BOX)
+        own |= np.maximum(*through) <= wide[label]
+        table = np.zeros((len(wide), len(self.kind)), dtype=np.bool_)
+        table[label[own], shape[own]] = True
+        return table
+
+    def _is_own(self, label: Index, shape: Index) -> Mask:
+        """Return which shapes are a label's own subject, a pair in each row."""
+        return np.asarray(self.own.take(label * len(self.kind) + shape))
+
+    def _doubt(self, some: Open) -> Array:
+        """Return what places cost where a label may seem to name something else, or is cramped."""
+        far = np.maximum(ROOM, some.own)
+        more = np.maximum(MARGIN.max(axis=0), 0.0).take(self.kind)
+        place, shape = meeting(some.boxes(far), self.shapes.boxes(more))
+        apart, label = self._apart(some, place, shape), some.label.take(place)
+        near = apart < far.take(place) + more.take(shape)
+        other = where(near & ~self._is_own(label, shape))
+        place, shape, label = place.take(other), shape.take(other), label.take(other)
+        apart = apart.take(other)
+        own, line = some.own.take(place), self.subjects.line.take(label)
+        kind = self.kind.take(shape) + len(MARGIN[0]) * line
+        doubt, air = np.zeros(len(some.own)), np.full(len(some.own), ROOM)
+        np.maximum.at(doubt, place, (own + MARGIN.take(kind) - apart) * WEIGHT.take(kind))
+        np.minimum.at(air, place, np.maximum(apart, 0.0))
+        nearer = where((apart < own) & line)
+        place, shape = place.take(nearer), shape.take(nearer)
+        astray, beyond = np.zeros((2, len(some.own)), dtype=np.bool_)
+        astray[place.take(where(self.long.take(shape)))] = True
+        astray &= some.own > self.subjects.gap.take(some.label) + FAR_OFF
+        beyond[place.take(where(self._between(some, place, shape)))] = True
+        doubt += doubt * doubt / 5.0
+        return np.asarray(doubt + AIR * (ROOM - air) + ASTRAY * astray + BEYOND * beyond)
+
+    def _between(self, some: Open, place: Index, shape: Index) -> Mask:
+        """Return which lines run between a label and what it names, a pair in each row."""
+        x, y, root_x, root_y = (
+            column.take(place) for column in (some.x, some.y, some.root_x, some.root_y)
+        )
+        ways = np.array([x, y, root_x, root_y]).T
+        crossed = crossings(ways, self.sides.take(shape, axis=1).T)
+        return np.asarray(crossed & (self.kind.take(shape) != BOX))
+
+    def _toll(self, some: Open, leader: Array) -> Array:
+        """Return what leaders cost: lines crossed or skirted; infinite across a box or a point."""
+        columns = leader.T.copy()
+        x0, y0, x1, y1 = columns
+        ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)
+        wide = np.maximum(self.clear - PAD / 2, 2 * OWN)
+        place, shape = meeting(np.array(ways), self.shapes.boxes(wide))
+        path = columns.take(place, axis=1)
+        off = self._off(path, shape)
+        near = (off[0] * off[1] <= 0) | (np.abs(off).min(axis=0) <= wide.take(shape))
+        near = where(near)
+        place, shape = place.take(near), shape.take(near)
+        path, off = path.take(near, axis=1), off.take(near, axis=1)
+        own, kind = self._is_own(some.label.take(place), shape), self.kind.take(shape)
+        line = (kind == LINE) | (kind == CORE)
+        toll = np.where(line, self._brush(path, shape, off, own), 0.0)
+        limit = self.clear.take(shape) - PAD / 2
+        which = where((kind != LINE) & ~own & (limit > 0))
+        path, solid = path.take(which, axis=1), self.shapes.take(shape.take(which))
+        limit, zero = limit.take(which), np.zeros(1)
+        hit = separation(solid.x, solid.y, solid.ex, solid.ey, segments(path.T)) < limit
+        hit &= separation(path[2], path[3], zero, zero, solid) > limit
+        toll[which.take(where(hit))] = np.inf
+        return np.asarray(np.bincount(place, toll, len(leader)), dtype=np.float64)
+
+    def _off(self, path: Array, shape: Index) -> Array:
+        """Return on which side of shapes, and how far off in mm, both ends of leaders lie.
+
+        ``path`` has the leaders' x0, y0, x1, y1 as rows.
+        """
+        near = self.shapes
+        x, y, nx, ny = (column.take(shape) for column in (near.x, near.y, near.nx, near.ny))
+        x0, y0, x1, y1 = path
+        return np.array([nx * (x0 - x) + ny * (y0 - y), nx * (x1 - x) + ny * (y1 - y)])
+
+    def _brush(self, path: Array, shape: Index, off: Array, own: Mask) -> Array:
+        """Return what it costs that leaders cross or run along these lines, a line for each."""
+        x0, y0, x1, y1 = path
+        length = np.maximum(np.sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2), TINY)
+        sine = (off[1] - off[0]) / length
+        toll = np.zeros(len(shape))
+        cross = where((off[0] * off[1] <= 0) & ~own)
+        ends = self.sides.take(shape.take(cross), axis=1)
+        cross = cross.take(where(crossings(path.take(cross, axis=1).T, ends.T)))
+        across = sine.take(cross)
+        toll[cross] = CROSSING * (3.0 - 2.0 * across * across)
+        beside = (np.abs(sine) < SLANT) & (self.shapes.slack.take(shape) == 0)
+        along = where(beside & (own | (np.abs(off[0] + off[1]) < 4 * OWN)))
+        near, zero = self.shapes.take(shape.take(along)), np.zeros(1)
+        x, y = (x0 + x1).take(along) / 2, (y0 + y1).take(along) / 2
+        skirts = own.take(along) | (separation(x, y, zero, zero, near) < 2 * OWN)
+        toll[along.take(where(skirts))] += SKIRT
+        return np.asarray(toll)

@@ -1,0 +1,184 @@
+"""Ruled tables in columns beside one another, in rows and lettering that let them fit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.marks import LineMark, Mark, Text, box
+from graphkin.drawing.richtext import extent
+from graphkin.text.errors import PageError, Problem
+
+HEIGHT, SMALL = 2.5, 1.8
+"""Heights of the letters in mm: as they are wished, and the least."""
+PAD = 1.4
+"""Least room beside the letters of a cell, both sides together, in mm."""
+BETWEEN, APART = 3, 0.6
+"""Room between tables beside one another, in mm, and below one another, in rows."""
+
+
+class Look(NamedTuple):
+    """Height of a row, how far below its upper line letters stand (mm), the part of the widths."""
+
+    row: float
+    base: float
+    part: float
+
+    @property
+    def letters(self) -> tuple[float, ...]:
+        """The heights of letters that are tried."""
+        return (HEIGHT, SMALL) if self.part == 1 else (SMALL,)
+
+
+TALL = Look(5.0, 3.55, 1.0)
+"""How tables with signs above letters look where there is room for it."""
+LOOKS = (Look(4.7, 3.4, 1.0), *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)))
+"""How tables look where there is room, and where there is less and less."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of markup cells."""
+
+    cells: tuple[str, ...]
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnTable:
+    """A head and rows below it; the widths of its columns, in mm, where nothing needs more.
+
+    ``among`` are all rows of a table that stands in blocks, which look alike. ``beside``: it stands
+    beside a table in one block, and below one of more blocks where a whole row stays free.
+    """
+
+    widths: tuple[float, ...]
+    head: Row
+    rows: tuple[Row, ...]
+    among: tuple[Row, ...] = ()
+    beside: bool = False
+
+    @property
+    def lines(self) -> int:
+        """Its rows with the head."""
+        return len(self.rows) + 1
+
+    def blocks(self, room: int) -> list[ColumnTable]:
+        """Tables of at most so many rows each, which look alike."""
+        starts = range(0, len(self.rows), room)
+        return [replace(self, rows=self.rows[i : i + room], among=self.rows) for i in starts]
+
+    def columns(self, look: Look) -> tuple[float, ...]:
+        """Widths of the columns: the given ones, the room shared evenly, or what letters need."""
+        given = tuple(look.part * width for width in self.widths)
+        for height in look.letters:
+            needs = self.needs(height)
+            left = (sum(given) - sum(needs)) / len(given)
+            if all(need + PAD <= width for need, width in zip(needs, given, strict=True)):
+                return given
+            if left >= PAD:
+                return tuple(need + left for need in needs)
+        return tuple(max(need + PAD, width) for need, width in zip(needs, given, strict=True))
+
+    def needs(self, height: float) -> list[float]:
+        """The widest text of each column in mm."""
+        return [
+            max(extent(name, SMALL)[0], *(extent(row.cells[i], height)[0] for row in self.among))
+            for i, name in enumerate(self.head.cells)
+        ]
+
+    def letters(self, look: Look, widths: Sequence[float]) -> float:
+        """The lettering in which every cell fits its column and its row."""
+        for row in self.among if look.letters[0] == HEIGHT else ():
+            for width, markup in zip(widths, row.cells, strict=True):
+                across, _, below = extent(markup, HEIGHT)
+                if across > width - PAD + 1e-9 or below > look.row - look.base - 0.1:
+                    return SMALL
+        return look.letters[0]
+
+    def marks(self, x: float, y: float, look: Look) -> list[Mark]:
+        """The ruled table with its top-left corner at (x, y)."""
+        widths, row = self.columns(look), look.row
+        total, height = sum(widths), row * self.lines
+        marks: list[Mark] = [box(x, y, total, row, "shade")]
+        for i in range(self.lines + 1):
+            marks.append(LineMark(x, y + i * row, x + total, y + i * row, "panel"))
+        left = x
+        for width in (*widths, 0.0):
+            marks.append(LineMark(left, y, left, y + height, "panel"))
+            left += width
+        marks += cells(x, y + look.base, widths, self.head, SMALL)
+        letters = self.letters(look, widths)
+        for i, each in enumerate(self.rows, 1):
+            marks += cells(x, y + i * row + look.base, widths, each, letters)
+        return marks
+
+
+def cells(
+    x: float, baseline: float, widths: Sequence[float], row: Row, height: float
+) -> list[Mark]:
+    """The texts of one row, each in the middle of its column."""
+    marks: list[Mark] = []
+    for width, markup in zip(widths, row.cells, strict=True):
+        if markup:
+            marks.append(Text(x + width / 2, baseline, markup, "table", height, "middle", row.name))
+        x += width
+    return marks
+
+
+def laid_out(tables: Sequence[ColumnTable], rect: Rect) -> list[Mark]:
+    """Tables in a rectangle, as large as they fit it. Raises PageError where none do."""
+    left, top, right, low = rect
+    raised = any("^" in row.cells[0] for table in tables for row in table.rows)
+    for look in (TALL, *LOOKS) if raised else LOOKS:
+        columns = in_columns(tables, (low - top) / look.row)
+        wide = [max(sum(table.columns(look)) for table in column) for column in columns]
+        if sum(wide) + BETWEEN * (len(wide) - 1) > right - left + 1e-9:
+            continue
+        marks: list[Mark] = []
+        for nth, column in enumerate(columns):
+            x, y = left + sum(wide[:nth]) + BETWEEN * nth, top
+            for table in column:
+                marks += table.marks(x, y, look)
+                y += (table.lines + APART) * look.row
+        return marks
+    raise PageError(no_room(tables, right - left))
+
+
+def in_columns(tables: Sequence[ColumnTable], lines: float) -> list[list[ColumnTable]]:
+    """Tables from top to bottom of columns of so many lines, in blocks where they are long."""
+    columns: list[list[ColumnTable]] = []
+    for table in tables:
+        room = lines - (1 - APART if table.beside else 0)
+        for block in table.blocks(max(int(lines) - 1, 1)):
+            free = (
+                column
+                for column in reversed([] if table.beside and len(columns) == 1 else columns)
+                if sum(above.lines + APART for above in column) + block.lines <= room
+            )
+            column = next(free, None)
+            if column is None:
+                columns.append([block])
+            else:
+                column.append(block)
+    return columns
+
+
+def no_room(tables: Sequence[ColumnTable], width: float) -> Problem:
+    """The problem of tables that are too large: a name that is too long, or too many rows."""
+    widest, name = max(
+        (extent(row.cells[i], SMALL)[0], row.name)
+        for table in tables
+        for row in table.rows
+        for i in range(len(row.cells) - 2)
+    )
+    if widest > tables[0].widths[0]:
+        found = f"does not fit: {name} is {widest:.0f} mm long in the smallest lettering"
+        expected = f"about {tables[0].widths[0]:.0f} mm"
+        return Problem("tables", found, expected, "shorten the names of its points")
+    rows = sum(len(table.rows) for table in tables)
+    found = f"does not fit: {rows} rows are too many for the {width:.0f} mm above the title block"
+    hint = "ask for fewer velocities, accelerations or links on one sheet, or split the scene"
+    return Problem("tables", found, "fewer rows", hint)

@@ -1,0 +1,245 @@
+"""What every sheet has: ISO 5457 frame and fields, ISO 7200 title block, print check, A4 page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import pairwise
+from math import floor
+
+from graphkin.drawing.areas import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
+from graphkin.drawing.marks import LineMark, Mark, Text, box
+from graphkin.drawing.richtext import escape, extent, flowed, plain, words_of
+from graphkin.text.errors import PageError, Problem
+
+SIZES = {"A3": (420.0, 297.0), "A2": (594.0, 420.0)}
+FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
+LETTERS = "ABCDEFGHJKLM"  # I and O are left out
+LEADING = 1.7  # distance of lines in heights of capitals
+CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
+HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
+
+
+@dataclass(frozen=True, slots=True)
+class TitleBlock:
+    """The data fields of ISO 7200 in plain text; ``scale`` is markup, ``labels`` name the fields.
+
+    ``labels`` is keyed by the names of the fields; a field without a label shows its value alone,
+    an empty value leaves its cell free for handwriting.
+    """
+
+    legal_owner: str = ""
+    title: str = ""
+    creator: str = ""
+    approved_by: str = ""
+    document_type: str = ""
+    identification: str = ""
+    date_of_issue: str = ""
+    sheet: str = ""
+    language: str = ""
+    scale: str = ""
+    revision: str = ""
+    labels: Mapping[str, str] = field(default_factory=dict)
+
+
+# name of the field, its cell (left, top, right, bottom) in the block, the value's largest height
+CELLS: tuple[tuple[str, Rect, float], ...] = (
+    ("legal_owner", (0, 0, 50, 24), 3.5),
+    ("document_type", (50, 0, 130, 12), 3.5),
+    ("title", (50, 12, 130, 24), 3.5),
+    ("creator", (130, 0, 180, 12), 3.5),
+    ("approved_by", (130, 12, 180, 24), 3.5),
+    ("scale", (0, 24, 50, 36), 3.5),
+    ("identification", (50, 24, 101, 36), 3.5),
+    ("revision", (101, 24, 115, 36), 3.5),
+    ("date_of_issue", (115, 24, 148, 36), 3.5),
+    ("language", (148, 24, 162, 36), 3.5),
+    ("sheet", (162, 24, 180, 36), 3.5),
+)
+
+
+def sheet_frame(title_block: TitleBlock, size: str = "A3") -> tuple[Mark, ...]:
+    """Draw the frame, centring marks, fields and title block of a landscape sheet."""
+    width, height = SIZES[size]
+    frame = (FILING, EDGE, width - EDGE, height - EDGE)
+    right, bottom = frame[2:]
+    return (
+        *fields(width, height),
+        edged(frame, "frame"),
+        *centring_marks(width, height),
+        Text(right - 1, bottom + 4.2, size, "field", 3.5, "end", "size"),
+        *title_block_marks(title_block, right - TITLE_WIDTH, bottom - TITLE_HEIGHT),
+    )
+
+
+def edged(rect: Rect, cls: str) -> Mark:
+    """Draw a rectangle given by its sides."""
+    left, top, right, bottom = rect
+    return box(left, top, right - left, bottom - top, cls)
+
+
+def centring_marks(width: float, height: float) -> tuple[Mark, ...]:
+    """Draw four 10 mm marks across the frame in the middle of each side."""
+    x, y, reach = width / 2, height / 2, 2 * BAND
+    left, right, top, bottom = FILING - BAND, width - BAND, BAND, height - BAND
+    ends = (
+        (x, top, x, top + reach),
+        (x, bottom, x, bottom - reach),
+        (left, y, left + reach, y),
+        (right, y, right - reach, y),
+    )
+    return tuple(LineMark(*four, "frame", "centring-mark") for four in ends)
+
+
+def bounds(length: float, low: float, high: float) -> list[float]:
+    """Give the bounds of the fields along one side, counted in 50 mm from its middle."""
+    half = floor(length / 2 / FIELD)
+    inner = [length / 2 + i * FIELD for i in range(-half, half + 1)]
+    return [low, *(at for at in inner if low + FIELD / 4 < at < high - FIELD / 4), high]
+
+
+@lru_cache(maxsize=8)
+def fields(width: float, height: float) -> tuple[Mark, ...]:
+    """Draw the grid border with its numbered and lettered fields."""
+    outer = (FILING - BAND, BAND, width - BAND, height - BAND)
+    left, top, right, bottom = outer
+    across, down = bounds(width, left, right), bounds(height, top, bottom)
+    marks: list[Mark] = [edged(outer, "border")]
+    for x in across[1:-1]:
+        marks += (LineMark(x, y, x, y + BAND, "border") for y in (top, bottom - BAND))
+    for y in down[1:-1]:
+        marks += (LineMark(x, y, x + BAND, y, "border") for x in (left, right - BAND))
+    for i, (a, b) in enumerate(pairwise(across)):
+        middle = (max(a, FILING) + min(b, right - BAND)) / 2
+        for y in (top, bottom - BAND):
+            marks.append(Text(middle, y + 4.25, str(i + 1), "field", 3.5, "middle"))
+    for i, (a, b) in enumerate(pairwise(down)):
+        middle = (max(a, EDGE) + min(b, bottom - BAND)) / 2 + 1.75
+        for x in (left, right - BAND):
+            marks.append(Text(x + BAND / 2, middle, LETTERS[i], "field", 3.5, "middle"))
+    return tuple(marks)
+
+
+def wrapped(text: str, room: float, height: float) -> list[str]:
+    """Break plain text between its words into lines of markup no wider than ``room`` mm."""
+    lines: list[str] = []
+    for word in escape(text).split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and extent(longer, height)[0] <= room:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
+
+
+def fitting(
+    name: str, text: str, room: float, depth: float, most: float
+) -> tuple[list[str], float]:
+    """Give lines of markup and the greatest ISO 3098 height at which they fit a cell (mm)."""
+    for height in (height for height in HEIGHTS if height <= most):
+        lines = [text] if name == "scale" else wrapped(text, room, height)
+        wide = max(extent(line, height)[0] for line in lines)
+        if wide <= room and (len(lines) - 1) * LEADING * height + height <= depth:
+            return lines, height
+    raise PageError(
+        Problem(
+            f"title block, {name.replace('_', ' ')}",
+            f"“{text}” does not fit in the smallest lettering",
+            f"text for {room:g} × {depth:g} mm",
+            "shorten the text",
+        )
+    )
+
+
+def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mark]:
+    """Write the label of one cell at its top and the value's lines at its bottom."""
+    left, top, right, bottom = rect
+    x, room = left + 1.5, right - left - 3
+    marks: list[Mark] = []
+    if label:
+        (line,), height = fitting(f"label of {name}", label, room, 1.8, 1.8)
+        marks.append(Text(x, top + 3.2, line, "title", height))
+    if value.strip():
+        lines, height = fitting(name, value, room, bottom - top - 7, most)
+        low = bottom - 2.6
+        for i, line in enumerate(lines):
+            y = low - (len(lines) - 1 - i) * LEADING * height
+            marks.append(Text(x, y, line, "title", height, name=name))
+    return marks
+
+
+def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]:
+    """Draw the title block with its top-left corner at (x, y)."""
+    marks: list[Mark] = [box(x, y, TITLE_WIDTH, TITLE_HEIGHT, "frame title-block")]
+    marks += (
+        LineMark(x + a, y + b, x + c, y + d, "border title-block")
+        for a, b, c, d in (
+            (50, 12, 180, 12),
+            (0, 24, 180, 24),
+            (50, 0, 50, 36),
+            (130, 0, 130, 24),
+            (101, 24, 101, 36),
+            (115, 24, 115, 36),
+            (148, 24, 148, 36),
+            (162, 24, 162, 36),
+        )
+    )
+    for name, (left, top, right, bottom), most in CELLS:
+        rect = (x + left, y + top, x + right, y + bottom)
+        marks += cell(name, rect, most, block.labels.get(name, ""), getattr(block, name))
+    return tuple(marks)
+
+
+@lru_cache(maxsize=8)
+def check_bar(x: float, y: float, caption: str = "", length: int = 100) -> tuple[Mark, ...]:
+    """Draw a ruler from (x, y) to the right to check the print: 1 mm ticks, numbers each 10 mm.
+
+    It takes 4 mm above y, 4 mm below it, and the caption (markup) to its right.
+    """
+    marks: list[Mark] = [LineMark(x, y, x + length, y, "check-bar", "check-bar")]
+    for i in range(length + 1):
+        tick = 4.0 if i % 10 == 0 else 3.0 if i % 5 == 0 else 2.0
+        marks.append(LineMark(x + i, y, x + i, y - tick, "check-bar"))
+    for i in range(0, length + 1, 10):
+        marks.append(Text(x + i, y + 3.0, str(i), "check-bar", 1.8, "middle"))
+    if caption:
+        marks.append(Text(x + length + 4, y, caption, "check-bar", 1.8))
+    return tuple(marks)
+
+
+def page_frame(
+    header: tuple[str, str] = ("", ""), footer: tuple[str, str] = ("", "")
+) -> tuple[Mark, ...]:
+    """Draw an A4 portrait page's frame with one line (left, right; markup) at its head and foot."""
+    left, _, right, bottom = A4_FRAME
+    head, foot = A4_AREA[1], A4_AREA[3]
+    marks: list[Mark] = [edged(A4_FRAME, "frame")]
+    marks += (LineMark(left, y, right, y, "border") for y in (head, foot))
+    marks += ends(head - 2.9, header, "header")
+    marks += ends(bottom - 2.9, footer, "footer")
+    return tuple(marks)
+
+
+def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:
+    """Write markup at the left and at the right end of an A4 page's line, the left one in two
+    small lines where it is long."""
+    left, right = A4_FRAME[0] + 3, A4_FRAME[2] - 3
+    first, last = words
+    wide = sum(extent(markup, 2.5)[0] for markup in words)
+    height = 2.5 if wide + 4 <= right - left else 1.8
+    lines = [first]
+    if wide / 2.5 * height + 4 > right - left:
+        room = right - left - 4 - extent(last, height)[0]
+        lines = flowed(words_of(first), " ", room, height)
+        if len(lines) > 2:
+            fits = len(plain(" ".join(lines[:2])))
+            found = f"“{plain(first)}” is too long: {len(plain(first))} letters"
+            raise PageError(Problem(name, found, f"about {fits} letters", "shorten it"))
+    low = y + CLOSE * (len(lines) - 1) / 2
+    marks: list[Mark] = [
+        Text(left, low - CLOSE * (len(lines) - 1 - i), line, "title", height, "start", name)
+        for i, line in enumerate(lines)
+        if line
+    ]
+    return [*marks, *([Text(right, y, last, "title", height, "end", name)] if last else [])]

@@ -1,0 +1,247 @@
+"""The display list: everything a page shows, laid out once, in millimetres.
+
+Coordinates have their origin at the page's top-left corner, x to the right, y DOWN. Angles are in
+degrees, counter-clockwise as seen on the paper. ``cls`` holds one or more classes separated by
+blanks; the first decides the style (see ``style``). ``name`` and ``step`` go into the SVG as
+``data-name`` and ``data-step``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import cos, isfinite, radians, sin
+from typing import Literal
+
+from graphkin.drawing.richtext import extent
+from graphkin.text.errors import PageError, Problem
+
+Point = tuple[float, float]
+Anchor = Literal["start", "middle", "end"]
+SLACK = 1e-6  # mm, rounding forgiven at the page's edge
+
+
+@dataclass(frozen=True, slots=True)
+class LineMark:
+    """A straight line between two points; ``part`` tells the lines of one step apart."""
+
+    x1: float
+    y1: float
+    x2: float
+    y2: float
+    cls: str
+    name: str = ""
+    step: int | None = None
+    part: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Polyline:
+    """A broken line; a closed one is a polygon, filled when its class is."""
+
+    points: tuple[Point, ...]
+    cls: str
+    name: str = ""
+    step: int | None = None
+    closed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class CircleMark:
+    """A circle, filled when its class is."""
+
+    cx: float
+    cy: float
+    r: float
+    cls: str
+    name: str = ""
+    step: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """An arc of less than a full turn from angle ``start`` to ``end``; clockwise if end < start."""
+
+    cx: float
+    cy: float
+    r: float
+    start: float
+    end: float
+    cls: str
+    name: str = ""
+    step: int | None = None
+
+    def at(self, angle: float) -> Point:
+        """Give the point of the arc's circle at an angle in degrees."""
+        turn = radians(angle)
+        return self.cx + self.r * cos(turn), self.cy - self.r * sin(turn)
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Marked-up text: baseline at y, capitals ``height`` mm high, turned by ``rotate``°."""
+
+    x: float
+    y: float
+    markup: str
+    cls: str
+    height: float = 2.5
+    anchor: Anchor = "start"
+    name: str = ""
+    step: int | None = None
+    rotate: float = 0.0
+
+    def left(self) -> float:
+        """Tell how far the text's beginning lies from x along the baseline, in mm."""
+        if self.anchor == "start":
+            return 0.0
+        width = extent(self.markup, self.height)[0]
+        return -width / 2 if self.anchor == "middle" else -width
+
+    def corners(self) -> tuple[Point, ...]:
+        """Give the four corners of the text's box on the page, turned with the text."""
+        left = self.left()
+        width, top, bottom = extent(self.markup, self.height)
+        box = ((left, top), (left + width, top), (left + width, bottom), (left, bottom))
+        if not self.rotate:
+            return tuple((self.x + u, self.y + v) for u, v in box)
+        c, s = cos(radians(self.rotate)), sin(radians(self.rotate))
+        return tuple((self.x + u * c + v * s, self.y - u * s + v * c) for u, v in box)
+
+
+Mark = LineMark | Polyline | CircleMark | Arc | Text
+
+
+def polygon(
+    points: tuple[Point, ...], cls: str, name: str = "", step: int | None = None
+) -> Polyline:
+    """Make a closed broken line."""
+    return Polyline(points, cls, name, step, closed=True)
+
+
+def box(x: float, y: float, width: float, height: float, cls: str) -> Polyline:
+    """Make an upright rectangle from its top-left corner and its size in mm."""
+    right, below = x + width, y + height
+    return Polyline(((x, y), (right, y), (right, below), (x, below)), cls, closed=True)
+
+
+def arc_points(arc: Arc) -> Iterator[Point]:
+    """Give both ends of an arc and those of its quarter points that it passes."""
+    low, high = sorted((arc.start, arc.end))
+    yield arc.at(arc.start)
+    yield arc.at(arc.end)
+    quarter = 90.0 * (low // 90.0 + 1.0)
+    while quarter < high:
+        yield arc.at(quarter)
+        quarter += 90.0
+
+
+def moved(mark: Mark, right: float, down: float) -> Mark:
+    """Give the same mark farther right and down by some mm."""
+    if isinstance(mark, LineMark):
+        x1, y1, x2, y2 = mark.x1 + right, mark.y1 + down, mark.x2 + right, mark.y2 + down
+        return replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
+    if isinstance(mark, Polyline):
+        return replace(mark, points=tuple((x + right, y + down) for x, y in mark.points))
+    if isinstance(mark, Text):
+        return replace(mark, x=mark.x + right, y=mark.y + down)
+    return replace(mark, cx=mark.cx + right, cy=mark.cy + down)
+
+
+def reach(mark: Mark) -> tuple[float, float, float, float]:
+    """Tell the upright box (left, top, right, bottom) that a mark takes up, without line widths."""
+    if isinstance(mark, LineMark):
+        points: tuple[Point, ...] = ((mark.x1, mark.y1), (mark.x2, mark.y2))
+    elif isinstance(mark, Polyline):
+        points = mark.points
+    elif isinstance(mark, CircleMark):
+        return mark.cx - mark.r, mark.cy - mark.r, mark.cx + mark.r, mark.cy + mark.r
+    elif isinstance(mark, Arc):
+        points = tuple(arc_points(mark))
+    else:
+        points = mark.corners()
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def numbers(mark: Mark) -> Iterator[float]:
+    """Give every number that a mark is drawn from."""
+    if isinstance(mark, LineMark):
+        return iter((mark.x1, mark.y1, mark.x2, mark.y2))
+    if isinstance(mark, Polyline):
+        return (value for point in mark.points for value in point)
+    if isinstance(mark, CircleMark):
+        return iter((mark.cx, mark.cy, mark.r))
+    if isinstance(mark, Arc):
+        return iter((mark.cx, mark.cy, mark.r, mark.start, mark.end))
+    return iter((mark.x, mark.y, mark.height, mark.rotate))
+
+
+def fits(mark: Mark, width: float, height: float) -> bool:
+    """Tell at a glance that a mark lies on a page; of arcs and turned texts it tells nothing."""
+    if isinstance(mark, Text):
+        if mark.rotate or not mark.height > 0:
+            return False
+        left, (long, top, bottom) = mark.x + mark.left(), extent(mark.markup, mark.height)
+        across = left >= 0 and left + long <= width
+        return across and mark.y + top >= 0 and mark.y + bottom <= height
+    if isinstance(mark, LineMark):
+        across = 0 <= mark.x1 <= width and 0 <= mark.x2 <= width
+        return across and 0 <= mark.y1 <= height and 0 <= mark.y2 <= height
+    if isinstance(mark, CircleMark):
+        across = 0 < mark.r <= mark.cx <= width - mark.r
+        return across and mark.r <= mark.cy <= height - mark.r
+    if isinstance(mark, Polyline):
+        inside = all(0 <= x <= width and 0 <= y <= height for x, y in mark.points)
+        return inside and len(mark.points) >= 2
+    return False
+
+
+def fault(mark: Mark, width: float, height: float) -> tuple[str, str] | None:
+    """Tell (found, expected) when a mark cannot be drawn on a page of this size in mm."""
+    if not all(map(isfinite, numbers(mark))):
+        return "a coordinate that is not a finite number", "finite millimetres"
+    if isinstance(mark, CircleMark | Arc) and mark.r <= 0:
+        return f"radius {mark.r:g} mm", "a radius above zero"
+    if isinstance(mark, Text) and mark.height <= 0:
+        return f"lettering {mark.height:g} mm high", "a height above zero"
+    if isinstance(mark, Arc) and abs(mark.end - mark.start) >= 360:
+        return f"an arc over {abs(mark.end - mark.start):g}°", "less than 360° (else a circle)"
+    if isinstance(mark, Polyline) and len(mark.points) < 2:
+        return f"a broken line of {len(mark.points)} points", "two points or more"
+    left, top, right, bottom = reach(mark)
+    if left < -SLACK or top < -SLACK or right > width + SLACK or bottom > height + SLACK:
+        found = f"reaches x {left:.2f} to {right:.2f}, y {top:.2f} to {bottom:.2f} mm"
+        return found, f"a mark within the page of {width:g} × {height:g} mm"
+    return None
+
+
+def place_of(mark: Mark) -> str:
+    """Name a mark in an error: its kind, class, name and text."""
+    words = [type(mark).__name__.removesuffix("Mark").lower(), mark.cls, mark.name]
+    if isinstance(mark, Text):
+        words.append(f"“{mark.markup}”")
+    return " ".join(word for word in words if word)
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """One page: its size in mm, its marks in painting order, its title and language code."""
+
+    width: float
+    height: float
+    marks: tuple[Mark, ...]
+    title: str = ""
+    lang: str = "en"
+
+    def check(self) -> None:
+        """Refuse marks that are not finite or leave the page; name each of them."""
+        problems = []
+        for mark in self.marks:
+            if fits(mark, self.width, self.height):
+                continue
+            found = fault(mark, self.width, self.height)
+            if found:
+                problems.append(Problem(place_of(mark), *found))
+        if problems:
+            raise PageError(problems)

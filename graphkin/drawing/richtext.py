@@ -1,0 +1,239 @@
+r"""A tiny markup for formulas and labels, laid out into runs at absolute places.
+
+``*v*`` is italic, ``_{BA}`` or ``_2`` a subscript, ``^{ν}`` or ``^2`` a superscript; a subscript
+and a superscript directly after one another start at the same place, but an exponent stands after
+an index of more than two signs. A backslash takes the next sign as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
+
+from graphkin.drawing.glyphs import advance, ink, known, size_for
+from graphkin.text.errors import PageError, Problem
+
+SUB, SUP, SMALL = 0.24, -0.48, 0.70  # em: shifts (y down) and size of scripts
+OVERHANG = {"f": 0.14}
+"""How far, in em, slanted letters reach over an upright sign or an exponent after them."""
+CLEAR = 0.1
+"""The least room, in mm, between signs of lines above one another."""
+STACKED = 2
+"""Signs of the longest index above which an exponent may stand."""
+SPECIAL = "\\*_^{}"
+TOKEN = re.compile(r"[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|.", re.DOTALL)
+UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
+GAP = re.compile(rf"(?<![=⊥∥]) (?!=)(?!(?<=[\d}}] )(?:{UNITS}))")
+"""Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥ and ∥."""
+WORDS = re.compile(r"[^ ]+(?: [^ ]+)* ?")
+
+
+class TextRun(NamedTuple):
+    """A piece of text in one face and size: offsets of its baseline's start and font size in mm."""
+
+    text: str
+    x: float
+    y: float
+    size: float
+    italic: bool
+
+
+class TextPiece(NamedTuple):
+    """A piece of marked-up text before it is placed; level −1 subscript, 1 superscript."""
+
+    text: str
+    italic: bool
+    level: int
+
+
+def escape(text: str) -> str:
+    """Make plain text safe to stand in markup."""
+    return "".join("\\" + sign if sign in SPECIAL else sign for sign in text)
+
+
+def plain(markup: str) -> str:
+    """Give the words of a markup without its signs."""
+    return "".join(piece.text for piece in pieces(markup))
+
+
+def broken(markup: str, found: str) -> PageError:
+    """Tell that a markup cannot be read."""
+    hint = "write \\* \\_ \\^ \\{ \\} for the signs themselves"
+    return PageError(Problem(f"markup “{markup}”", found, hint=hint))
+
+
+def pieces(markup: str) -> list[TextPiece]:
+    """Cut a markup into pieces of one face and one level."""
+    found: list[TextPiece] = []
+    italic, level = False, 0
+    for token in TOKEN.findall(markup):
+        if token == "*":
+            italic = not italic
+        elif token == "}" and level:
+            level = 0
+        elif token[0] in "_^":
+            if level:
+                raise broken(markup, "a script within a script")
+            level = -1 if token[0] == "_" else 1
+            if token[1:] != "{":
+                add(found, TextPiece(literal(markup, token[1:]), italic, level))
+                level = 0
+        else:
+            add(found, TextPiece(literal(markup, token), italic, level))
+    if italic or level:
+        raise broken(markup, "an italic or a script that does not end")
+    return found
+
+
+def literal(markup: str, token: str) -> str:
+    """Give the signs that a token stands for."""
+    if token in ("", "*", "_", "^", "\\"):
+        raise broken(markup, "a sign of the markup that stands alone")
+    return known(token[1:] if token[0] == "\\" else token)
+
+
+def add(found: list[TextPiece], piece: TextPiece) -> None:
+    """Append a piece, joined to the last one if face and level are the same."""
+    if found and found[-1][1:] == piece[1:]:
+        piece = TextPiece(found.pop().text + piece.text, piece.italic, piece.level)
+    found.append(piece)
+
+
+@lru_cache(maxsize=4096)
+def laid(markup: str, height: float) -> tuple[tuple[TextRun, ...], float]:
+    """Place the pieces of a markup one after another; give the runs and the whole width in mm."""
+    full = size_for(height)
+    shift = {0: 0.0, -1: SUB * full, 1: SUP * full}
+    x = 0.0  # where the next piece on the line starts
+    ends = {-1: 0.0, 1: 0.0}  # where each script ends
+    start = 0.0  # where scripts start
+    index = ""  # the subscript that they begin with
+    lean = 0.0  # how far a slanted letter hangs over what comes above or upright after it
+    found: list[TextRun] = []
+    for text, italic, level in pieces(markup):
+        size = full * SMALL if level else full
+        if level:
+            index = text if level < 0 else index
+            after = level > 0 and text.isdigit() and len(index) > STACKED
+            begin = max(start + (lean if level > 0 else 0.0), ends[-1 if after else level])
+            ends[level] = begin + advance(text, italic) * size
+            x = max(x, ends[level])
+        else:
+            begin = x if italic else x + lean
+            x = start = begin + advance(text, italic) * size
+            ends, index = {-1: start, 1: start}, ""
+            lean = OVERHANG.get(text[-1], 0.0) * size if italic else 0.0
+        found.append(TextRun(text, begin, shift[level], size, italic))
+    return tuple(found), x
+
+
+@lru_cache(maxsize=4096)
+def spaced_runs(markup: str, height: float) -> tuple[TextRun, ...]:
+    """Give the runs with at most one blank at an end, so that words stay apart when searched."""
+    found: list[TextRun] = []
+    for run in laid(markup, height)[0]:
+        if run.text[0] == " " and found and not found[-1].text.endswith(" "):
+            found[-1] = found[-1]._replace(text=found[-1].text + " ")
+        if run.text[0] == " " or "  " in run.text:
+            found += split(run)
+        else:
+            found.append(run)
+    return tuple(found)
+
+
+def split(run: TextRun) -> Iterator[TextRun]:
+    """Split a run at double blanks and drop leading ones; what is left stays in its place."""
+    for match in WORDS.finditer(run.text):
+        skipped = advance(run.text[: match.start()], run.italic) * run.size
+        yield TextRun(match[0], run.x + skipped, run.y, run.size, run.italic)
+
+
+@lru_cache(maxsize=4096)
+def runs(markup: str, height: float) -> tuple[TextRun, ...]:
+    """Give the runs of a markup for capitals ``height`` mm high, without blanks at their ends."""
+    stripped = (run._replace(text=run.text.rstrip(" ")) for run in spaced_runs(markup, height))
+    return tuple(run for run in stripped if run.text)
+
+
+@lru_cache(maxsize=4096)
+def extent(markup: str, height: float) -> tuple[float, float, float]:
+    """Tell the width, top and bottom of the ink in mm from the baseline's start (y down)."""
+    placed, width = laid(markup, height)
+    tops, bottoms = [], []
+    for run in placed:
+        found = ink(run.text, run.italic)
+        if found:
+            tops.append(run.y - found[1] * run.size)
+            bottoms.append(run.y - found[0] * run.size)
+    return width, min(tops, default=0.0), max(bottoms, default=0.0)
+
+
+def are_clear(lines: Sequence[str], height: float, leading: float) -> bool:
+    """Whether no sign of a line comes near one of the line above it, set so many mm apart."""
+    return all(
+        extent(above, height)[2] + CLEAR - extent(below, height)[1] <= leading
+        or not nearer(above, below, height, leading)
+        for above, below in pairwise(lines)
+    )
+
+
+def nearer(above: str, below: str, height: float, leading: float) -> bool:
+    """Whether a sign of a line stands less than clear above one of the line below."""
+    low = [
+        box for box in signs(above, height) if box[3] > extent(below, height)[1] + leading - CLEAR
+    ]
+    return any(
+        left < end and start < right and bottom + CLEAR > leading + top
+        for left, right, _, bottom in low
+        for start, end, top, _ in signs(below, height)
+    )
+
+
+def signs(markup: str, height: float) -> Iterator[tuple[float, float, float, float]]:
+    """Give the left, right, top and bottom of the ink of each sign, from the baseline's start."""
+    for run in laid(markup, height)[0]:
+        x = run.x
+        for sign in run.text:
+            end, found = x + advance(sign, run.italic) * run.size, ink(sign, run.italic)
+            if found:
+                yield x, end, run.y - found[1] * run.size, run.y - found[0] * run.size
+            x = end
+
+
+def words_of(markup: str) -> list[str]:
+    """Pieces of markup between which a line may end: a number stays with its unit."""
+    return GAP.split(markup)
+
+
+def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:
+    """Pieces of markup joined by a mark into lines no wider than a width in mm."""
+    lines: list[str] = []
+    blank = laid(" ", height)[1]
+    reached: float | None = None  # how far the last line goes, where that is known
+    for i, piece in enumerate(pieces):
+        text = piece + (mark.rstrip() if i < len(pieces) - 1 else "")
+        alone = width_alone(text, height)
+        if lines:
+            longer = f"{lines[-1]} {text}"
+            if reached is None or alone is None:
+                end = extent(longer, height)[0]
+            else:
+                end = reached + blank + alone
+            if end <= width:
+                lines[-1], reached = longer, end
+                continue
+        lines.append(text)
+        reached = alone
+    return lines
+
+
+@lru_cache(maxsize=4096)
+def width_alone(markup: str, height: float) -> float | None:
+    """Tell the width of a piece of markup; None where only those beside it make it whole."""
+    try:
+        return laid(markup, height)[1]
+    except PageError:
+        return None

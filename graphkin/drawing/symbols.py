@@ -1,0 +1,169 @@
+"""The field's symbols on paper (ISO 3952 practice): arrows, pins, pivots, guides, angles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import atan2, cos, degrees, hypot, radians, sin
+
+from graphkin.drawing.field import XY
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, polygon
+from graphkin.drawing.style import BRIEF
+
+HEAD, SHARE = 3.2, 0.4
+"""Length of an arrowhead in mm, and of that of a short vector in parts of it."""
+SHORT, SHAFTED = 2.0, 6.0
+"""Vectors shorter than this, in mm, have no head; a thin shaft."""
+HALF, BLUNT, LEAST = 0.25, 0.5, 0.6
+"""Half the width of a head in parts of its length, of a small one at most; and at least, in mm."""
+PIN = 1.1
+"""Radius of a pin in mm."""
+FIXED = 1.3
+"""Radius of a pin of the frame in mm."""
+FREE = 0.8
+"""Radius of the mark of a point that joins no links, in mm."""
+HINGE = 0.9
+"""How much wider each further circle of a multiple hinge is, in mm."""
+PIVOT = 5.6
+"""Height of a fixed pivot's triangle in mm."""
+HIP = 4 / 7
+"""Half its width, in parts of its height."""
+BLOCK = (11.0, 6.4)
+"""Length and width of a block in mm."""
+SLOT = 1.75
+"""Half the width of a slot in mm."""
+ROUND = 10
+"""Chords of a slot's round end."""
+WELD = 2.4
+"""Side of the filled corner between two bars that are joined rigidly, in mm."""
+
+
+def arrow(tail: XY, tip: XY, cls: str, name: str, step: int | None = None) -> Iterator[Mark]:
+    """A vector as one line from tail to tip, its head apart."""
+    length = hypot(tip[0] - tail[0], tip[1] - tail[1])
+    yield LineMark(*tail, *tip, cls if length >= SHAFTED else f"{cls} {BRIEF}", name, step)
+    if length >= SHORT:
+        yield head(tail, tip, cls, name, step)
+
+
+def head(tail: XY, tip: XY, cls: str, name: str = "", step: int | None = None) -> Mark:
+    """An arrowhead at the tip, wider than any shaft."""
+    length = hypot(tip[0] - tail[0], tip[1] - tail[1])
+    size = min(HEAD, SHARE * length)
+    u, v = (tip[0] - tail[0]) / length, (tip[1] - tail[1]) / length
+    back = tip[0] - size * u, tip[1] - size * v
+    half = max(HALF * size, min(BLUNT * size, LEAST))
+    corners = (
+        tip,
+        (back[0] - half * v, back[1] + half * u),
+        (back[0] + half * v, back[1] - half * u),
+    )
+    return polygon(corners, f"arrowhead {cls.split(maxsplit=1)[0]}", name, step)
+
+
+def pin(at: XY, name: str, radius: float = PIN) -> Mark:
+    """A turning pair: a small open circle."""
+    return CircleMark(*at, radius, "pin", name)
+
+
+def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = 2.0) -> Iterator[Mark]:
+    """A line of the frame with hatching on its right-hand side as one walks along it (y down)."""
+    length = hypot(end[0] - start[0], end[1] - start[1])
+    u, v = (end[0] - start[0]) / length, (end[1] - start[1]) / length
+    yield LineMark(*start, *end, "guide")
+    for i in range(int(length / spacing)):
+        x, y = start[0] + (i + 0.8) * spacing * u, start[1] + (i + 0.8) * spacing * v
+        yield LineMark(x, y, x - depth * (u + v), y - depth * (v - u), "ground")
+
+
+def pivot_ground(at: XY, height: float = PIVOT) -> Iterator[Mark]:
+    """The triangle on a hatched line that carries a pin of the frame."""
+    (x, y), half = at, HIP * height
+    yield polygon((at, (x - half, y + height), (x + half, y + height)), "fixed-pivot")
+    yield from hatched((x - half - 2, y + height), (x + half + 2, y + height))
+
+
+def legs(at: XY, height: float) -> Iterator[Mark]:
+    """Both sides of such a triangle once more, thin, where a block in front of it covers them."""
+    for half in (-HIP * height, HIP * height):
+        yield LineMark(*at, at[0] + half, at[1] + height, "ground")
+
+
+def across(at: XY, way: XY, along: float, aside: float) -> XY:
+    """The place so far along a unit way of the page and so far to its right as one walks."""
+    return at[0] + along * way[0] - aside * way[1], at[1] + along * way[1] + aside * way[0]
+
+
+def rails(at: XY, way: XY, low: float, high: float) -> Iterator[Mark]:
+    """The two sides of a guide of the frame, hatched outside; from ``low`` to ``high`` along it."""
+    half = BLOCK[1] / 2
+    yield from hatched(across(at, way, low, half), across(at, way, high, half))
+    yield from hatched(across(at, way, high, -half), across(at, way, low, -half))
+
+
+def block(at: XY, way: XY, name: str, cls: str = "block") -> Mark:
+    """A sliding block: a rectangle turned along its guide; on the frame its class is slider."""
+    a, b = BLOCK[0] / 2, BLOCK[1] / 2
+    corners = ((-a, -b), (a, -b), (a, b), (-a, b))
+    return polygon(tuple(across(at, way, *corner) for corner in corners), cls, name)
+
+
+def slot(at: XY, way: XY, low: float, high: float, name: str) -> Mark:
+    """A straight slot: two parallel lines with round ends, from ``low`` to ``high`` along it."""
+    corners = []
+    for end, start in ((high, -90), (low, 90)):
+        for i in range(ROUND + 1):
+            turn = radians(start + 180 * i / ROUND)
+            corners.append(across(at, way, end + SLOT * cos(turn), SLOT * sin(turn)))
+    return polygon(tuple(corners), "slot", name)
+
+
+def slot_ground(at: XY, way: XY, low: float, high: float) -> Iterator[Mark]:
+    """Hatching beside both sides of a slot that is cut in the frame."""
+    for first, last, side in ((low, high, SLOT), (high, low, -SLOT)):
+        marks = hatched(across(at, way, first, side), across(at, way, last, side))
+        yield from (mark for mark in marks if mark.cls == "ground")
+
+
+def weld(corner: XY, first: XY, second: XY, name: str) -> Mark:
+    """The filled corner that joins two bars rigidly; the ways are unit vectors on the page."""
+    ends = (
+        (corner[0] + WELD * first[0], corner[1] + WELD * first[1]),
+        (corner[0] + WELD * second[0], corner[1] + WELD * second[1]),
+    )
+    return polygon((corner, *ends), "weld", name)
+
+
+def turned_arrow(centre: XY, radius: float, start: float, end: float, cls: str) -> Iterator[Mark]:
+    """An arc with an arrowhead at its end, for a sense of turning; angles in degrees."""
+    yield Arc(*centre, radius, start, end, cls)
+    sign = 1 if end > start else -1
+    before = radians(end - sign * degrees(2.2 / radius))
+    tip = radians(end)
+    yield sense_head(centre, radius, before, tip, cls)
+
+
+def sense_head(centre: XY, radius: float, before: float, tip: float, cls: str) -> Mark:
+    """The head of a turning arrow, along the chord of its last part."""
+    ends = [(centre[0] + radius * cos(t), centre[1] - radius * sin(t)) for t in (before, tip)]
+    (x0, y0), (x1, y1) = ends
+    length = hypot(x1 - x0, y1 - y0)
+    u, v = (x1 - x0) / length, (y1 - y0) / length
+    half = 0.45
+    corners = ((x1, y1), (x0 - half * v, y0 + half * u), (x0 + half * v, y0 - half * u))
+    return polygon(corners, f"arrowhead {cls}")
+
+
+def square_mark(corner: XY, first: XY, second: XY, step: int | None, size: float = 2.0) -> Mark:
+    """The small square that marks a right angle; the ways are unit vectors on the page."""
+    (x, y), (a, b), (c, d) = corner, first, second
+    points = (
+        (x + size * a, y + size * b),
+        (x + size * (a + c), y + size * (b + d)),
+        (x + size * c, y + size * d),
+    )
+    return Polyline(points, "square-mark", "", step)
+
+
+def bearing(way: XY) -> float:
+    """The angle in degrees, counter-clockwise on paper, of a way on the page."""
+    return degrees(atan2(-way[1], way[0]))

@@ -1,1 +1,0 @@
-"""Answers held against each student's own drawing: tolerances, follow-through, slips, reports."""

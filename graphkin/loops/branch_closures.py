@@ -1,0 +1,230 @@
+"""Branch conditions verified: the side of a pin, the other closure of a slide, all closures of a
+group.
+
+The three joints of a dyad with a slide are two pins and the slide. As the dyad moves from one
+closure to the other the pins keep their distance while the slide vector s·u changes in length
+alone, so that with w the way from the pin on the guide's side to the pin on the block's side,
+abs(w + x·u) = abs(w) has the roots x = 0 and x = -2 w·u.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphkin.loops.closing_groups import Group, Joint, Mask, moved_by
+from graphkin.loops.equations import Equations, equations
+from graphkin.loops.full_turns import as_meant, counted_freely, settle
+from graphkin.loops.loop_motion import Motion
+from graphkin.loops.newton import CLOSED, largest, linear_solve, newton, scaled
+from graphkin.loops.poses import pose_of, setting_of, unknowns_of
+from graphkin.loops.rigid_bodies import Complexes, Reals
+from graphkin.loops.rounding import PositionBounds
+from graphkin.scene.model import Scene
+
+STARTS = {1: 12, 2: 48}
+"""Random starts from which the closures of a group of so many links are looked for."""
+MOST_STARTS = 256
+"""Random starts of one round for larger groups."""
+A_TURN, MOST_IN_ALL = 24, 8192
+"""Starts for each turn that a wheel may make on its track, each turn having its own closures."""
+ROUNDS, ENOUGH = 10, 2
+"""Most rounds, and how many in a row that bring nothing new end the search."""
+SHORT = 14
+"""Iterations after which most starts have closed, if they ever do."""
+LAST, NEARBY = 40, 1e-3
+"""Most steps from where the loops nearly close to where they do, and the longest of them."""
+SAME = 1e-6
+"""Distance, in radians or the sizes of slides, below which rounding may make two closures one."""
+LEVEL, EITHER = 1e-9, 8
+"""Least such distance, and how many bounds of an error lie between two ways to one closure."""
+
+
+def other_closure(loops: Equations, motion: Motion, dyad: Group) -> tuple[Reals, Reals]:
+    """Slide coordinate (m) of a dyad with one slide as it stands, and in its other closure."""
+    (slide,) = dyad.slides
+    guide = loops.guides[slide.slide]
+    heading = motion.heading[:, motion.index[guide.on]] * guide.along
+    way = span(motion, dyad, slide, guide.block)
+    stands = motion.slide(slide.slide).position
+    return stands, stands - 2 * (way * heading.conj()).real
+
+
+def span(motion: Motion, dyad: Group, slide: Joint, block: str) -> Complexes:
+    """From the pin on the guide's side of the slide to the pin on the block's side."""
+    (inner,) = dyad.inner
+    left, right = sorted(dyad.outer, key=lambda joint: dyad.links[0] not in joint.links)
+    if slide is inner:
+        near, far = (left, right) if dyad.links[0] == block else (right, left)
+    else:
+        holder = dyad.links[0] if slide is left else dyad.links[1]
+        swinging = right if slide is left else left
+        near, far = (inner, swinging) if holder == block else (swinging, inner)
+    return motion.point(near.pin).place - motion.point(far.pin).place
+
+
+def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
+    """Sine-like measure of the side of a pin: positive to the left of the way first → second."""
+    start, end, place = (motion.point(name).place for name in (first, second, pin))
+    line, arm = end - start, place - start
+    return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
+
+
+def closure_numbers(
+    scene: Scene, loops: Equations, group: Group, row: Reals, setting: int
+) -> range:
+    """Which closure of a group the unknowns ``row`` (K + m,) of a setting may be; empty if none.
+
+    One number, 1, 2, …, unless rounding hides whether others, before it, are one closure, two or
+    none. The links known before are held in place, and those that come after left out.
+    """
+    values = setting_of(loops, setting)
+    part = equations(scene, values, group.known | set(group.links))
+    stands = unknowns_of(part, pose_of(loops, row, setting))
+    every = closures(part, stands, group)
+    if not len(every):
+        return range(0)
+    away = np.abs(wrapped(part, every - stands)).max(axis=1)
+    nearest = int(np.argmin(away))
+    if not away[nearest] < SAME:
+        return range(0)
+    moving = moved_by(part, group)
+    hidden = int(
+        (~PositionBounds.of(part, every[: nearest + 1]).regular[:, moving]).any(axis=1).sum()
+    )
+    return range(nearest + 1 - hidden, nearest + 2 + hidden)
+
+
+def closures(part: Equations, stands: Reals, group: Group) -> Reals:
+    """All ways in which a group closes, one scene: (closures, K + m), in order.
+
+    They are looked for by Newton's method from many starts with all but the group held as it
+    ``stands`` (1, K + m), and ordered by the angle, from 0 to 360°, of the group's first-written
+    link, ties by the next. Where wheels roll, an angle that only pins tell is counted within half
+    a turn of its start.
+    """
+    moving = moved_by(part, group)
+    size, turned = len(group.links), turns_of_wheels(part, moving)
+    starts = max(STARTS.get(size, MOST_STARTS), min(int(A_TURN * turned), MOST_IN_ALL))
+    distinct: list[Reals] = []
+    idle = 0
+    for number in range(ROUNDS if size > 2 or turned else 1):
+        thrown = scattered(part, stands, moving, starts, number)
+        before = len(distinct)
+        rows = closed_of(part, thrown, moving)
+        slack = slack_of(part, rows)
+        new = np.ones(len(rows), dtype=np.bool_)
+        for other in distinct:
+            new &= apart(part, rows, other, slack)
+        while new.any():
+            n = int(np.argmax(new))
+            distinct.append(rows[n])
+            new &= apart(part, rows, rows[n], slack)
+        idle = idle + 1 if len(distinct) == before else 0
+        if idle == ENOUGH or (number + 1 >= ENOUGH and not distinct):
+            break
+    links = [link for link in part.links if link in group.links]
+    distinct.sort(key=lambda row: [angle_of(part, link, row) for link in links])
+    return np.array(distinct).reshape(-1, part.unknown_count)
+
+
+def slack_of(part: Equations, rows: Reals) -> Reals:
+    """How far apart two ways to one closed position may end, in the sizes of unknowns: (N,)."""
+    with np.errstate(all="ignore"):
+        off = largest(PositionBounds.of(part, rows).off / part.columns)
+    return np.asarray(np.clip(EITHER * off, LEVEL, SAME))
+
+
+def apart(part: Equations, rows: Reals, other: Reals, slack: Reals) -> Mask:
+    """Which of some closed positions are not the other one: (N,)."""
+    return np.asarray(largest(wrapped(part, rows - other)) > slack)
+
+
+def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
+    """The closed positions to which Newton's method leads; stragglers alone go on to its end.
+
+    Beside a dead point the loops nearly close long before they do: only where steps have come down
+    to rounding has anything closed.
+    """
+    with np.errstate(all="ignore"):
+        found, _ = newton(part, thrown, moving, SHORT)
+        near = largest(scaled(part, found)[0]) < CLOSED
+        late, _ = newton(part, found[~near], moving)
+        found = np.concatenate([found[near], late])
+        found = found[largest(scaled(part, found)[0]) < CLOSED]
+        found = counted_freely(part, settled_of(part, found, moving), moving)
+        return found[as_meant(part, found, moving)]
+
+
+def settled_of(part: Equations, found: Reals, moving: Mask) -> Reals:
+    """Nearly closed positions led on until rounding moves them; without those that never come."""
+    slack = slack_of(part, found)
+    for _ in range(LAST):
+        residual, jacobian = scaled(part, found)
+        step = np.zeros_like(found)
+        step[:, moving] = linear_solve(jacobian[:, :, moving], residual[:, :, None])[:, :, 0]
+        moves = EITHER * largest(step) > slack
+        if not moves.any():
+            break
+        shortened = step * np.minimum(1, NEARBY / np.maximum(largest(step), NEARBY))[:, None]
+        found = np.where(moves[:, None], found - shortened * part.columns, found)
+        slack[moves] = slack_of(part, found[moves])
+    return found[~moves] if len(found) else found
+
+
+def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
+    """The position as it stands, and many with the group's unknowns thrown anywhere.
+
+    The equations that are linear in them hold at once: steps of Newton's method keep them.
+    """
+    thrown = np.random.default_rng(seed).uniform(-1, 1, (count, stands.shape[1]))
+    thrown[:, : loops.turning_count] *= np.pi
+    for k, (_, start) in loops.slips.counted.items():
+        thrown[:, k - 1] += start
+    thrown[:, loops.turning_count :] *= 2 * reach(loops)
+    thrown = np.concatenate([stands, np.where(moving, thrown, stands)])
+    settle(loops, thrown, np.ones_like(moving), ~moving, moving)
+    return led(loops, thrown, moving)
+
+
+def tracks(loops: Equations, moving: Mask) -> list[int]:
+    """The straight tracks along which a group's wheels move."""
+    return [
+        j for j, each in enumerate(loops.guides) if each.rolls and moving[loops.turning_count + j]
+    ]
+
+
+def turns_of_wheels(loops: Equations, moving: Mask) -> float:
+    """How often the wheels of a group turn, the smallest of them, as far as they may have come."""
+    radii = [abs(float(loops.guides[j].offset)) for j in tracks(loops, moving)]
+    return 4 * reach(loops) / (2 * np.pi * min(radii)) if radii else 0.0
+
+
+def led(loops: Equations, unknowns: Reals, moving: Mask) -> Reals:
+    """Unknowns moved as little as the linear equations ask, by least squares."""
+    scale = np.where(moving, loops.columns[0], 0.0)
+    step = np.linalg.pinv(loops.linear_rows()[0] * scale) @ loops.linear(unknowns).T
+    return np.asarray(unknowns - step.T * scale)
+
+
+def reach(loops: Equations) -> float:
+    """How far (m) a block may stand from the zero of its guide, as a rough size."""
+    far = [abs(complex(guide.through)) + abs(float(guide.offset)) for guide in loops.guides]
+    driven = np.where(loops.drives.turns, 0, np.abs(loops.drives.aim))
+    ends = np.abs(loops.owners[1]).max(initial=0)
+    return float(max([*far, driven.max(initial=0), ends, loops.size[0]]))
+
+
+def wrapped(loops: Equations, change: Reals) -> Reals:
+    """A change of unknowns in their sizes, angles within half a turn where no wheel rolls."""
+    turns = change[:, : loops.turning_count]
+    angles = np.angle(np.exp(1j * turns))
+    for k in loops.slips.counted:
+        angles[:, k - 1] = turns[:, k - 1]
+    return np.concatenate([angles, change[:, loops.turning_count :]], axis=1) / loops.columns
+
+
+def angle_of(loops: Equations, link: str, unknowns: Reals) -> float:
+    """Angle of a link's x axis, from 0 to 2π, rounded so that equal angles tie."""
+    angles = np.concatenate([[0.0], unknowns])
+    turned = np.angle(np.exp(1j * angles[loops.turned.of[link]]) * loops.turned.lean[link])
+    return round(float(turned % (2 * np.pi)), 6) % round(2 * np.pi, 6)

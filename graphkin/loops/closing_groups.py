@@ -1,0 +1,306 @@
+"""Which links close together: the groups, taken from the joints alone, in order of knowing.
+
+A set of links is ready when its joints among themselves and to known links, with the drivers on
+them, take at least its 3 freedoms a link: a driven crank (1 link), a dyad (2 links and 3 joints),
+groups of higher class (4 and 6, 6 and 9), a wheel on an arm. The smallest such set comes first.
+Where the count may deceive, the rank of its equations in some position decides.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import combinations
+from math import comb
+
+import numpy as np
+
+from graphkin.loops.equations import Equations, equations
+from graphkin.loops.poses import setting_of
+from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
+from graphkin.text.errors import StructureError
+
+LARGEST = 6
+MOST = 20_000
+"""Sets of links that are looked through for a group of higher class."""
+FULL = 1e-9
+"""Smallest over largest singular value above which equations determine a group."""
+
+Set = tuple[int, tuple[int, ...]]
+"""How many links a set has, and which, by their number."""
+Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """A pair: a pin by its point, a slide or track by its number among the guides.
+
+    Without both it ties coordinates of its links alone: two wheels, or a driver (``drives``).
+    """
+
+    links: tuple[str, ...]
+    pin: str = ""
+    slide: int = -1
+    rolls: bool = False
+    drives: bool = False
+
+    @property
+    def takes(self) -> int:
+        """Freedoms that it takes."""
+        return 2 if self.pin or self.slide >= 0 else 1
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Links that close together, the joints between them and those to links known before.
+
+    ``ties`` are the wheels that touch and the drivers that close it.
+    """
+
+    links: tuple[str, ...]
+    inner: tuple[Joint, ...]
+    outer: tuple[Joint, ...]
+    known: frozenset[str]
+    ties: tuple[Joint, ...] = ()
+
+    @property
+    def slides(self) -> tuple[Joint, ...]:
+        """Its sliding joints."""
+        return tuple(joint for joint in (*self.inner, *self.outer) if joint.slide >= 0)
+
+    @property
+    def is_dyad(self) -> bool:
+        """Two links, one pin or slide between them and one from each outwards, and no more."""
+        pairs = (*self.inner, *self.outer)
+        ends = [joint for joint in self.outer if self.links[0] in joint.links]
+        plain = not self.ties and not any(joint.rolls for joint in pairs)
+        three = len(self.inner) == len(ends) == 1 and len(self.outer) == 2
+        return plain and len(self.links) == 2 and three
+
+    @property
+    def is_driven(self) -> bool:
+        """One link that turns about a known pin, or slides along a known guide, as driven."""
+        return (
+            len(self.links) == len(self.outer) == len(self.ties) == 1
+            and self.ties[0].drives
+            and not self.outer[0].rolls
+        )
+
+
+def groups(scene: Scene, loops: Equations) -> list[Group]:
+    """The groups of two links and more, in the order in which one after the other is known."""
+    return [group for group in stages(scene, loops) if len(group.links) > 1]
+
+
+def stages(scene: Scene, loops: Equations) -> list[Group]:
+    """All groups, single links too, in the order in which one after the other is known.
+
+    Links that nothing determines are in none of them. A set of one or two links is looked at when
+    one of its neighbours has become known, so that the work grows with the number of joints.
+    """
+    net, known, found = Net(scene, loops), frozenset({FRAME}), list[Group]()
+    waiting = net.sets_beside({FRAME}, known)
+    while True:
+        group = first_ready(net, known, waiting) or larger(net, known)
+        if group is None:
+            return found
+        found.append(group)
+        known |= set(group.links)
+        for each in net.sets_beside(group.links, known):
+            heappush(waiting, each)
+
+
+def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equations) -> bool:
+    """Whether a way or a number stated under the name of a link means a group.
+
+    A number means the group of the link. A way means the group of the slide whose block it names;
+    the block itself may be known before, having closed with another group.
+    """
+    own = {j for j, guide in enumerate(loops.guides) if guide.block == name}
+    if isinstance(branch, Way) and own:
+        return any(joint.slide in own for joint in group.slides)
+    return name in group.links
+
+
+def joints(loops: Equations) -> tuple[Joint, ...]:
+    """Every two links that share a point, a guide or a straight track."""
+    bodies = loops.bodies
+    pins = [
+        Joint((p, q), pin=point)
+        for p, q in combinations(bodies, 2)
+        for point in bodies[p]
+        if point in bodies[q]
+    ]
+    slides = [
+        Joint((guide.block, guide.on), slide=j, rolls=guide.rolls)
+        for j, guide in enumerate(loops.guides)
+    ]
+    return (*pins, *slides)
+
+
+def tied(scene: Scene, loops: Equations) -> tuple[Joint, ...]:
+    """Wheels that touch with their arm, and drivers: they tie coordinates of links alone."""
+    wheels = [Joint((*gear.links, gear.arm), rolls=True) for gear in loops.gears]
+    drivers = [Joint((each.link, each.against), drives=True) for each in scene.drivers]
+    return (*wheels, *drivers)
+
+
+class Net:
+    """The joints and ties of a scene by the links that they join.
+
+    Links are counted in the order written; sets of them are kept with their size first, so that
+    the smallest set comes first, and of sets of one size the one that is written first.
+    """
+
+    def __init__(self, scene: Scene, loops: Equations) -> None:
+        self.scene, self.loops = scene, loops
+        self.order = {link: n for n, link in enumerate(loops.links)}
+        self.joints = by_link(joints(loops))
+        self.ties = by_link(tied(scene, loops))
+
+    def near(self, links: Iterable[str]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+        """The joints and the ties that some links have, in order."""
+        chosen = tuple(links)
+        first, second = (
+            {n: joint for link in chosen for n, joint in table[link]}
+            for table in (self.joints, self.ties)
+        )
+        return tuple(first[n] for n in sorted(first)), tuple(second[n] for n in sorted(second))
+
+    def sets_beside(self, links: Iterable[str], known: frozenset[str]) -> list[Set]:
+        """The sets of one and of two unknown links, joined together, beside some links."""
+        every, ties = self.near(links)
+        beside = {link for joint in (*every, *ties) for link in joint.links} - known
+        found: set[Set] = set()
+        for link in beside & self.order.keys():
+            found.add((1, (self.order[link],)))
+            mine, tied_to = self.near((link,))
+            others = {each for joint in mine for each in joint.links}
+            others |= {each for tie in tied_to if link in tie.links[:2] for each in tie.links[:2]}
+            pairs = ({link, each} for each in (others & self.order.keys()) - known - {link})
+            found |= {(2, tuple(sorted(self.order[each] for each in pair))) for pair in pairs}
+        return sorted(found)
+
+    def ready(self, links: tuple[str, ...], known: frozenset[str]) -> Group | None:
+        """The group that some links make, if it is determined."""
+        group = group_of(links, known, *self.near(links))
+        taken = sum(joint.takes for joint in (*group.inner, *group.outer, *group.ties))
+        if taken >= 3 * len(links) and determined(self.scene, self.loops, group, taken):
+            return group
+        return None
+
+
+def by_link(every: tuple[Joint, ...]) -> dict[str, list[tuple[int, Joint]]]:
+    """The joints of each link, numbered in their order."""
+    found = defaultdict[str, list[tuple[int, Joint]]](list)
+    for number, joint in enumerate(every):
+        for link in dict.fromkeys(joint.links):
+            found[link].append((number, joint))
+    return found
+
+
+def first_ready(net: Net, known: frozenset[str], waiting: list[Set]) -> Group | None:
+    """The first of the sets that wait (a heap) that the known links determine.
+
+    Those that they do not are dropped until a neighbour of theirs is known.
+    """
+    while waiting:
+        _, numbers = heappop(waiting)
+        links = tuple(net.loops.links[number] for number in numbers)
+        if known.isdisjoint(links) and (group := net.ready(links, known)):
+            return group
+    return None
+
+
+def larger(net: Net, known: frozenset[str]) -> Group | None:
+    """The smallest group of three links and more that the known links determine, as written first.
+
+    None beyond so many sets.
+    """
+    unknown = [link for link in net.loops.links if link not in known]
+    for size in range(3, min(LARGEST, len(unknown)) + 1):
+        if comb(len(unknown), size) > MOST:
+            return None
+        for links in combinations(unknown, size):
+            if group := net.ready(links, known):
+                return group
+    return None
+
+
+def group_of(
+    links: tuple[str, ...],
+    known: frozenset[str],
+    every: tuple[Joint, ...],
+    ties: tuple[Joint, ...],
+) -> Group:
+    """A set of links with its joints, of those that its links have."""
+    mine = set(links)
+    outer = between(mine, known, every)
+    inner = among(mine, every, {joint.pin for joint in outer})
+    within = tuple(j for j in ties if mine | known >= set(j.links))
+    return Group(links, inner, outer, known, within)
+
+
+def between(links: set[str], others: frozenset[str], every: tuple[Joint, ...]) -> tuple[Joint, ...]:
+    """The joints from links to others; a pin that several of the others share counts once."""
+    found: dict[tuple[str, str, int], Joint] = {}
+    for joint in every:
+        for mine, other in (joint.links, joint.links[::-1]):
+            if mine in links and other in others:
+                found.setdefault((mine, joint.pin, joint.slide), joint)
+    return tuple(found.values())
+
+
+def among(links: set[str], every: tuple[Joint, ...], met: set[str]) -> tuple[Joint, ...]:
+    """The joints within a set of links, pins that join it to others left out.
+
+    A pin of k of its links counts k - 1 times.
+    """
+    inside = [j for j in every if links >= set(j.links) and (not j.pin or j.pin not in met)]
+    first = {joint.pin: joint.links[0] for joint in reversed(inside) if joint.pin}
+    return tuple(j for j in inside if not j.pin or first[j.pin] in j.links)
+
+
+def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool:
+    """Whether the equations up to a group determine it, by their rank in some open position."""
+    exact = taken == 3 * len(group.links)
+    if exact and ((group.is_dyad and len(group.slides) < 3) or sure_crank(scene, group)):
+        return True
+    try:
+        part = equations(scene, setting_of(loops, 0), group.known | set(group.links))
+    except StructureError:
+        return False
+    moving = moved_by(part, group)
+    thrown = np.random.default_rng(7).uniform(-1, 1, (1, part.unknown_count)) * part.columns
+    with np.errstate(all="ignore"):
+        jacobian = part.jacobian(part.chains.at(thrown)) * part.columns[:, None, :]
+    jacobian = (jacobian / part.rows[:, :, None])[0][:, moving]
+    if jacobian.shape[0] < jacobian.shape[1] or not np.isfinite(jacobian).all():
+        return False
+    values = np.linalg.svd(jacobian, compute_uv=False)
+    return bool(values.min(initial=np.inf) > FULL * values.max(initial=0))
+
+
+def sure_crank(scene: Scene, group: Group) -> bool:
+    """Whether a group is one link turned about a pin, or slid along its guide."""
+    if not group.is_driven:
+        return False
+    wanted = {tuple(sorted(joint.links)) for joint in group.ties}
+    kinds = {d.kind for d in scene.drivers if tuple(sorted((d.link, d.against))) in wanted}
+    return kinds == ({"turn"} if group.outer[0].pin else {"slide"})
+
+
+def moved_by(loops: Equations, group: Group) -> Mask:
+    """Which unknowns belong to a group."""
+    turned = loops.turned.of
+    fixed = {turned[link] for link in group.known if link in turned}
+    mine = {turned[link] for link in group.links} - fixed
+    turnings = [k in mine for k in range(1, loops.turned.count)]
+    settled = group.known | set(group.links)
+    slides = [
+        {guide.block, guide.on} <= settled and not {guide.block, guide.on} <= group.known
+        for guide in loops.guides
+    ]
+    return np.array([*turnings, *slides], dtype=np.bool_)

@@ -1,0 +1,118 @@
+"""The motion that the loops give: of links, of points on them, of blocks on their guides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from graphkin.loops.equations import Equations
+from graphkin.loops.rigid_bodies import Complexes, Reals
+from graphkin.text.errors import Problem, StructureError
+
+
+class PlaceMotion(NamedTuple):
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,)."""
+
+    place: Complexes
+    velocity: Complexes
+    acceleration: Complexes
+
+
+class SlideRates(NamedTuple):
+    """Coordinate (m), speed (m/s), acceleration (m/s²) along the guide, and Coriolis vector."""
+
+    position: Reals
+    speed: Reals
+    acceleration: Reals
+    coriolis: Complexes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """Motion of every link, shape (N, links): of its origin, its angle and its heading.
+
+    ``heading`` is the unit vector of the link's x axis; ``omega`` (rad/s) and ``epsilon`` (rad/s²)
+    are counter-clockwise positive; ``points`` (N, points) are all named ones in the order of
+    ``names``; ``slides`` holds (s, ṡ, s̈) of every guide, (3, N, m).
+    """
+
+    loops: Equations
+    index: Mapping[str, int]
+    origin: PlaceMotion
+    heading: Complexes
+    omega: Reals
+    epsilon: Reals
+    names: Mapping[str, int]
+    points: PlaceMotion
+    slides: Reals
+
+    @classmethod
+    def of(cls, loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) -> Motion:
+        """From the unknowns φ and their first and second derivatives by time, (N, unknowns)."""
+        chains = loops.chains
+        linear = chains.at(unknowns)
+        (angle, s), (turn, slid), (spin, thrust) = map(chains.split, (unknowns, rates, seconds))
+        velocity = linear.turned @ (1j * turn[:, 1:, None]) + linear.along @ slid[:, :, None]
+        along = linear.turned @ (1j * spin[:, 1:, None]) + linear.along @ thrust[:, :, None]
+        acceleration = along[:, :, 0] + chains.second(linear, rates, rates)
+        links = loops.links
+        which = [loops.turned.of[link] for link in links]
+        lean = np.stack([loops.numbers.complexes(loops.turned.lean[link]) for link in links], 1)
+        heading = np.exp(1j * angle)[:, which] * lean
+        omega, epsilon = turn[:, which], spin[:, which]
+        rows = (linear.place + loops.home[:, None], velocity[:, :, 0], acceleration)
+        origin = PlaceMotion(*(row[:, : len(links)] for row in rows))
+        owners, arms = loops.owners
+        arm = heading[:, owners] * arms
+        return cls(
+            loops=loops,
+            index={link: number for number, link in enumerate(links)},
+            origin=origin,
+            heading=heading,
+            omega=omega,
+            epsilon=epsilon,
+            names={name: number for number, name in enumerate(loops.points)},
+            points=PlaceMotion(
+                origin.place[:, owners] + arm,
+                origin.velocity[:, owners] + 1j * omega[:, owners] * arm,
+                origin.acceleration[:, owners]
+                + (1j * epsilon[:, owners] - omega[:, owners] ** 2) * arm,
+            ),
+            slides=np.stack([s, slid, thrust]),
+        )
+
+    def carried(self, link: str, place: Complexes) -> PlaceMotion:
+        """Motion of the point of a link that stands at a place (Galileo, Rivals)."""
+        i = self.index[link]
+        start, velocity, acceleration = (row[:, i] for row in self.origin)
+        arm = place - start
+        omega, epsilon = self.omega[:, i], self.epsilon[:, i]
+        return PlaceMotion(
+            place,
+            velocity + 1j * omega * arm,
+            acceleration + (1j * epsilon - omega**2) * arm,
+        )
+
+    def point(self, name: str) -> PlaceMotion:
+        """Motion of a point; ``A@3`` is the point of link 3 under A. Unknown: StructureError."""
+        point, _, carrier = name.partition("@")
+        if point not in self.names or (carrier and carrier not in self.index):
+            known = ", ".join(self.names)
+            raise StructureError(
+                Problem("points", f"no link has the point {name}", f"one of {known}")
+            )
+        p = self.names[point]
+        if carrier:
+            return self.carried(carrier, self.points.place[:, p])
+        return PlaceMotion(*(row[:, p] for row in self.points))
+
+    def slide(self, j: int) -> SlideRates:
+        """Relative motion of a block along guide j; Coriolis is 2 ω of the guide × v_rel."""
+        guide = self.loops.guides[j]
+        i = self.index[guide.on]
+        position, speed, acceleration = self.slides[:, :, j]
+        coriolis = 2j * self.omega[:, i] * speed * self.heading[:, i] * guide.along
+        return SlideRates(position, speed, acceleration, coriolis)

@@ -1,0 +1,297 @@
+"""Newton's method on the loop equations, velocity and acceleration ratios, and the motion.
+
+From f(φ, q) = 0 follow the velocity ratios τ_d = ∂φ/∂q_d = -J⁻¹ ∂f/∂q_d and, derived once more,
+∂τ_d/∂q_e = -J⁻¹ f″(τ_d, τ_e); then φ̇ = Σ τ_d q̇_d and φ̈ = Σ τ_d q̈_d + Σ (∂τ_d/∂q_e) q̇_d q̇_e.
+One scene is a batch of one: all arrays carry the N settings first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphkin.loops.closing_groups import Mask
+from graphkin.loops.equations import Equations
+from graphkin.loops.loop_motion import Motion
+from graphkin.loops.newton_start import start_values
+from graphkin.loops.rigid_bodies import Reals
+from graphkin.loops.rounding import Rounding, rounding, straight, whole_turns
+from graphkin.text.errors import Problem, StructureError, WitnessError
+
+ITERATIONS = 60
+SETTLED = 1e-12
+"""A step of Newton's method, in the sizes of the unknowns, after which the next is rounding."""
+NEAR = 1e-6
+"""A step below which steps that no longer shrink are rounding too."""
+AT_REST = 1e-13
+"""Closure error, in the sizes of the equations, at which a longer step than that only shows that
+J is singular."""
+LONGEST = 0.5
+"""Longest step taken at once, in radians or the sizes of slides."""
+CLOSED = 1e-9
+"""Closure error, in the sizes of the equations, at which a mechanism counts as closed."""
+ROUNDED = 4
+"""Roundings of an equation's terms by which it may be open."""
+
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Report:
+    """How Newton's method went; arrays of shape (N,).
+
+    ``residual`` is the closure error (m) before the first iteration, ``remains`` after the last;
+    ``moved`` (m) the farthest that an unknown went; angles are measured on the longest bar.
+    ``closed`` marks the settings that closed, ``good`` those that did so in a position that no
+    rounding can make singular.
+    """
+
+    residual: Reals
+    remains: Reals
+    moved: Reals
+    iterations: int
+    closed: Flags
+    good: Flags
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ratios:
+    """Velocity ratios τ (N, unknowns, D) and their derivatives ∂τ_d/∂q_e (N, unknowns, D, D)."""
+
+    velocity: Reals
+    acceleration: Reals
+
+    def rates(self, speed: Reals) -> Reals:
+        """φ̇ from the drivers' speeds (N, D)."""
+        return np.asarray(np.einsum("nud,nd->nu", self.velocity, speed))
+
+    def accelerations(self, speed: Reals, acceleration: Reals) -> Reals:
+        """φ̈ from the drivers' speeds and accelerations (N, D)."""
+        steady = np.einsum("nude,nd,ne->nu", self.acceleration, speed, speed)
+        return np.asarray(steady + np.einsum("nud,nd->nu", self.velocity, acceleration))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LoopSolution:
+    """The loop equations solved: unknowns φ (N, unknowns), ratios, motion, bounds and report."""
+
+    loops: Equations
+    unknowns: Reals
+    ratios: Ratios
+    motion: Motion
+    rounding: Rounding
+    report: Report
+
+
+def solve(
+    loops: Equations,
+    places: Mapping[str, object],
+    slides: Mapping[str, object] | None = None,
+) -> LoopSolution:
+    """Close the loops from given positions of points (m) and find the motion.
+
+    ``slides`` may give slide coordinates (m) by block. Raises StructureError when the drivers are
+    too few, WitnessError when one scene does not close or is singular; a batch gives NaN there.
+    """
+    refuse_undriven(loops)
+    with np.errstate(all="ignore"):
+        start = start_values(loops, places, slides or {})
+    return closed_from(loops, start.unknowns)
+
+
+def closed_from(
+    loops: Equations, start: Reals, *, accelerations: bool = True, singular: bool = False
+) -> LoopSolution:
+    """Close the loops from unknowns (N, K + m) and find the motion; raises as ``solve`` does.
+
+    Without ``accelerations`` those of the motion are NaN, and the equations are derived only once.
+    With ``singular`` positions count in which no rate is sure, which the bounds then show.
+    """
+    refuse_undriven(loops)
+    with np.errstate(all="ignore"):
+        found, iterations = newton(loops, start)
+        opened = np.abs(scaled(loops, found)[0])
+        closed = np.asarray((opened < open_at_most(loops, found)).all(axis=1))
+        ratios = ratios_at(loops, found, accelerations=accelerations)
+        rates = ratios.rates(loops.drives.speed)
+        seconds = ratios.accelerations(loops.drives.speed, loops.drives.acceleration)
+        bounds = rounding(loops, found, rates, seconds)
+        good = closed & (bounds.regular | singular)
+        moved = largest((found - start) / loops.columns) * loops.size
+        residual, remains = gap(loops, start), gap(loops, found)
+        report = Report(residual, remains, moved, iterations, closed, good)
+        if loops.numbers.single:
+            refuse_failure(loops, found, report)
+        unknowns, rates, seconds = (
+            np.where(good[:, None], values, np.nan) for values in (found, rates, seconds)
+        )
+        motion = Motion.of(loops, unknowns, rates, seconds)
+    return LoopSolution(loops, unknowns, ratios, motion, bounds, report)
+
+
+def newton(
+    loops: Equations,
+    start: Reals,
+    moving: Mask | None = None,
+    most: int = ITERATIONS,
+    settled: float = SETTLED,
+) -> tuple[Reals, int]:
+    """Newton–Raphson from the start values; steps longer than ``LONGEST`` are shortened to it.
+
+    Only the unknowns ``moving`` change, all of them without it; more equations than unknowns are
+    met by least squares. Gives the unknowns and the number of iterations, of which there are at
+    ``most`` so many; a step shorter than ``settled`` is the last.
+    """
+    unknowns, done = start, np.zeros(len(start), dtype=np.bool_)
+    columns = np.ones(start.shape[1], dtype=np.bool_) if moving is None else moving
+    before = np.full(len(start), np.inf)
+    iterations = 0
+    while iterations < most and not done.all():
+        residual, jacobian = scaled(loops, unknowns)
+        step = np.zeros_like(unknowns)
+        step[:, columns] = -linear_solve(jacobian[:, :, columns], residual[:, :, None])[:, :, 0]
+        length = largest(step)
+        done |= ~np.isfinite(length) | ((length > 0.9 * before) & (before < NEAR))
+        done |= (largest(residual) < AT_REST) & (length > NEAR)
+        shortened = step * np.minimum(1, LONGEST / np.maximum(length, LONGEST))[:, None]
+        unknowns = np.where(done[:, None], unknowns, unknowns + shortened * loops.columns)
+        done |= length < settled
+        before, iterations = length, iterations + 1
+    return unknowns, iterations
+
+
+def scaled(loops: Equations, unknowns: Reals) -> tuple[Reals, Reals]:
+    """Residual (N, e) and Jacobian (N, e, u), each equation and unknown over its own size."""
+    linear = loops.chains.at(unknowns)
+    residual = loops.residual(linear, unknowns) / loops.rows
+    jacobian = loops.jacobian(linear) * loops.columns[:, None, :] / loops.rows[:, :, None]
+    return residual, jacobian
+
+
+def largest(rows: Reals) -> Reals:
+    """Largest magnitude in each row."""
+    return np.asarray(np.abs(rows).max(axis=1, initial=0.0))
+
+
+def linear_solve(matrix: Reals, right: Reals) -> Reals:
+    """Solve stacks of equations; least squares where there are more than unknowns, or singular.
+
+    Shapes (N, e, u) and (N, e, R) give (N, u, R); settings with a NaN stay NaN.
+    """
+    finite = finite_rows(matrix) & finite_rows(right)
+    matrix = np.where(finite[:, None, None], matrix, np.eye(*matrix.shape[1:]))
+    right = np.where(finite[:, None, None], right, np.nan)
+    if matrix.shape[1] == matrix.shape[2]:
+        try:
+            return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+        except np.linalg.LinAlgError:
+            pass
+    return np.asarray(np.linalg.pinv(matrix) @ right)
+
+
+def finite_rows(stack: Reals) -> Flags:
+    """Where every number of a matrix of a stack is finite."""
+    return np.asarray(np.isfinite(stack).all(axis=(1, 2)))
+
+
+def open_at_most(loops: Equations, unknowns: Reals) -> Reals:
+    """How far each equation of a closed mechanism may be open, in its own size: (N, e).
+
+    Angles of many turns, and ways of many lengths, leave those of wheels and drivers open by their
+    own rounding.
+    """
+    linear = ROUNDED * (straight(loops, unknowns) + whole_turns(loops))
+    shape = (len(unknowns), 2 * len(loops.closing))
+    opened = np.concatenate([np.zeros(shape), linear], axis=1) / loops.rows
+    return np.maximum(CLOSED, opened)
+
+
+def gap(loops: Equations, unknowns: Reals) -> Reals:
+    """The largest closure error (m), angles of drivers measured on the longest bar: (N,)."""
+    missed = loops.residual(loops.chains.at(unknowns), unknowns)
+    turns = np.zeros(missed.shape[1], dtype=np.bool_)
+    turns[len(turns) - len(loops.drives.turns) :] = loops.drives.turns
+    return largest(missed * np.where(turns, loops.size[:, None], 1))
+
+
+def ratios_at(loops: Equations, unknowns: Reals, *, accelerations: bool = True) -> Ratios:
+    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position, or those NaN.
+
+    Each equation and unknown is counted in its own size, so that metres do not drown radians.
+    """
+    linear = loops.chains.at(unknowns)
+    units, sizes = loops.columns[:, :, None], loops.rows[:, :, None]
+    jacobian = scaled(loops, unknowns)[1]
+    count, rows, columns = jacobian.shape
+    drivers = len(loops.drives.turns)
+    by_driver = np.zeros((count, rows, drivers))
+    by_driver[:, rows - drivers :, :] = -np.eye(drivers)
+    velocity = -linear_solve(jacobian, by_driver / sizes) * units
+    if not accelerations:
+        return Ratios(velocity, np.full((count, columns, drivers, drivers), np.nan))
+    curved = [
+        loops.second(linear, velocity[:, :, d], velocity[:, :, e])
+        for d in range(drivers)
+        for e in range(drivers)
+    ]
+    if not curved:
+        return Ratios(velocity, np.zeros((count, columns, 0, 0)))
+    acceleration = -linear_solve(jacobian, np.stack(curved, axis=-1) / sizes) * units
+    return Ratios(velocity, acceleration.reshape(count, columns, drivers, drivers))
+
+
+def refuse_undriven(loops: Equations) -> None:
+    """There must be as many equations as unknowns, or more where some are idle."""
+    missing = loops.unknown_count - loops.equation_count
+    if missing > 0:
+        raise StructureError(
+            Problem(
+                "drivers",
+                f"{loops.unknown_count} unknowns but only {loops.equation_count} loop and driver "
+                "equations",
+                f"{missing} more driver{'s' if missing > 1 else ''}",
+            )
+        )
+
+
+def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
+    """Say why one scene has no motion: it does not close, or its position is singular."""
+    if report.good[0]:
+        return
+    if not report.closed[0]:
+        spare = loops.equation_count - loops.unknown_count
+        hint = (
+            f"{spare} more equations than unknowns must be met, too: what is over-constrained "
+            "closes only with lengths that fit"
+        )
+        raise WitnessError(
+            Problem(
+                "loops",
+                f"the loops do not close: after {report.iterations} iterations "
+                f"{report.remains[0]:.3g} m remain open, most at {widest(loops, unknowns)}",
+                "lengths and driver positions for which the mechanism can be assembled",
+                hint if spare > 0 else "",
+            )
+        )
+    raise WitnessError(
+        Problem(
+            "loops",
+            "singular position, or so near to one that rounding hides the difference",
+            "a position in which the drivers' speeds determine all others",
+            "which positions are singular depends on the driver: drive another link or move on",
+        )
+    )
+
+
+def widest(loops: Equations, unknowns: Reals) -> str:
+    """What is farthest from closing: a joint, a rolling contact or a driver."""
+    gaps = np.abs(scaled(loops, unknowns)[0][0])
+    chains = len(loops.closing)
+    joints = np.hypot(gaps[:chains], gaps[chains : 2 * chains])
+    rolls = [f"the contact of link {links[0]} with {links[1]}" for links in loops.slips.links]
+    drivers = [f"driver {number}" for number in range(1, len(loops.drives.turns) + 1)]
+    every = np.concatenate([joints, gaps[2 * chains :]])
+    return [*loops.closing, *rolls, *drivers][int(np.argmax(np.nan_to_num(every, nan=np.inf)))]

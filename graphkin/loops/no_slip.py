@@ -1,0 +1,296 @@
+"""Rolling without slip: wheels on straight tracks and on one another, as chains and linear rows.
+
+A straight track leads the wheel's centre like a guide at the wheel's radius to its side, and ties
+the wheel's angle to the coordinate along it. Two wheels tie their angles to that of the arm that
+carries both centres; where no link does, an arm without substance from centre to centre is put in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Reals, radius, written_line
+from graphkin.loops.vector_chains import Tree, Turnings
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
+from graphkin.text.errors import Problem, StructureError
+
+TOUCH = 1e-6
+"""Gap between wheels that touch, as a share of their distance."""
+
+
+class NoSlip(NamedTuple):
+    """No slip: the sum of weight·(angle - start) over links, and side·s of a track, is nought.
+
+    ``weights`` in metres, ``starts`` in radians by link; ``track`` is the straight track, None
+    between two wheels. ``links`` are the wheel's, the track's and the arm; ``turned`` gives the
+    angles (radians) near which the scene says that links stand, whole turns counted.
+    """
+
+    links: tuple[str, ...]
+    weights: Mapping[str, Real]
+    starts: Mapping[str, Real]
+    turned: Mapping[str, Real]
+    track: Guide | None = None
+    side: int = 0
+
+
+class Gear(NamedTuple):
+    """Two wheels that touch, their radii (m), and the arm that carries both centres.
+
+    ``sense`` is +1 where they touch from outside, -1 for a wheel in a ring.
+    """
+
+    links: tuple[str, str]
+    wheels: tuple[Wheel, Wheel]
+    radii: tuple[Real, Real]
+    sense: int
+    arm: str
+    rolling: Rolling
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Slips:
+    """All rows of no slip: ``rows`` (N, R, K + m) times the unknowns plus ``constant`` (N, R).
+
+    Metres. ``links`` are those that each row ties. ``counted`` gives, by turning, the turning
+    against which it is counted (0 the frame) and the angle at its start (N,), radians.
+    """
+
+    rows: Reals
+    constant: Reals
+    links: tuple[tuple[str, ...], ...]
+    counted: Mapping[int, tuple[int, Reals]]
+
+    def residual(self, unknowns: Reals) -> Reals:
+        """Way slipped (m): shape (N, R)."""
+        return np.asarray((self.rows @ unknowns[:, :, None])[:, :, 0] + self.constant)
+
+
+def gears_of(
+    scene: Scene, bodies: Mapping[str, Body], numbers: Numbers
+) -> tuple[tuple[Gear, ...], dict[str, Body]]:
+    """Every two wheels that roll on one another, and the bodies of the arms that were put in."""
+    gears, added = list[Gear](), dict[str, Body]()
+    for link in scene.links.values():
+        for rolling in link.rolls:
+            if rolling.through is not None or rolling.on not in bodies:
+                continue
+            kept = carried_pairs(scene, link.name, rolling, bodies, numbers)
+            gear = touching(link.name, rolling, kept, bodies, numbers) if kept else None
+            if gear is None:
+                gear = pair(scene, link.name, rolling, 0, 0, numbers)._replace(
+                    arm=f"{link.name}~{rolling.on}"
+                )
+                first, second = (wheel.centre for wheel in gear.wheels)
+                apart = abs(gear.radii[1] + gear.sense * gear.radii[0])
+                added[gear.arm] = {second: 0j, first: apart + 0j}
+            gears.append(gear)
+    return tuple(gears), added
+
+
+def pair(scene: Scene, name: str, rolling: Rolling, i: int, k: int, numbers: Numbers) -> Gear:
+    """The i-th wheel of a link with the k-th of the link that it rolls on, without an arm."""
+    wheels = scene.links[name].wheels[i], scene.link(rolling.on).wheels[k]
+    radii = radius(wheels[0], numbers), radius(wheels[1], numbers)
+    sense = -1 if wheels[0].inside or wheels[1].inside else 1
+    return Gear((name, rolling.on), wheels, radii, sense, "", rolling)
+
+
+def carried_pairs(
+    scene: Scene, name: str, rolling: Rolling, bodies: Mapping[str, Body], numbers: Numbers
+) -> list[Gear]:
+    """Every pair of wheels of two links whose centres a third link carries."""
+    found = []
+    for i in range(len(scene.links[name].wheels)):
+        for k in range(len(scene.link(rolling.on).wheels)):
+            gear = pair(scene, name, rolling, i, k, numbers)
+            centres = {wheel.centre for wheel in gear.wheels}
+            arms = [each for each in bodies if each not in gear.links]
+            arm = next((each for each in arms if centres <= set(bodies[each])), None)
+            if arm is not None:
+                found.append(gear._replace(arm=arm))
+    return found
+
+
+def touching(
+    name: str, rolling: Rolling, kept: Sequence[Gear], bodies: Mapping[str, Body], numbers: Numbers
+) -> Gear:
+    """The pair whose radii make the distance of the centres. StructureError where none do."""
+
+    def gap(gear: Gear) -> float:
+        body = bodies[gear.arm]
+        apart = abs(body[gear.wheels[0].centre] - body[gear.wheels[1].centre])
+        needed = abs(gear.radii[0] + gear.sense * gear.radii[1])
+        return float(np.nanmax(numbers.reals(abs(apart - needed) / np.maximum(apart, needed))))
+
+    best = min(kept, key=gap)
+    if numbers.single and not gap(best) <= TOUCH:
+        first, second = (wheel.centre for wheel in best.wheels)
+        raise StructureError(
+            Problem(
+                f"links.{name}.rolls",
+                f"the wheels of links {name} and {rolling.on} do not touch",
+                f"radii that make the distance {first}-{second} on link {best.arm}",
+            )
+        )
+    return best
+
+
+def tracks_of(
+    scene: Scene,
+    bodies: Mapping[str, Body],
+    starts: Mapping[str, Point],
+    slides: tuple[Guide, ...],
+    turned: Turnings,
+    numbers: Numbers,
+) -> tuple[tuple[Guide, ...], tuple[tuple[int, Rolling, Real], ...]]:
+    """The slides and, after them, the straight tracks; for each track its rolling and radius (m).
+
+    A link with several wheels rolls on the one whose radius is the height at which other joints
+    keep its centre, the first written where none do.
+    """
+    guides, rolled = list(slides), list[tuple[int, Rolling, Real]]()
+    for link in scene.links.values():
+        for number, rolling in enumerate(link.rolls):
+            if rolling.through is None or rolling.on not in bodies:
+                continue
+            line = written_line(rolling, bodies[rolling.on], starts[rolling.on], numbers)
+            first = not any(guide.block == link.name for guide in guides)
+            plain = Guide(link.name, rolling.on, *line, 0.0, first, "", number, rolls=True)
+            found = [
+                replace(plain, offset=rolling.side * radius(wheel, numbers), point=wheel.centre)
+                for wheel in link.wheels
+            ]
+            track = found[0] if len(found) == 1 else kept(Tree(bodies, guides, turned), found)
+            rolled.append((len(guides), rolling, abs(track.offset)))
+            guides.append(track)
+    return tuple(guides), tuple(rolled)
+
+
+def kept(tree: Tree, found: Sequence[Guide]) -> Guide:
+    """The track of the wheel whose radius is the height that other joints keep, or the first."""
+    for track in found:
+        level = height(tree, track)
+        if level is not None and np.all(abs(level - track.offset) <= TOUCH * abs(level)):
+            return track
+    return found[0]
+
+
+def height(tree: Tree, track: Guide) -> Real | None:
+    """How far (m) to the left of a track other joints keep a wheel's centre; None: they do not."""
+    if not {track.block, track.on} <= set(tree.origins):
+        return None
+    foot = tree.step(tree.origins[track.on], track.on, track.through)
+    holders = [link for link, body in tree.bodies.items() if track.point in body]
+    turning = tree.turned.of[track.on]
+    along = tree.turned.lean[track.on] * track.along
+    for holder in (link for link in holders if link in tree.origins):
+        way = tree.at(holder, track.point).minus(foot)
+        fixed = {k: vector for k, vector in way.fixed.items() if np.any(abs(vector) > 0)}
+        slid = [tree.guides[j] for j, count in way.slid.items() if count]
+        level = [tree.turned.lean[g.on] * g.along * np.conj(along) for g in slid]
+        inside = all(tree.turned.of[g.on] == turning for g in slid)
+        if set(fixed) <= {turning} and inside and all(np.all(abs(z.imag) < TOUCH) for z in level):
+            return (fixed.get(turning, 0j) * np.conj(along)).imag
+    return None
+
+
+def slips_of(
+    gears: Sequence[Gear],
+    rolled: Sequence[tuple[int, Rolling, Real]],
+    guides: Sequence[Guide],
+    numbers: Numbers,
+) -> tuple[NoSlip, ...]:
+    """The conditions of no slip, tracks first."""
+    found = []
+    for index, rolling, size in rolled:
+        track = guides[index]
+        wheel, on = track.block, track.on
+        starts = {wheel: at_start(rolling, wheel, numbers), on: 0.0}
+        turned = counted_at(rolling, numbers)
+        found.append(
+            NoSlip((wheel, on), {wheel: size, on: -size}, starts, turned, track, rolling.side)
+        )
+    for gear in gears:
+        (wheel, on), (own, other) = gear.links, gear.radii
+        weights = {wheel: own, on: gear.sense * other, gear.arm: -own - gear.sense * other}
+        starts = {link: at_start(gear.rolling, link, numbers) for link in weights}
+        turned = counted_at(gear.rolling, numbers)
+        found.append(NoSlip((wheel, on, gear.arm), weights, starts, turned))
+    return tuple(found)
+
+
+def at_start(rolling: Rolling, link: str, numbers: Numbers) -> Real:
+    """The angle of a link (radians) in the position that a rolling counts from."""
+    return numbers.si(rolling.start[link]) if link in rolling.start else 0.0
+
+
+def counted_at(rolling: Rolling, numbers: Numbers) -> dict[str, Real]:
+    """The angles (radians) of links at the start, less and more whole turns as stated."""
+    return {
+        link: at_start(rolling, link, numbers) + 2 * np.pi * numbers.si(turns)
+        for link, turns in rolling.turns.items()
+    }
+
+
+def packed_slips(
+    slips: Sequence[NoSlip],
+    counted: Mapping[int, tuple[int, Reals]],
+    turned: Turnings,
+    guides: Sequence[Guide],
+    numbers: Numbers,
+) -> Slips:
+    """The conditions of no slip as arrays."""
+    rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
+    constant = np.zeros((numbers.count, len(slips)))
+    for r, slip in enumerate(slips):
+        if slip.track is not None:
+            j = next(j for j, guide in enumerate(guides) if guide is slip.track)
+            rows[:, r, turned.count + j] += slip.side
+        for link, weight in slip.weights.items():
+            start = numbers.reals(slip.starts[link])
+            rows[:, r, turned.of[link]] += weight
+            constant[:, r] += weight * (numbers.reals(turned.angle[link]) - start)
+    links = tuple(slip.links for slip in slips)
+    return Slips(rows[:, :, 1:], constant, links, counted)
+
+
+def counted_turnings(
+    scene: Scene, slips: Sequence[NoSlip], turned: Turnings, numbers: Numbers
+) -> dict[int, tuple[int, Reals]]:
+    """By turning, the turning against which it is counted and at what angle (N,), radians.
+
+    What the scene states of a link's whole turns comes first, then the start of what rolls first
+    as written. A link that a driver turns others from counts from nought where no wheel says more.
+    """
+    found: dict[int, tuple[int, Reals]] = {}
+
+    def count(link: str, angle: Real, against: str = FRAME) -> None:
+        if {link, against} <= set(turned.of):
+            lean = turned.angle[link] - turned.angle[against]
+            found.setdefault(turned.of[link], (turned.of[against], numbers.reals(angle - lean)))
+
+    if not slips:
+        return found
+    for link, angle in scene.near.items():
+        count(link, numbers.si(angle))
+    for slip in slips:
+        for link, angle in slip.turned.items():
+            count(link, angle)
+    order = list(scene.links)
+    for slip in sorted(slips, key=lambda slip: order.index(slip.links[0])):
+        if slip.track is not None:
+            wheel, on = slip.links
+            count(wheel, slip.starts[wheel], on)
+        for link in slip.weights:
+            count(link, slip.starts[link])
+    for driver in scene.drivers:
+        if driver.kind == "turn":
+            count(driver.against, 0.0)
+    found.pop(turned.of[FRAME], None)
+    return found

@@ -1,0 +1,228 @@
+"""Rigid bodies as numbers: each link's points and guides in axes of its own, by trigonometry.
+
+Local coordinates are counted from the link's first point, so that a drawing far from its origin
+loses nothing. Lengths in metres; every value is a float or, in a batch, an array of shape (N,).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import reduce
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real, batch_kind
+from graphkin.scene.model import (
+    FRAME,
+    Angled,
+    Apart,
+    At,
+    Link,
+    OnLine,
+    Placing,
+    Polar,
+    Rolling,
+    Scene,
+    Slide,
+    Triangle,
+    Wheel,
+)
+from graphkin.scene.quantity import Quantity
+from graphkin.text.errors import Problem, StructureError
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Body = Mapping[str, Point]
+
+
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """The scene's parameters as set, and how many settings there are (N; 1 for one scene)."""
+
+    values: Mapping[str, Any]
+    kind: Kind
+    count: int
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> Numbers:
+        """One setting in floats, or a batch when any value is an array of shape (N,)."""
+        sizes = {len(value) for value in values.values() if hasattr(value, "shape")}
+        if len(sizes) > 1:
+            raise ValueError(f"arrays of one length expected, found lengths {sorted(sizes)}")
+        return cls(values, batch_kind() if sizes else FLOAT, sizes.pop() if sizes else 1)
+
+    def si(self, quantity: Quantity) -> Real:
+        """A length, speed or angle in SI units."""
+        return quantity.si(self.values, self.kind)
+
+    def direction(self, quantity: Quantity) -> Point:
+        """The unit vector of an angle."""
+        return quantity.direction(self.values, self.kind)
+
+    def reals(self, value: Real) -> Reals:
+        """A value as an array of shape (N,)."""
+        array = np.asarray(value, dtype=np.float64)
+        return array.reshape(1) if self.count == 1 else np.broadcast_to(array, (self.count,))
+
+    def complexes(self, value: Point) -> Complexes:
+        """A vector as an array of shape (N,)."""
+        array = np.asarray(value, dtype=np.complex128)
+        return array.reshape(1) if self.count == 1 else np.broadcast_to(array, (self.count,))
+
+    @property
+    def single(self) -> bool:
+        """True for one scene, whose failures are raised; a batch masks them."""
+        return self.kind is FLOAT
+
+
+@dataclass(frozen=True, slots=True)
+class Guide:
+    """A sliding pair, or the straight way of a rolling wheel's centre.
+
+    The ``point`` of ``block`` stands at through + (s + i·offset)·along, with ``through`` and the
+    unit vector ``along`` in the axes of the link ``on``. ``number`` is its place among the slides
+    or tracks of the block; ``first`` tells the one reported under the block's name, which, where
+    it is a slide, also sets the block's x axis along the guide.
+    """
+
+    block: str
+    on: str
+    through: Point
+    along: Point
+    offset: Real
+    first: bool
+    point: str
+    number: int
+    rolls: bool = False
+
+
+def bodies_of(scene: Scene, numbers: Numbers) -> tuple[dict[str, Body], dict[str, Point]]:
+    """Points of every link from its own first point, and where that lies in the written axes."""
+    bodies: dict[str, Body] = {}
+    starts: dict[str, Point] = {}
+    for name in (FRAME, *scene.links):
+        link = scene.link(name)
+        placed = placed_points(link, numbers)
+        starts[name] = placed[link.points[0]] if link.points else 0j
+        bodies[name] = {point: where - starts[name] for point, where in placed.items()}
+    return bodies, starts
+
+
+def placed_points(link: Link, numbers: Numbers) -> dict[str, Point]:
+    """Every point of a link in the axes that the scene gives it."""
+    placed: dict[str, Point] = {}
+    with np.errstate(all="ignore"):
+        for placing in link.placings:
+            place = located(placing, placed, numbers)
+            if numbers.single and not np.isfinite(place):
+                raise StructureError(
+                    Problem(
+                        f"links.{link.name}.{placing.point}",
+                        "the lengths give no such point",
+                        "sides of a triangle, each shorter than the other two together",
+                    )
+                )
+            placed[placing.point] = place
+    for point in link.points:
+        placed.setdefault(point, 0j)
+    return placed
+
+
+def located(placing: Placing, placed: Mapping[str, Point], numbers: Numbers) -> Point:
+    """One point from those placed before it; a point that is not placed is the origin."""
+    si = numbers.si
+
+    def at(name: str) -> Point:
+        return placed.get(name, 0j)
+
+    match placing:
+        case At(_, x, y):
+            return si(x) + 1j * si(y)
+        case Polar(_, start, length, angle):
+            return at(start) + si(length) * numbers.direction(angle)
+        case Apart(_, start, length):
+            return at(start) + si(length)
+        case Triangle(_, first, second, from_first, from_second, side):
+            base = at(second) - at(first)
+            turned = half_angle(si(from_first), si(from_second), abs(base), side)
+            return at(first) + si(from_first) * turned**2 * unit(base)
+        case OnLine(_, first, second, start, length, sense):
+            return at(start) + sense * si(length) * unit(at(second) - at(first))
+        case Angled(_, vertex, arm, length, angle):
+            turned = numbers.direction(angle) * unit(at(arm) - at(vertex))
+            return at(vertex) + si(length) * turned
+
+
+def half_angle(near: Real, far: Real, base: Real, side: int) -> Point:
+    """Unit vector at half the angle between ``near`` and ``base``, from the three sides.
+
+    The law of cosines in half angles; its square is the direction of ``near``. No such triangle
+    gives NaN.
+    """
+    cosine = (near + base + far) * (near + base - far)
+    sine = (far + (near - base)) * (far - (near - base))
+    root = np.sqrt(4 * near * base)
+    return (np.sqrt(cosine) + 1j * side * np.sqrt(sine)) / root
+
+
+def radius(wheel: Wheel, numbers: Numbers) -> Real:
+    """The radius of a wheel (m)."""
+    assert wheel.radius is not None
+    return numbers.si(wheel.radius)
+
+
+def unit(vector: Point) -> Point:
+    """A vector over its length; a vector without length gives NaN."""
+    length = np.abs(vector)
+    return vector / np.where(length > 0, length, np.nan)
+
+
+def guides_of(
+    scene: Scene, bodies: Mapping[str, Body], starts: Mapping[str, Point], numbers: Numbers
+) -> tuple[Guide, ...]:
+    """Every sliding pair in the axes of the link that carries the guide, as the scene says."""
+    guides: list[Guide] = []
+    for link in scene.links.values():
+        for number, slide in enumerate(link.slides):
+            if slide.on not in bodies:
+                continue
+            through, along = guide_line(slide, bodies[slide.on], starts[slide.on], numbers)
+            offset = numbers.si(slide.offset)
+            first = not any(guide.block == link.name for guide in guides)
+            point = next(iter(bodies[link.name]), "")
+            guides.append(Guide(link.name, slide.on, through, along, offset, first, point, number))
+    return tuple(guides)
+
+
+def guide_line(slide: Slide, body: Body, start: Point, numbers: Numbers) -> tuple[Point, Point]:
+    """A point of a guide and its unit vector, counted like the points of the link it lies on."""
+    if slide.along is not None:
+        first, second = slide.along
+        return body[first], unit(body[second] - body[first])
+    return written_line(slide, body, start, numbers)
+
+
+def written_line(
+    line: Slide | Rolling, body: Body, start: Point, numbers: Numbers
+) -> tuple[Point, Point]:
+    """A point and the unit vector of a line written by ``through`` and ``angle``."""
+    along = 1.0 + 0j if line.angle is None else numbers.direction(line.angle)
+    match line.through:
+        case str(name):
+            return body[name], along
+        case (x, y):
+            return numbers.si(x) + 1j * numbers.si(y) - start, along
+    return -start, along
+
+
+def longest(scene: Scene, bodies: Mapping[str, Body], numbers: Numbers) -> Reals:
+    """The longest distance of two points of one link, or radius (m): (N,); 1 if all are zero."""
+    links = (scene.frame, *scene.links.values())
+    lengths = [abs(p - q) for body in bodies.values() for p, q in combinations(body.values(), 2)]
+    lengths += [radius(wheel, numbers) for link in links for wheel in link.wheels]
+    most = numbers.reals(reduce(np.maximum, lengths, 0.0))
+    return np.where(most == 0, 1.0, most)

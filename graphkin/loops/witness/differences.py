@@ -1,0 +1,185 @@
+"""Every difference between a solution and the loops, over its scale, and what rounding allows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphkin.construction.core.solution import Solution
+from graphkin.loops.loop_motion import Motion
+from graphkin.loops.newton import LoopSolution
+from graphkin.loops.rigid_bodies import Complexes, Reals
+from graphkin.loops.rounding import Rounding
+from graphkin.loops.witness.centre_differences import centre_differences
+
+FLOOR = 1e-3
+"""Share of its natural size below which a scale is not taken seriously."""
+LOST = 0.1
+"""Bound of an error, as a share of the quantity, from which no digit of it is sure."""
+LEAST_LIMIT = 1e-9
+"""Difference that is always allowed."""
+MOST_DIGITS = 15
+"""Digits that a double has."""
+POINT = ("position", "velocity", "acceleration")
+SLIDE = ("position", "speed", "acceleration", "coriolis")
+
+
+class Difference(NamedTuple):
+    """A difference, the bound of its error, and the size of the quantity, all over its scale."""
+
+    found: Reals
+    bound: Reals
+    size: Reals
+
+    @property
+    def share(self) -> Reals:
+        """The bound as a share of the quantity; of a small one, as that of a thousandth."""
+        return np.asarray(self.bound / np.maximum(self.size, FLOOR))
+
+    @property
+    def sure(self) -> Any:
+        """Where some digit of the quantity is sure."""
+        return ~(self.share > LOST)
+
+    @property
+    def judged(self) -> Any:
+        """Where the difference is judged: not where both routes know nothing; NaN is."""
+        return self.sure | np.isnan(self.found)
+
+    @property
+    def limit(self) -> Reals:
+        """The largest difference that is allowed."""
+        return np.maximum(LEAST_LIMIT, self.bound)
+
+
+Differences = Mapping[str, Difference]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Magnitudes:
+    """Largest magnitude of each kind of quantity in the scene that is sure, shape (N,)."""
+
+    length: Reals
+    speed: Reals
+    acceleration: Reals
+    omega: Reals
+    epsilon: Reals
+
+    @classmethod
+    def of(cls, motion: Motion, bounds: Rounding, length: Reals) -> Magnitudes:
+        """Measured on the loops; a quantity that is zero throughout has scale 1."""
+        points, errors = motion.points, bounds.points
+        slides = np.stack(
+            [largest(*pair) for pair in zip(motion.slides, bounds.slides, strict=True)]
+        )
+        speed = np.maximum(largest(points.velocity, errors.velocity), slides[1])
+        pushed = np.maximum(largest(points.acceleration, errors.acceleration), slides[2])
+        omega = largest(motion.omega, bounds.omega)
+        epsilon = largest(motion.epsilon, bounds.epsilon)
+        natural = np.maximum(speed**2 / length, omega**2 * length)
+        fastest = np.maximum(speed, FLOOR * omega * length)
+        turning = np.maximum(omega, FLOOR * speed / length)
+        most = np.maximum(pushed, FLOOR * np.maximum(natural, epsilon * length))
+        twist = np.maximum(epsilon, FLOOR * np.maximum(natural, pushed) / length)
+        return cls(length, *map(or_one, (fastest, most, turning, twist)))
+
+
+def largest(values: Reals | Complexes, bounds: Reals) -> Reals:
+    """The largest magnitude in each row of which some digit is sure; zero where there is none."""
+    sizes = np.abs(values)
+    return np.asarray(np.where(bounds > LOST * sizes, 0.0, sizes).max(axis=1, initial=0.0))
+
+
+def or_one(scale: Reals) -> Reals:
+    """A scale to divide by: 1 where all is at rest, so that differences stay absolute."""
+    return np.where(scale == 0, 1.0, scale)
+
+
+def differing(solved: LoopSolution, solution: Solution, extent: Reals) -> Differences:
+    """Every difference that can be taken, by the quantity's name."""
+    scales = Magnitudes.of(solved.motion, solved.rounding, extent)
+    pairs = (
+        *of_points(solved, solution, scales),
+        *of_links(solved, solution, scales),
+        *of_slides(solved, solution, scales),
+    )
+
+    def compared(ours: Any, theirs: Any, bound: Any, scale: Any) -> Difference:
+        return Difference(abs(ours - theirs) / scale, bound / scale, abs(theirs) / scale)
+
+    found = {name: compared(ours, *rest) for name, ours, *rest in pairs if ours is not None}
+    left = centre_differences(solved, solution, scales)
+    return found | {name: Difference(*each) for name, each in left}
+
+
+Pairs = Iterator[tuple[str, Any, Reals | Complexes, Reals, Reals]]
+"""Name of a quantity, its value by the solution and by the loops, its bound, its scale."""
+
+
+def of_points(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
+    """Position, velocity and acceleration of every point."""
+    sizes = scales.length, scales.speed, scales.acceleration
+    for name, point in solution.points.items():
+        ours = point.position, point.velocity, point.acceleration
+        theirs, bounds = solved.motion.point(name), solved.rounding.point(name)
+        for n, key in enumerate(POINT):
+            yield f"points.{name}.{key}", ours[n], theirs[n], bounds[n], sizes[n]
+
+
+def of_links(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
+    """ω and ε of every link."""
+    motion, bounds = solved.motion, solved.rounding
+    for name, link in solution.links.items():
+        i = motion.index[name]
+        omega, epsilon = motion.omega[:, i], motion.epsilon[:, i]
+        yield f"links.{name}.omega", link.omega, omega, bounds.omega[:, i], scales.omega
+        yield f"links.{name}.epsilon", link.epsilon, epsilon, bounds.epsilon[:, i], scales.epsilon
+
+
+def of_slides(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
+    """Coordinate, speed, acceleration and Coriolis vector of every block."""
+    sizes = scales.length, scales.speed, scales.acceleration, scales.acceleration
+    for name, slide in solution.slides.items():
+        j = solved.loops.guide_index(name)
+        if j is None:
+            continue
+        ours = slide.position, slide.speed, slide.acceleration, slide.coriolis
+        theirs, bounds = solved.motion.slide(j), solved.rounding.slide(j)
+        for n, key in enumerate(SLIDE):
+            yield f"slides.{name}.{key}", ours[n], theirs[n], bounds[n], sizes[n]
+
+
+KINDS = {
+    "position": "position",
+    "velocity": "velocity",
+    "omega": "velocity",
+    "speed": "velocity",
+    "acceleration": "acceleration",
+    "epsilon": "acceleration",
+    "coriolis": "acceleration",
+}
+"""Of which derivative each quantity is; centres have none."""
+
+
+def digits_of(differences: Differences) -> dict[str, int]:
+    """How many significant digits are sure of every position, velocity and acceleration.
+
+    Of one smaller than a thousandth of the largest of its kind, digits of that thousandth.
+    """
+    found: dict[str, int] = {}
+    for name, each in differences.items():
+        kind = KINDS.get(name.rpartition(".")[2])
+        if kind is not None:
+            digits = sure_digits(float(each.share[0]))
+            found[kind] = min(found.get(kind, MOST_DIGITS), digits)
+    return found
+
+
+def sure_digits(share: float) -> int:
+    """How many digits are sure of what may be off by a share of itself."""
+    if not share <= LOST:
+        return 0
+    return min(MOST_DIGITS, int(-np.log10(max(share, 1e-99))))

@@ -1,0 +1,155 @@
+"""Both routes side by side, and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphkin.construction.core.solution import Solution, Verdict
+from graphkin.loops.assemble import completed
+from graphkin.loops.equations import Equations, equations
+from graphkin.loops.loop_motion import Motion
+from graphkin.loops.newton import LoopSolution, closed_from, refuse_undriven
+from graphkin.loops.newton_start import Start, start_values
+from graphkin.loops.rigid_bodies import Reals
+from graphkin.loops.witness.branch_conditions import Flags, branch_conditions
+from graphkin.loops.witness.coverage import has_acceleration, links_concerned, scene_of
+from graphkin.loops.witness.differences import (
+    LEAST_LIMIT,
+    Difference,
+    Differences,
+    differing,
+    digits_of,
+    or_one,
+)
+from graphkin.scene.model import FRAME, Scene
+
+
+def compare(scene: Scene, solution: Solution, values: Mapping[str, Any] | None = None) -> Verdict:
+    """Hold one solution against the vector loops, starting Newton's method at its positions.
+
+    ``guessed`` in the verdict names the links that no position tells. Raises WitnessError where the
+    loops do not close or are singular, StructureError where drivers are missing.
+    """
+    examined = examine(scene, solution, values)
+    difference, quantity, limit = examined.told(0)
+    broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
+    report = examined.solved.report
+    return Verdict(
+        agrees=bool(examined.agrees[0]),
+        largest_difference=difference,
+        quantity=quantity,
+        limit=limit,
+        residual=float(report.residual[0]),
+        moved=float(report.moved[0]),
+        branches=broken,
+        guessed=examined.guessed,
+        digits=digits_of(examined.differences),
+        unsure=tuple(examined.unsure),
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Examined:
+    """Both routes side by side: differences and branch conditions by name, each of shape (N,)."""
+
+    solved: LoopSolution
+    differences: Differences
+    branches: Mapping[str, Flags]
+    guessed: tuple[str, ...] = ()
+
+    @property
+    def unsure(self) -> dict[str, Flags]:
+        """The quantities of which no digit is sure in some setting, and in which: (N,) each."""
+        lost = {name: ~each.judged for name, each in self.differences.items()}
+        return {name: rows for name, rows in lost.items() if rows.any()}
+
+    @property
+    def worst(self) -> Reals:
+        """The largest difference of each setting in what is sure; NaN where any is unknown."""
+        worst = np.where(self.solved.report.good, 0.0, np.nan)
+        for each in self.differences.values():
+            worst = np.maximum(worst, np.where(each.judged, each.found, 0.0))
+        return worst
+
+    @property
+    def agrees(self) -> Flags:
+        """Where every difference is within its limit and every branch as stated."""
+        agrees = self.solved.report.good
+        for each in self.differences.values():
+            agrees = agrees & ((each.found <= each.limit) | ~each.judged)
+        for holds in self.branches.values():
+            agrees = agrees & holds
+        return np.asarray(agrees)
+
+    def told(self, row: int) -> tuple[float, str, float]:
+        """The largest difference of one setting, where it was found, and the largest limit.
+
+        Where some difference is beyond its limit: the one that is so the farthest, and its own.
+        """
+        known = {name: each for name, each in self.differences.items() if each.judged[row]}
+        beyond = {n: each for n, each in known.items() if not each.found[row] <= each.limit[row]}
+
+        def farthest(pair: tuple[str, Difference]) -> tuple[bool, float]:
+            found, limit = pair[1].found[row], pair[1].limit[row] if beyond else 1.0
+            return bool(np.isnan(found)), float(found / limit)
+
+        if not known:
+            return 0.0, "", LEAST_LIMIT
+        name, worst = max((beyond or known).items(), key=farthest)
+        limits = [each.limit[row] for each in (beyond and [worst]) or known.values()]
+        return float(worst.found[row]), name, float(max(limits))
+
+
+def examine(scene: Scene, solution: Solution, values: Mapping[str, Any] | None) -> Examined:
+    """Solve the loops from the solution's positions and compare all that the solution holds.
+
+    Links and accelerations of which it says nothing are left alone.
+    """
+    loops = equations(scene, values)
+    within = links_concerned(scene, loops, solution)
+    if within is not None:
+        loops = equations(scene, values, within)
+        scene = scene_of(loops)
+    refuse_undriven(loops)
+    start, guessed = started(scene, loops, solution)
+    solved = closed_from(loops, start, accelerations=has_acceleration(solution), singular=True)
+    with np.errstate(all="ignore"):
+        differences = differing(solved, solution, breadth(solved.motion))
+        branches = branch_conditions(scene, solved)
+    return Examined(solved, differences, branches, guessed)
+
+
+def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, tuple[str, ...]]:
+    """Where Newton's method starts: at the solution's positions.
+
+    What they do not tell comes from the loops' own assembly, by the branches that the scene
+    states; the links and blocks for which that was done are named.
+    """
+    places = {name: p.position for name, p in solution.points.items() if p.position is not None}
+    slides = {name: s.position for name, s in solution.slides.items() if s.position is not None}
+    named = {name: place for name, place in places.items() if "@" not in name}
+    with np.errstate(all="ignore"):
+        start = start_values(loops, named, slides)
+    return completed(scene, loops, start), untold(loops, start)
+
+
+def untold(loops: Equations, start: Start) -> tuple[str, ...]:
+    """The links whose angle no position tells, and the blocks whose coordinate none does."""
+    turnings = {k + 1 for k in range(loops.turning_count) if not start.told[k]}
+    links = [link for link, k in loops.turned.of.items() if k in turnings and link != FRAME]
+    blocks = [
+        guide.block
+        for j, guide in enumerate(loops.guides)
+        if not start.told[loops.turning_count + j]
+    ]
+    return tuple(dict.fromkeys([*links, *blocks]))
+
+
+def breadth(motion: Motion) -> Reals:
+    """Largest distance between two points of the mechanism (m), shape (N,)."""
+    places = motion.points.place
+    return or_one(np.abs(places[:, :, None] - places[:, None, :]).max(axis=(1, 2)))

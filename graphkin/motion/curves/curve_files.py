@@ -1,0 +1,42 @@
+"""The picture files of a cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from graphkin.motion.curves import over_driver, plane_paths, ring
+from graphkin.motion.curves.sampled import Sampled, sampled
+from graphkin.motion.cycle import Cycle
+from graphkin.motion.single_loop import loop_of
+from graphkin.writers.plot_style import look, written
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FORMATS = ("svg", "png")
+
+
+def picture_files(cycle: Cycle, stem: str, formats: Sequence[str]) -> dict[str, bytes]:
+    """Every picture of a cycle by its file name, in each of the formats svg and png."""
+    files: dict[str, bytes] = {}
+    found = sampled(cycle)
+    with look():
+        for name, drawn in figures(found):
+            figure = drawn()
+            for kind in formats:
+                files[f"{stem}-{name}.{kind}"] = written(figure, kind)
+    return files
+
+
+def figures(found: Sampled) -> Iterator[tuple[str, Callable[[], Figure]]]:
+    """Every figure with its name, drawn when it is called for."""
+    yield from over_driver.pictures(found).items()
+    if plane_paths.path_points(found):
+        yield "paths", partial(plane_paths.paths, found)
+    for link in plane_paths.centrode_links(found):
+        yield f"centrodes-{link}", partial(plane_paths.rolling, found, link)
+    loop = loop_of(found.cycle)
+    if loop is not None:
+        yield "reach", partial(ring.reach, found, loop)

@@ -1,0 +1,269 @@
+"""Curves over the driver: positions, velocities, accelerations, turning, slides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from graphkin.motion.curves.sampled import Sampled, moving_points, turning_links
+from graphkin.motion.driving import TURN
+from graphkin.writers.plot_style import (
+    COLOURS,
+    DASHES,
+    FAINT,
+    INK,
+    WARNING,
+    colour,
+    dash,
+    heading,
+    legend,
+    new_figure,
+    some_of,
+    span_of,
+    subscripted,
+    titled,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+WIDTH = 8.0
+PANEL = 2.15
+"""Height of a panel in inches; 0.9 more for title and axis."""
+MOST_PANELS = 6
+MOST_CURVES = 8
+"""Curves of one panel: as many as there are inks, and as one line of a legend holds."""
+LINE = 84
+"""Letters above a panel that lie on one line."""
+NAMED = 11
+"""What the stroke and the name of a curve take of it, in letters."""
+TURNS = (15, 30, 45, 60, 90, 180, 360)
+"""Steps of an axis of angles in degrees."""
+TICKS = 13
+LEAST_TICKS = 2
+"""Steps of an axis of angles from which on it has ticks at whole parts of a turn."""
+
+Curve = tuple[str, np.ndarray, str, object]
+"""A label, values, a colour and a stroke."""
+
+
+def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
+    """The figures of a cycle by name, each drawn when it is called for."""
+    scene, solution = found.scene, found.solution
+    points = moving_points(scene, solution)
+    drawn: dict[str, Callable[[], Figure]] = {}
+    for quantity, name in NAMES.items():
+        if any(getattr(solution.points[p], quantity) is not None for p in points):
+            drawn[name] = partial(of_points, found, points, quantity)
+    links = turning_links(scene, solution)
+    if links:
+        drawn["turning"] = partial(of_links, found, links)
+    if solution.slides:
+        drawn["slides"] = partial(of_slides, found, list(solution.slides))
+    return drawn
+
+
+NAMES = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
+WORDS = {
+    "position": ("Positions", ("x", "y", ""), ""),
+    "velocity": ("Velocities", ("v", "v", "v"), "m/s"),
+    "acceleration": ("Accelerations", ("a", "a", "a"), "m/s²"),
+}
+
+
+def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
+    """A panel for each point with its components and its magnitude."""
+    title, letters, unit = WORDS[quantity]
+    factor = 1.0
+    if quantity == "position":
+        unit, factor = found.length_unit, found.per_length
+    known = [n for n in points if getattr(found.solution.points[n], quantity) is not None]
+    shown, more = some_of(known, MOST_PANELS, "points")
+    panels = []
+    for name in shown:
+        value = np.asarray(getattr(found.solution.points[name], quantity)) * factor
+        if quantity == "position":
+            curves: list[Curve] = [
+                (subscripted("x", name), value.real, COLOURS[0], DASHES[0]),
+                (subscripted("y", name), value.imag, COLOURS[1], DASHES[1]),
+            ]
+        else:
+            letter = letters[0]
+            curves = [
+                (subscripted(letter, name), np.abs(value), INK, DASHES[0]),
+                (f"{subscripted(letter, name)} along x", value.real, COLOURS[0], DASHES[1]),
+                (f"{subscripted(letter, name)} along y", value.imag, COLOURS[1], DASHES[2]),
+            ]
+        panels.append((f"Point {name}", unit, curves))
+    return stacked(found, title + more, panels)
+
+
+def of_links(found: Sampled, links: Sequence[str]) -> Figure:
+    """Three panels: angles, angular velocities, angular accelerations of links."""
+    panels = []
+    links, more = some_of(links, MOST_CURVES, "links")
+    angles = [
+        (subscripted("\\theta", name), angle, colour(i), dash(i))
+        for i, name in enumerate(links)
+        if (angle := angle_of(found, name)) is not None
+    ]
+    if angles:
+        lines = ", ".join(f"{n}: {'-'.join(line_of(found, n))}" for n in links if line_of(found, n))
+        which = f" ({lines})" if len(lines) < LINE else ", from its first point to its second"
+        panels.append((f"Angle of the line of each link{which}", "deg", angles))
+    for quantity, letter, words, unit in (
+        ("omega", "\\omega", "Angular velocity, counter-clockwise positive", "rad/s"),
+        ("epsilon", "\\varepsilon", "Angular acceleration", "rad/s²"),
+    ):
+        curves: list[Curve] = []
+        for i, name in enumerate(links):
+            value = getattr(found.solution.links[name], quantity)
+            if value is not None:
+                whole = np.broadcast_to(np.asarray(value, float), found.at.shape)
+                curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
+        if curves:
+            panels.append((words, unit, curves))
+    return stacked(found, f"Turning of the links{more}", panels)
+
+
+def line_of(found: Sampled, link: str) -> tuple[str, ...]:
+    """The first two points of a link, a fixed pivot first."""
+    points = [p for p in found.scene.links[link].points if p in found.solution.points]
+    fixed = [p for p in points if p in found.scene.frame.points]
+    ordered = dict.fromkeys((*fixed, *points))
+    return tuple(ordered)[:2] if len(ordered) > 1 else ()
+
+
+def angle_of(found: Sampled, link: str) -> np.ndarray | None:
+    """The angle of a link's line (degrees), going on past 180 where it turns."""
+    line = line_of(found, link)
+    if not line:
+        return None
+    start, end = (np.asarray(found.solution.points[p].position) for p in line)
+    parts = np.split(np.angle(end - start), list(found.breaks))
+    return np.asarray(np.degrees(np.concatenate([np.unwrap(part) for part in parts])))
+
+
+def of_slides(found: Sampled, blocks: Sequence[str]) -> Figure:
+    """Three panels: coordinate, speed, acceleration of every block along its guide."""
+    unit = found.length_unit
+    panels = []
+    blocks, more = some_of(blocks, MOST_CURVES, "blocks")
+    for quantity, letter, words, units, factor in (
+        ("position", "s", "Coordinate along the guide", unit, found.per_length),
+        ("speed", "\\dot{s}", "Speed along the guide", "m/s", 1.0),
+        ("acceleration", "\\ddot{s}", "Acceleration along the guide", "m/s²", 1.0),
+    ):
+        curves: list[Curve] = []
+        for i, name in enumerate(blocks):
+            value = getattr(found.solution.slides[name], quantity)
+            if value is not None:
+                whole = np.broadcast_to(np.asarray(value, float), found.at.shape) * factor
+                curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
+        if curves:
+            panels.append((words, units, curves))
+    return stacked(found, f"Blocks on their guides{more}", panels)
+
+
+def stacked(
+    found: Sampled, title: str, panels: Sequence[tuple[str, str, Sequence[Curve]]]
+) -> Figure:
+    """Panels one below the other over one axis of the driver."""
+    figure = new_figure(WIDTH, PANEL * len(panels) + 0.9)
+    titled(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
+    axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    at = found.broken(found.at * axis_factor(found))
+    for ax, (words, unit, curves) in zip(axes, panels, strict=True):
+        for label, values, ink, stroke in curves:
+            ax.plot(at, found.broken(values), color=ink, linestyle=stroke, label=label)
+        bounds = span_of(found.at, [values for _, values, _, _ in curves])
+        if bounds is not None:
+            ax.set_ylim(*bounds)
+        known = [sure for _, values, _, _ in curves if (sure := values[np.isfinite(values)]).size]
+        if known and max(map(np.ptp, known)) < 1e-9 * max(abs(sure).max() for sure in known):
+            ax.margins(y=0.5)
+        ax.axhline(0, color=FAINT, linewidth=0.6, zorder=1)
+        ax.set_ylabel(unit)
+        heading(ax, words, raised=len(words) + NAMED * len(curves) > LINE)
+        legend(ax)
+        singular_lines(found, ax)
+    figure.align_ylabels(axes)
+    tell_lines(found, axes[0], [values for _, values, _, _ in panels[0][2]])
+    driver_axis(found, axes[-1])
+    return figure
+
+
+def axis_factor(found: Sampled) -> float:
+    """What turns u into what its axis shows."""
+    return found.per_length if found.cycle.sweep.what in ("slide", "roll") else 1.0
+
+
+def driver_axis(found: Sampled, ax: Axes) -> None:
+    """The axis of the driver, in whole parts of a turn where it turns."""
+    sweep = found.cycle.sweep
+    low, high = float(found.at.min()), float(found.at.max())
+    if sweep.what == "turn":
+        if sweep.whole and high - low > 0.9 * TURN:
+            low, high = min(low, 0.0), max(high, low + TURN)
+        step = next((s for s in TURNS if (high - low) / s < TICKS), None)
+        if step is not None and high - low > LEAST_TICKS * step:
+            ticks = np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
+            ax.set_xticks(ticks * step)
+        name = found.scene.drivers[(sweep.number or 1) - 1].link
+        ax.set_xlabel(f"driver's angle φ of link {name}, deg")
+    elif sweep.what == "time":
+        ax.set_xlabel("time t, s")
+    else:
+        ax.set_xlabel(f"driver's coordinate s, {found.length_unit}")
+    factor = axis_factor(found)
+    room = 0.0 if found.cycle.path.whole else 0.02 * (high - low)
+    ax.set_xlim((low - room) * factor, (high + room) * factor)
+
+
+def marked(found: Sampled) -> list[tuple[float, str, str]]:
+    """Places worth a line: dead points, change points and where the scene stands, with its ink."""
+    lines = [
+        (each.at, "dead point" if each.kind == "dead" else "change point", WARNING)
+        for each in found.cycle.singulars
+    ]
+    sweep = found.cycle.sweep
+    if sweep.what != "time":
+        turns = (0.0, TURN, -TURN) if sweep.whole else (0.0,)
+        places = [sweep.start + turn for turn in turns]
+        inside = [at for at in places if found.at.min() <= at <= found.at.max()]
+        lines += [(at, "scene's position", FAINT) for at in inside[:1]]
+    return lines
+
+
+def singular_lines(found: Sampled, ax: Axes) -> None:
+    """Thin lines at dead and change points, and where the scene stands."""
+    for at, _, ink in marked(found):
+        stroke = (0, (4, 3)) if ink == WARNING else ":"
+        ax.axvline(at * axis_factor(found), color=ink, linewidth=0.8, linestyle=stroke, zorder=1)
+
+
+def tell_lines(found: Sampled, ax: Axes, curves: Sequence[np.ndarray]) -> None:
+    """What the lines are, in small letters along them in the first panel, away from its curves."""
+    low, high = found.at.min(), found.at.max()
+    bottom, top = ax.get_ylim()
+    for at, words, ink in marked(found):
+        late = at > low + 0.97 * (high - low)
+        near = [curve[np.abs(found.at - at).argmin()] for curve in curves]
+        heights = [(value - bottom) / (top - bottom) for value in near if np.isfinite(value)]
+        above = 1 - max(heights, default=0.0) >= min(heights, default=0.0)
+        ax.annotate(
+            words,
+            (at * axis_factor(found), 0.98 if above else 0.02),
+            xycoords=("data", "axes fraction"),
+            xytext=(-2 if late else 2, 0),
+            textcoords="offset points",
+            rotation=90,
+            ha="right" if late else "left",
+            va="top" if above else "bottom",
+            fontsize=6.5,
+            color=ink,
+        )

@@ -1,0 +1,144 @@
+"""The curves that sheets show of the whole motion: centrodes, paths, loci that close a group."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from graphkin.construction.core.solution import Curve
+from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+
+STEPS = 720
+"""Positions of a turn from which a curve is drawn."""
+NEAR = 0.35
+"""How far on both sides of its fit a locus is drawn, in parts of the mechanism."""
+AWAY = 20.0
+"""Breadths of the mechanism beyond which a centrode is not followed."""
+
+
+def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """The centrodes and paths that are asked, over a turn or the whole range of the driver."""
+    ask = mechanism.scene.ask
+    if not ask.centrodes and not ask.curves:
+        return loci_of(mechanism)
+    from graphkin.motion.cycle import cycle
+
+    wanted = [target for target in mechanism.program.targets if target[0] == "position"]
+    wanted += [t for link in ask.centrodes if mechanism.gives(t := ("centre", link))]
+    whole = followed(cycle(mechanism, steps=STEPS, targets=wanted))
+    curves = [curve for link in ask.centrodes for curve in centrodes_of(mechanism, whole, link)]
+    for point in ask.curves:
+        path = whole.solution.points[point].position
+        curves.append(Curve("trajectory", point, runs_of(whole, path)))
+    return (*loci_of(mechanism), *curves)
+
+
+def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """Near the fit the loci by which each group of higher class is closed, where points show it.
+
+    A hand tries a few places there; branches that close in other ways would only cover the drawing.
+    """
+    steps = mechanism.program.steps
+    closing = [n for n, step in enumerate(steps) if step.action and is_closer(step.action.value)]
+    if not closing:
+        return ()
+    trace = mechanism.trace([t for t in mechanism.program.targets if t[0] == "position"])
+    curves: list[Curve] = []
+    spots = (n for (what, _), n in mechanism.program.targets.items() if what == "position")
+    places = [trace.values[number] for number in spots]
+    far = NEAR * max(abs(p - q) for p in places for q in places)
+    for number in closing:
+        step = steps[number]
+        assert step.action is not None and isinstance(step.action.value, ClosureSolver)
+        _, *signs, _ = trace.values[number]
+        round_ = step.action.value.trying.turns
+        loci = step.action.value.loci([trace.values[arg] for arg in step.args], signs)
+        for point, locus in zip(step.says["l"].split(), loci, strict=True):
+            fit = trace.value("position", point)
+            curves.append(Curve("locus", point, piece(locus, fit, far, closed=round_)))
+    return tuple(curves)
+
+
+def is_closer(value: object) -> bool:
+    """Whether an action closes a group of higher class."""
+    return isinstance(value, ClosureSolver)
+
+
+def piece(
+    points: Any, fit: complex, far: float, *, closed: bool
+) -> tuple[tuple[complex, ...], ...]:
+    """The run of points through the place of the fit, so far along it to both sides.
+
+    It ends where a point is NaN; a round that is ``closed`` goes on at its beginning.
+    """
+    import numpy as np
+
+    here = int(np.nanargmin(abs(points - fit)))
+    if closed:
+        points = np.roll(points[:-1], len(points) // 2 - here)
+        here = int(np.nanargmin(abs(points - fit)))
+    before, after = along(points[here::-1], far), along(points[here:], far)
+    run = (*before[::-1], complex(points[here]), *after)
+    return (run,) if len(run) > 1 else ()
+
+
+def along(points: Any, far: float) -> list[complex]:
+    """The points after the first, as many as reach so far along them, until they turn back."""
+    import numpy as np
+
+    ways = np.diff(points)
+    gone = np.cumsum(abs(ways))  # NaN from the first place on that cannot be drawn
+    short = np.append(0.0, gone[:-1]) < far
+    back = (ways[1:] * ways[:-1].conjugate()).real < 0
+    ahead = np.append(0, np.cumsum(back)) == 0
+    return [complex(point) for point in points[1:][short & ahead & np.isfinite(gone)]]
+
+
+def followed(whole: Cycle) -> Cycle:
+    """A whole turn, or the range in which the scene stands, its ends in finer steps.
+
+    Near a dead point a mechanism goes a long way while its driver hardly moves.
+    """
+    if whole.path.whole:
+        return whole
+    import numpy as np
+
+    low, high = whole.ranges[0]
+    turns = np.linspace(0, np.pi, STEPS + 1)[1:-1]
+    return whole.along((low + high) / 2 - (high - low) / 2 * np.cos(turns))
+
+
+def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curve]:
+    """The fixed and the moving centrode of a link, the moving one where the link stands now."""
+    from graphkin.motion.centrodes import base, centrodes
+
+    found, ends = centrodes(whole, link), base(mechanism.scene.links[link])
+    if found is None or ends is None:
+        return
+    trace = mechanism.trace([("centre", link), *(("position", point) for point in ends)])
+    origin, end = (trace.value("position", point) for point in ends)
+    centre = trace.value("centre", link)
+    now = complex(centre.start + centre.shift / centre.size) if centre.size else None
+    placed = found.placed(origin, (end - origin) / abs(end - origin))
+    yield Curve("fixed-centrode", link, runs_of(whole, found.fixed), now)
+    yield Curve("moving-centrode", link, runs_of(whole, placed), now)
+
+
+def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
+    """A curve in runs, broken where a centre is far away; a turn that comes back closes it."""
+    import numpy as np
+
+    ends = [p.position for p in whole.solution.points.values() if p.position is not None]
+    breadth = max(float(np.ptp(part)) for p in ends for part in (np.real(p), np.imag(p))) or 1.0
+    middle = np.mean([np.mean(p) for p in ends])
+    closes = whole.path.whole and whole.path.returns
+    points = np.append(path, path[:1]) if closes else np.asarray(path)
+    near = np.abs(points - middle) <= AWAY * breadth
+    runs = np.split(np.arange(len(points)), np.flatnonzero(np.diff(near)) + 1)
+    return tuple(
+        tuple(complex(points[i]) for i in run) for run in runs if len(run) > 1 and near[run[0]]
+    )

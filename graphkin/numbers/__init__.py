@@ -1,0 +1,1 @@
+"""Kinds of numbers, exact rationals, points and lines of the plane."""

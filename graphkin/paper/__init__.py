@@ -1,1 +1,0 @@
-"""The page: one display list in millimetres, and the files written from it."""

@@ -1,8 +1,0 @@
-"""What a pencil makes of a construction: many drawings of it, and the error that they will have."""
-
-from graphkin.pencil.forecast import Forecast, forecast
-from graphkin.pencil.original import Original, original
-from graphkin.pencil.pencil import Pencil
-from graphkin.pencil.simulation import Drawn, drawn, simulated
-
-__all__ = ["Drawn", "Forecast", "Original", "Pencil", "drawn", "forecast", "original", "simulated"]

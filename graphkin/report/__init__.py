@@ -1,1 +1,0 @@
-"""What the command line says: records for machines (JSON), aligned text for people."""

@@ -1,0 +1,130 @@
+"""From bytes to tables: what a file may be before anything in it is read."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from errno import EINVAL
+from pathlib import Path
+from stat import S_ISDIR, S_ISREG
+
+from graphkin.scene.expression import unit_hint
+from graphkin.scene.findings import visible
+from graphkin.scene.measures import FloatText
+from graphkin.scene.toml_faults import OPEN, UNCLOSED, advice, number_hint
+from graphkin.text.errors import Problem, SceneError
+
+LARGEST = 256 * 1024
+"""Bytes of a scene file."""
+LONGEST_LINE = 4000
+DOTTED = r"(?<![\w\"'.-])(?>[\w\"'-]+[ \t]*\.[ \t]*){16}"
+CURLED = "“”„‟‘’‚«»″"
+"""Quotes that a word processor writes."""
+WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
+
+
+def read_bytes(path: Path) -> bytes:
+    """The bytes of a file, no more than a scene may have; SceneError when there are none."""
+    try:
+        return file_bytes(path, LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "cannot be opened"
+        raise SceneError(Problem(str(path), f"the scene cannot be read: {reason}")) from None
+
+
+def file_bytes(path: Path, most: int) -> bytes:
+    """The bytes of a file, as far as ``most`` of them; nothing waits for a pipe or a device.
+
+    Raises OSError where there is no such file; ValueError for what can be no path.
+    """
+    mode = path.stat().st_mode
+    if not (S_ISREG(mode) or S_ISDIR(mode)):
+        raise OSError(EINVAL, "a pipe or a device is no file", str(path))
+    with path.open("rb") as stream:
+        return stream.read(most)
+
+
+def decoded(data: bytes) -> str:
+    """The text of a scene file: UTF-8, with or without a byte order mark."""
+    if len(data) > LARGEST:
+        raise SceneError(Problem("", "the file is too large", f"at most {LARGEST // 1024} KiB"))
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        found = f"the byte 0x{data[error.start]:02x} is not UTF-8"
+        raise SceneError(Problem(f"line {line}", found, "a text saved as UTF-8")) from None
+
+
+def tables_of(text: str) -> dict[str, object]:
+    """The tables of a TOML text; SceneError with the line where it is not TOML."""
+    text = text.removeprefix("\ufeff")
+    refuse_bombs(text)
+    try:
+        return tomllib.loads(text, parse_float=FloatText)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(syntax_problem(str(error), text)) from None
+    except (RecursionError, MemoryError):
+        raise SceneError(Problem("", "lists or tables nested too deeply")) from None
+    except (ValueError, OverflowError) as error:
+        found = "a number or a date that cannot be read"
+        raise SceneError(Problem("", found, hint=str(error)[:80])) from None
+
+
+def refuse_bombs(text: str) -> None:
+    """Refuse what would take long to read: too much text, too long a line, too long a key."""
+    if len(text) > LARGEST:
+        raise SceneError(Problem("", "the scene is too large", f"at most {LARGEST // 1024} KiB"))
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > LONGEST_LINE:
+            found = f"a line of {len(line)} characters"
+            raise SceneError(Problem(f"line {number}", found, f"at most {LONGEST_LINE}"))
+        if line.count(".") >= 16 and re.search(DOTTED, line):
+            found = "a key of very many parts"
+            raise SceneError(Problem(f"line {number}", found, "at most 16 parts"))
+
+
+def syntax_problem(message: str, text: str) -> Problem:
+    """What the TOML reader found, at its line."""
+    where = re.search(WHERE, message)
+    found = message[: where.start()] if where else message
+    found = f"{found[:1].lower()}{found[1:160]}"
+    line = where[1] if where and where[1] else str(len(text.splitlines()) or 1)
+    twice = re.fullmatch(r"cannot declare \((.+?),?\) twice", found)
+    if twice:
+        name = visible(".".join(re.findall(r"'([^']*)'", twice[1])) or "a table")
+        return Problem(
+            f"line {line}", f"{name} is written twice", hint="write it under one heading"
+        )
+    hint = ""
+    if found.startswith("cannot overwrite") or "twice" in found:
+        hint = "the same key or table is written above"
+    lines = text.split("\n")
+    if int(line) <= len(lines):
+        column = int(where[2]) if where and where[2] else 0
+        written = lines[int(line) - 1]
+        known = hint or value_hint(written, column - 1)
+        hint = advice(found, written, column - 1, known)
+    if hint == OPEN:
+        found = UNCLOSED
+    return Problem(f"line {line}", f"not TOML: {found}", hint=hint)
+
+
+def value_hint(line: str, at: int) -> str:
+    """How to mend a value that TOML cannot read, from its line and the index of the fault."""
+    if re.search(r"=\s*-?\d+,\d", line):
+        return "numbers are written with a point: 37.5"
+    bare = re.sub(r'"[^"]*"|#.*', "", line)
+    if any(quote in bare for quote in CURLED):
+        return 'use straight quotes: "'
+    if at < 0:
+        return ""
+    begins = max(line.rfind(mark, 0, at) for mark in "=[,") + 1
+    value = re.split(r"[],}#]", line[begins:], maxsplit=1)[0].strip()
+    if not begins or not re.fullmatch(r"[\w.°(+-][\w.°()*/^+ -]*", value):
+        return ""
+    if re.fullmatch(r"[\d._ ]+", value):
+        return ""
+    if re.search(r"[\d*/+(^]|^-", value):
+        return unit_hint(value) or f'put the expression in quotes: "{visible(value)}"'
+    return number_hint(line[:begins]) or f'put the text in quotes: "{visible(value)}"'

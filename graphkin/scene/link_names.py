@@ -1,0 +1,97 @@
+"""What the links of a scene are called in each language of the sheets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from graphkin.scene.findings import Findings, Table, shown
+from graphkin.scene.known_names import all_points, known_link
+from graphkin.scene.model import Ask, Driver, Link, Scene
+from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME
+from graphkin.scene.requests import LANGUAGES
+
+Names = Mapping[str, str]
+"""The name of a link by the one that it has in the scene."""
+
+
+def read_names(table: Table, findings: Findings) -> dict[str, Names]:
+    """A table of names per language: ``it = { boom = "braccio" }``."""
+    found: dict[str, Names] = {}
+    for language in (language for language in LANGUAGES if language in table):
+        own = table.table(language)
+        found[language] = {link: own.text(link) for link in own.raw}
+        for link, name in found[language].items():
+            if not is_printable_name(name):
+                expected = f"a letter, then letters, digits or _, at most {LONGEST_NAME}"
+                findings.add(own.at(link), shown(name), expected)
+    table.known.extend(LANGUAGES)
+    table.finish()
+    return found
+
+
+def is_printable_name(text: str) -> bool:
+    """Whether a text can name a link on a sheet, with letters of any language."""
+    named = text[:1].isalpha() and text.isidentifier() and len(text) <= LONGEST_NAME
+    return named and text != FRAME_WORD
+
+
+def check_names(scene: Scene, findings: Findings) -> None:
+    """Only links are given names, each its own, which is no point's and no other link's."""
+    for language, names in scene.names.items():
+        used = {*all_points(scene), *(link for link in scene.links if link not in names)}
+        for link, name in names.items():
+            place = f"names.{language}.{link}"
+            if known_link(scene, link, place, findings) is scene.frame:
+                findings.add(place, "the frame, which has no name on a sheet", "a moving link")
+            elif name in used:
+                findings.add(place, f"{shown(name)} is another thing's name", "a name of its own")
+            used.add(name)
+
+
+def in_language(scene: Scene, language: str) -> Scene:
+    """The same scene with its links called as a language calls them."""
+    names = scene.names.get(language, {})
+    if not names:
+        return scene
+    links = [called(link, names) for link in scene.links.values()]
+    return replace(
+        scene,
+        links={link.name: link for link in links},
+        drivers=tuple(driven(driver, names) for driver in scene.drivers),
+        branches={names.get(name, name): branch for name, branch in scene.branches.items()},
+        ask=asked(scene.ask, names),
+        names={},
+    )
+
+
+def called(link: Link, names: Names) -> Link:
+    """A link by its name in a language, with those of the links that it slides and rolls on."""
+    rolls = (
+        rolling._replace(
+            on=names.get(rolling.on, rolling.on),
+            start={names.get(name, name): angle for name, angle in rolling.start.items()},
+            turns={names.get(name, name): count for name, count in rolling.turns.items()},
+        )
+        for rolling in link.rolls
+    )
+    slides = (slide._replace(on=names.get(slide.on, slide.on)) for slide in link.slides)
+    name = names.get(link.name, link.name)
+    return link._replace(name=name, slides=tuple(slides), rolls=tuple(rolls))
+
+
+def driven(driver: Driver, names: Names) -> Driver:
+    """A driver of a link that is called otherwise."""
+    link, against = (names.get(name, name) for name in (driver.link, driver.against))
+    return driver._replace(link=link, against=against)
+
+
+def asked(ask: Ask, names: Names) -> Ask:
+    """What is asked of links that are called otherwise: 2, 2-4, or of a point A@2."""
+    return Ask(*(tuple(by_parts(name, names) for name in each) for each in ask))
+
+
+def by_parts(name: str, names: Names) -> str:
+    """A name of what is asked, each link in it as it is called."""
+    point, at, link = name.rpartition("@")
+    return point + at + "-".join(names.get(part, part) for part in link.split("-"))

@@ -1,0 +1,195 @@
+"""What is chosen and asked: branches of assembly, results, the sheet, its titles and notes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import date, datetime
+from fractions import Fraction
+from itertools import combinations
+
+from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
+from graphkin.scene.known_names import all_points, known_link, known_point
+from graphkin.scene.measures import Measures
+from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
+from graphkin.scene.phrases import asked_point, branch_hint, branch_words, link_name, point_name
+from graphkin.scene.quantity import Quantity, exact
+
+LANGUAGES = ("en", "it", "ro")
+POINTS_ASKED = ("velocity", "acceleration")
+PATHS_ASKED = "curves"
+LINKS_ASKED = ("omega", "epsilon", "poles", "centrodes", "slides", "inflection")
+CENTRES_ASKED = "centres"
+ALL = "all"
+"""Asks for the relative centres of all links."""
+BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
+MOST = 500
+
+
+def read_branches(table: Table, findings: Findings) -> dict[str, Branch]:
+    """The chosen closures, by the name of a pin or of a link."""
+    branches: dict[str, Branch] = {}
+    for key, raw in table.raw.items():
+        branch = branch_words(raw) if isinstance(raw, str) else None
+        name = link_name(table.at(key), key, findings)
+        if branch is None:
+            findings.add(table.at(key), shown(raw), BRANCH_WORDS, branch_hint(raw))
+        elif name == FRAME:
+            findings.add(
+                table.at(key), "a branch of the frame, which is at rest", "a pin or a link"
+            )
+        elif name is not None:
+            branches[name] = branch
+    return branches
+
+
+def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
+    """What is asked of a scene; each key holds a list of its points or of its links."""
+    names = {
+        key: names_asked(table, key, findings, scene)
+        for key in (*POINTS_ASKED, PATHS_ASKED, *LINKS_ASKED)
+    }
+    centres, pairs = centres_asked(table, findings, scene)
+    table.finish()
+    return Ask(**names, centres=centres, pairs=pairs)
+
+
+def names_asked(table: Table, key: str, findings: Findings, scene: Scene) -> tuple[str, ...]:
+    """The names in one list, each once."""
+    found = (name_asked(place, key, raw, findings, scene) for place, raw in items(table, key))
+    return tuple(dict.fromkeys(name for name in found if name is not None))
+
+
+def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Scene) -> str | None:
+    """The name of a point or a link; None, with a problem noted, for one that is not written."""
+    if key in LINKS_ASKED or key == CENTRES_ASKED:
+        name = moving_link(place, raw, findings)
+        link = None if name is None else known_link(scene, name, place, findings)
+        if key == "slides" and link is not None and not link.slides:
+            findings.add(place, f"link {name} does not slide", "a link with slides")
+        return name if link is not None else None
+    name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
+    point, _, of = (name or "").partition("@")
+    if name is None or not known_point(point, all_points(scene), "the mechanism", place, findings):
+        return None
+    return None if of and known_link(scene, of, place, findings) is None else name
+
+
+def items(table: Table, key: str) -> Iterator[tuple[str, object]]:
+    """Each item of a list with its place; a problem is noted when there is no list."""
+    raw = table.take(key)
+    if isinstance(raw, list) and len(raw) <= MOST:
+        yield from ((f"{table.at(key)}[{index}]", each) for index, each in enumerate(raw))
+    elif raw is not None:
+        what = '["A", "B"]' if key in (*POINTS_ASKED, PATHS_ASKED) else "[2, 3]"
+        table.findings.add(table.at(key), shown(raw), f"a list, such as {what}")
+
+
+def moving_link(place: str, raw: object, findings: Findings) -> str | None:
+    """The name of a link; not that of the frame, which is at rest."""
+    name = link_name(place, raw, findings)
+    if name == FRAME:
+        findings.add(place, "the frame, which is at rest", "a moving link")
+        return None
+    return name
+
+
+def centres_asked(
+    table: Table, findings: Findings, scene: Scene
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The links and the pairs of links whose centres are asked: 2, "2-4", or "all" pairs."""
+    if table.raw.get(CENTRES_ASKED) == ALL:
+        table.take(CENTRES_ASKED)
+        return (), tuple(all_pairs(scene))
+    centres: list[str] = []
+    pairs: list[str] = []
+    for place, raw in items(table, CENTRES_ASKED):
+        if raw == ALL:
+            pairs += all_pairs(scene)
+        elif isinstance(raw, str) and "-" in raw:
+            pairs += link_pair(place, raw, findings, scene)
+        elif name := name_asked(place, CENTRES_ASKED, raw, findings, scene):
+            centres.append(name)
+    return tuple(dict.fromkeys(centres)), tuple(dict.fromkeys(pairs))
+
+
+def all_pairs(scene: Scene) -> Iterator[str]:
+    """Every two links, in the order of the scene with the frame first."""
+    return ("-".join(pair) for pair in combinations((FRAME, *scene.links), 2))
+
+
+def link_pair(place: str, raw: str, findings: Findings, scene: Scene) -> list[str]:
+    """Two links with a dash, in the order of the scene; none, with a problem noted, if not so."""
+    first, _, second = raw.replace(" ", "").partition("-")
+    names = [name for each in (first, second) if (name := link_name(place, each, findings))]
+    if len(names) < 2:
+        return []
+    if names[0] == names[1]:
+        findings.add(place, f"{shown(raw)} is one link twice", 'two links, such as "2-4"')
+        return []
+    if None in [known_link(scene, name, place, findings) for name in names]:
+        return []
+    return ["-".join(sorted(names, key=(FRAME, *scene.links).index))]
+
+
+def read_sheet(table: Table, measures: Measures) -> Sheet:
+    """The title block: owner, author, approved, date, number; the language, scales and sheets."""
+    findings = measures.findings
+    language = table.text("language", "en")
+    if language not in LANGUAGES:
+        hint = nearest(language, LANGUAGES)
+        findings.add(table.at("language"), shown(language), listed(LANGUAGES), hint)
+    sheets = table.take("sheets")
+    if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
+        findings.add(table.at("sheets"), shown(sheets), "1 or 2")
+        sheets = None
+    sheet = Sheet(
+        owner=table.text("owner"),
+        author=table.text("author"),
+        approved=table.text("approved"),
+        date=lenient_text(table, "date"),
+        number=lenient_text(table, "number"),
+        language=language,
+        scale=read_scale(table, measures),
+        sheets=2 if not isinstance(sheets, int) else sheets,
+        enlarge=read_positive(table, measures, "enlarge"),
+        ka=read_positive(table, measures, "ka"),
+    )
+    table.finish()
+    return sheet
+
+
+def lenient_text(table: Table, key: str) -> str:
+    """A text that may also be written as a TOML date or a whole number."""
+    raw = table.take(key)
+    if isinstance(raw, date | datetime):
+        return raw.isoformat()
+    if isinstance(raw, int) and not isinstance(raw, bool):
+        return shown(raw)
+    return "" if raw is None else plain_text(table.at(key), raw, table.findings)
+
+
+def read_scale(table: Table, measures: Measures) -> Quantity | None:
+    """The scale kL, real over drawn: 5 or ``"1:5"``; None where it is left to the page."""
+    raw, place = table.take("scale"), table.at("scale")
+    if raw is None:
+        return None
+    parts = raw.split(":") if isinstance(raw, str) else []
+    if len(parts) == 2 and all(part.strip().isdecimal() and len(part) < 9 for part in parts):
+        drawn, true = int(parts[0]), int(parts[1])
+        if drawn and true:
+            return Quantity(str(raw), exact(Fraction(true, drawn)).tree, "", place)
+    return measures.number(place, raw, positive=True)
+
+
+def read_positive(table: Table, measures: Measures, key: str) -> Quantity | None:
+    """A number above nought, None where it is not written."""
+    raw = table.take(key)
+    return None if raw is None else measures.number(table.at(key), raw, positive=True)
+
+
+def read_languages(table: Table, findings: Findings) -> dict[str, str]:
+    """A text per language: ``ro = "…"``, ``en = "…"``."""
+    texts = {language: table.text(language) for language in LANGUAGES if language in table}
+    table.known.extend(LANGUAGES)
+    table.finish()
+    return texts

@@ -1,0 +1,112 @@
+"""Profiles that touch, each by its centre of curvature: at an instant they are a link.
+
+Up to the second order two profiles move as the circles of their curvature. The centres of these
+keep their distance, so a link between them, the associated mechanism, has the same velocities and
+accelerations. The common normal lies along it, and on it the contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from decimal import Decimal
+
+from graphkin.scene.findings import Table, listed, nearest, shown
+from graphkin.scene.measures import Measures
+from graphkin.scene.model import FRAME, Link
+from graphkin.scene.phrases import is_link_name, is_name, line_words, link_name
+from graphkin.scene.read_joints import tables
+
+OTHER = "the link of the other profile, 0 for the frame"
+
+
+def normals(
+    written: Mapping[str, Table], frame: Table, links: Mapping[str, Link], measures: Measures
+) -> Iterator[tuple[str, Table]]:
+    """The links that stand for touching profiles, each with the table that it could be read from.
+
+    ``written`` are the tables of the moving links, ``links`` the links read from them.
+    """
+    taken = set(links)
+    for own, table in written.items():
+        for touch in tables(table, "touches"):
+            found = normal(own, touch, frame, links, measures)
+            if found is None:
+                continue
+            name, raw = found
+            if name in taken:
+                expected = "another name: link = …"
+                touch.findings.add(touch.at("link"), f"link {name} is there already", expected)
+                continue
+            taken.add(name)
+            yield name, Table(touch.place, raw, touch.findings)
+
+
+def normal(
+    own: str, table: Table, frame: Table, links: Mapping[str, Link], measures: Measures
+) -> tuple[str, dict[str, object]] | None:
+    """The name of the link along one common normal, and its lengths as a scene would write them."""
+    findings = measures.findings
+    on = link_name(table.at("on"), table.take("on"), findings, OTHER)
+    centres = line_words(table.at("centres"), table.take("centres"), findings)
+    radii = two_radii(table, measures)
+    inside = table.flag("inside")
+    raw = table.take("contact")
+    name = table.take("link")
+    table.finish()
+    if on is None or centres is None or radii is None:
+        return None
+    owned = {own: list(links[own].points)} if own in links else {}
+    owned |= {on: points_of(frame)} if on == FRAME else {}
+    owned |= {on: list(links[on].points)} if on in links else {}
+    for end, link in zip(centres, (own, on), strict=True):
+        if end not in owned.get(link, ()):
+            found = f"{end} is no point of link {link}"
+            hint = nearest(end, owned.get(link, ()))
+            findings.add(table.at("centres"), found, listed(owned.get(link, ())), hint)
+            return None
+    contact = raw if isinstance(raw, str) else f"{centres[0]}{centres[1]}"
+    called = str(name) if name is not None else f"n{own}_{on}"
+    if not is_name(contact) or not is_link_name(called):
+        findings.add(table.place, f"{shown(contact)}, {shown(called)}", "names of point and link")
+        return None
+    return called, between(centres, radii, contact, inside)
+
+
+def two_radii(table: Table, measures: Measures) -> tuple[str, str] | None:
+    """The radii of curvature of both profiles, as expressions."""
+    raw = table.take("radii")
+    place = table.at("radii")
+    if not isinstance(raw, list) or len(raw) != 2:
+        expected = "two radii of curvature, such as [44, 16]"
+        measures.findings.add(place, "is missing" if raw is None else shown(raw), expected)
+        return None
+    for index, each in enumerate(raw):
+        measures.length(f"{place}[{index}]", each, positive=True)
+    first, second = (format(r, "f") if isinstance(r, Decimal) else str(r) for r in raw)
+    return first, second
+
+
+def between(
+    centres: tuple[str, str], radii: tuple[str, str], contact: str, inside: bool
+) -> dict[str, object]:
+    """The lengths of a link from the first centre to the second, with the contact on its line.
+
+    A profile that lies inside the hollow of the other touches it beyond its own centre.
+    """
+    (first, second), (r, s) = centres, radii
+    if inside:
+        return {
+            f"{second}-{first}": f"({s}) - ({r})",
+            f"{first}-{contact}": r,
+            contact: f"beyond {first} on {second}-{first}",
+        }
+    return {
+        f"{first}-{second}": f"({r}) + ({s})",
+        f"{first}-{contact}": r,
+        contact: f"on {first}-{second}",
+    }
+
+
+def points_of(table: Table) -> list[str]:
+    """The points that the keys of a link's table name."""
+    return [point for key in table.raw for point in key.split("-")]

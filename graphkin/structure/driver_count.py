@@ -1,0 +1,265 @@
+"""As many drivers as freedoms: what to say where there are too few or too many."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import combinations
+
+from graphkin.scene.known_names import named, quoted
+from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
+from graphkin.structure.decomposition import decompose
+from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
+from graphkin.structure.impossible_joints import impossible
+from graphkin.structure.mobility import count
+from graphkin.structure.pairs import Sliding, contacts, pairs, sharers
+from graphkin.text.errors import Problem, StructureError
+
+RANK = "the rank of the constraints"
+
+
+def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
+    """Raise StructureError where the structure alone shows that the drivers are wrong.
+
+    What guides and wheels cannot do; too few by the count, which is never above the truth; too many
+    where all links follow without some of them; two on what one moves, and none on others. Else a
+    count below the number of drivers decides nothing, for a link may be idle: ask
+    ``refuse_wrong_drivers`` with the rank.
+    """
+    wrong = impossible(scene)
+    if wrong:
+        raise StructureError(wrong)
+    freedoms, drivers = count(scene).mobility, len(scene.drivers)
+    if freedoms > drivers:
+        refuse_wrong_drivers(scene)
+    if freedoms < drivers and spare_drivers(scene):
+        refuse_wrong_drivers(scene, enough(scene), "the order of the groups")
+    ties = [group.link for group in groups if isinstance(group, Tie)]
+    loose = [link for group in groups if isinstance(group, Unresolved) for link in group.links]
+    if ties and loose:
+        raise StructureError(misplaced(scene, ties, loose))
+    known = {FRAME, *(link for group in groups for link in group.links)} - {*loose}
+    idle = [each for each in unused(scene, groups) if {each.link, each.against} <= known]
+    if idle and loose:
+        raise StructureError([driven_twice(scene, driver, loose) for driver in idle])
+
+
+def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) -> None:
+    """Raise StructureError unless there are as many drivers as freedoms.
+
+    ``true`` is the true mobility, told ``by`` the rank; without it the count decides.
+    """
+    problem = driver_problem(scene, true, by)
+    if problem is not None:
+        raise StructureError(problem)
+
+
+def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Problem | None:
+    """What is wrong with the number of drivers, None where it is that of the freedoms."""
+    counted = count(scene)
+    freedoms = counted.mobility if true is None else true
+    drivers = len(scene.drivers)
+    if freedoms == drivers:
+        return None
+    total, _, left = counted.words.replace("−", "-").partition(" = ")
+    leaves = f"the count {total} leaves {left}"
+    if freedoms != counted.mobility:
+        leaves = f"{by} leaves {freedoms} ({leaves})"
+    else:
+        leaves += " freedom" if freedoms == 1 else " freedoms"
+    if freedoms > drivers:
+        hint = too_few_hint(scene)
+    else:
+        hint = too_many_hint(scene, freedoms, certain=true is not None)
+    found = f"{drivers} given, but {leaves}"
+    return Problem("drivers", found, "as many drivers as freedoms", hint)
+
+
+def too_few_hint(scene: Scene) -> str:
+    """A driver to add, or what seems to be missing."""
+    loose, alike = lone_points(scene), alike_points(scene)
+    if loose:
+        lone = f"only one link has the points {', '.join(loose)}"
+        return f"add a driver, or a pin is missing: {'; '.join(filter(None, (lone, alike)))}"
+    if alike:
+        return f"add a driver, or a pin is missing: {alike}"
+    free = drivable(scene)
+    return f"add a driver, such as turn = {quoted(free[0])}" if free else "add a driver"
+
+
+def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
+    """The drivers of which some are to be taken away; the count alone is not certain of it."""
+    if freedoms <= 0:
+        twins = same_pins(scene)
+        if twins:
+            return f"nothing can move: {twins}"
+        idle = "" if certain else ", unless a constraint is idle"
+        return (
+            f"nothing can move{idle}; or a block is missing: a pin in a slot is a link of its own"
+        )
+    names = [driver_name(driver) for driver in spare_drivers(scene) or scene.drivers]
+    surplus = len(scene.drivers) - freedoms
+    if surplus == len(names) == 1:
+        return f"take {names[0]} away: its motion follows from the rest"
+    away = "one driver" if surplus == 1 else f"{surplus} drivers"
+    return f"take {away} away, of {', '.join(names)}: its motion follows from the rest"
+
+
+def same_pins(scene: Scene) -> str:
+    """Words for two links that share two pins, and so are one body; empty where none do."""
+    for one, other in combinations((scene.frame, *scene.links.values()), 2):
+        both = [point for point in one.points if point in other.points]
+        if len(both) > 1:
+            return (
+                f"{named(one.name)} and link {other.name} share the pins {both[0]} and {both[1]}, "
+                "so that they are one body"
+            )
+    return ""
+
+
+def spare_drivers(scene: Scene) -> list[Driver]:
+    """The drivers without each of which all links still follow, one dyad after the other.
+
+    Groups of higher class close by a link that may be idle, so that they prove nothing.
+    """
+    return [driver for driver in scene.drivers if follows(without(scene, driver))]
+
+
+def enough(scene: Scene) -> int:
+    """How many drivers are left when those from which nothing new follows are taken away."""
+    for driver in scene.drivers:
+        rest = without(scene, driver)
+        if follows(rest):
+            return enough(rest)
+    return len(scene.drivers)
+
+
+def without(scene: Scene, driver: Driver) -> Scene:
+    """The mechanism without one of its drivers."""
+    return replace(scene, drivers=tuple(each for each in scene.drivers if each is not driver))
+
+
+def follows(scene: Scene) -> bool:
+    """Whether every link follows from the drivers by dyads and wheels."""
+    return not any(isinstance(group, Higher | Unresolved) for group in decompose(scene))
+
+
+def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Problem:
+    """A link closes what is driven already, and others are free."""
+    drivers, lone = len(scene.drivers), ", ".join(lone_points(scene))
+    tie = f"link {ties[0]}" if len(ties) == 1 else f"links {', '.join(ties)}"
+    return Problem(
+        "drivers",
+        f"{drivers} given, but {tie} would join what is driven already, while "
+        f"{', '.join(loose)} {'hangs' if len(loose) == 1 else 'hang'} on no driver",
+        "a driver for each freedom",
+        f"let a driver move link {loose[0]} instead, or add one if {tie} is idle"
+        + (f"; or a pin is missing: only one link has the points {lone}" if lone else "")
+        + guide_hint(scene, ties, loose),
+    )
+
+
+def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> str:
+    """Words for a block whose guide may have been meant to lie on a link that hangs loose."""
+    block = next((name for name in ties if scene.links[name].slides), None)
+    if block is None:
+        return ""
+    where = quoted(loose[0])
+    return f"; or, if the guide of block {block} lies on link {loose[0]}, write on = {where}"
+
+
+def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
+    """The drivers that no group takes."""
+    taken = list[Driver]()
+    for group in groups:
+        parts = (*group.chain, group) if isinstance(group, Higher) else (group,)
+        taken += [part.driver for part in parts if isinstance(part, Crank | Driven | Stretched)]
+        if isinstance(group, Higher) and isinstance(group.last, Driver):
+            taken.append(group.last)
+    return [driver for driver in scene.drivers if driver not in taken]
+
+
+def driven_twice(scene: Scene, driver: Driver, loose: Sequence[str]) -> Problem:
+    """A driver of a link whose motion the other drivers give already, while others are free."""
+    return Problem(
+        f"drivers[{scene.drivers.index(driver)}]",
+        f"the other drivers move link {driver.link} already, while {', '.join(loose)} "
+        f"{'hangs' if len(loose) == 1 else 'hang'} on no driver",
+        "one driver for each freedom",
+        f"let it move link {loose[0]} instead",
+    )
+
+
+def drivable(scene: Scene) -> list[str]:
+    """Links that are pinned to the frame and that no driver turns."""
+    driven = {driver.link for driver in scene.drivers}
+    pinned = [
+        link
+        for point, links in sharers(scene).items()
+        if point in scene.frame.points
+        for link in links
+        if link != FRAME and link not in driven
+    ]
+    return list(dict.fromkeys(pinned))
+
+
+def lone_points(scene: Scene) -> list[str]:
+    """The points at which a pin may be missing, each with its link.
+
+    They are points of one link alone, of a link that has a single joint and no driver; then also
+    points of the frame that nothing uses.
+    """
+    owners = sharers(scene)
+    slides = [pair for pair in pairs(scene) if isinstance(pair, Sliding)]
+    joined = Counter(link for pair in slides for link in pair.links)
+    joined.update(link for contact in contacts(scene) for link in contact.links)
+    joined.update(link for links in owners.values() if len(links) > 1 for link in links)
+    driven = {driver.link for driver in scene.drivers}
+    ends = {name for name in scene.links if joined[name] < 2 and name not in driven}
+    used = {name for link in scene.links.values() for name in points_used(link)}
+    if ends:
+        ends.add(FRAME)
+    return [
+        f"{point} ({'the frame' if links[0] == FRAME else links[0]})"
+        for point, links in owners.items()
+        if len(links) == 1 and links[0] in ends and point not in used
+    ]
+
+
+def alike_points(scene: Scene) -> str:
+    """A question about a point of one moving link whose name seems to be another's, misspelt.
+
+    One is the other with a letter or a digit more, which that link does not have.
+    """
+    owners = sharers(scene)
+    lone = [point for point, links in owners.items() if len(links) == 1]
+    for point in lone:
+        own = owners[point][0]
+        others = [p for p in (*lone, *owners) if p not in scene.link(own).points]
+        near = [p for p in others if begins(p, point) or begins(point, p)]
+        if own != FRAME and near:
+            return f"did you mean {near[0]} where link {own} has {point}?"
+    return ""
+
+
+def begins(short: str, long: str) -> bool:
+    """Whether a name is another with one sign more, capitals apart."""
+    return len(long) == len(short) + 1 and long.lower().startswith(short.lower())
+
+
+def points_used(link: Link) -> Iterator[str]:
+    """The points by which a link's guides and tracks are written, and the centres of its wheels."""
+    joints: tuple[Slide | Rolling, ...] = (*link.slides, *link.rolls)
+    for joint in joints:
+        if isinstance(joint.through, str):
+            yield joint.through
+        if isinstance(joint, Slide):
+            yield from joint.along or ()
+    for wheel in link.wheels:
+        yield wheel.centre
+
+
+def driver_name(driver: Driver) -> str:
+    """A driver in short, as it is written: turn = 1."""
+    return f"{driver.kind} = {quoted(driver.link)}"

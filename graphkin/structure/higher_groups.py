@@ -1,0 +1,169 @@
+"""Groups of class III and higher: which link to try so that dyads do the rest.
+
+Cutting one constraint of a group leaves a chain that dyads construct; what was cut closes it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import replace
+
+from graphkin.scene.model import Driver, Scene
+from graphkin.structure.decomposition import (
+    next_driven,
+    next_group,
+    next_stretched,
+    next_tie,
+    settle,
+)
+from graphkin.structure.groups import Geared, Group, Higher, Tie, TriedLink
+from graphkin.structure.joints import Joint, Joints, partner, taken
+from graphkin.structure.pairs import Contact, Pin
+from graphkin.structure.touching_wheels import radius
+
+
+def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Higher | None:
+    """The smallest group that closes after one link has been tried, as written first.
+
+    Of two wheels that turn one another the larger is tried: all round it the smaller goes farther.
+    A link is tried among those that pairs and drivers join it to: no other can follow it.
+    """
+    tied = [{driver.link, driver.against} for driver in waiting]
+    part_of = {
+        link: part
+        for links in joints.apart(known, tied)
+        for part in (joints.part(links),)
+        for link in links
+    }
+    found = [
+        group
+        for trial in trials(joints, known)
+        for group in tried(part_of[trial.link], known, waiting, trial)
+    ]
+    scene = joints.scene
+    return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
+
+
+def speeding(scene: Scene, group: Higher) -> int:
+    """How many wheels of a group are turned by smaller ones."""
+    geared = [(each.link, each.contact) for each in group.chain if isinstance(each, Geared)]
+    count = 0
+    for link, contact in geared:
+        if contact.track is not None:
+            own, other = radius(scene, contact.wheel), radius(scene, contact.track)
+            count += own > other if contact.links[0] == link else other > own
+    return count
+
+
+def trials(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
+    """The links that can be tried: about a known pin first, then along a guide or track."""
+    joined = [
+        (link, pair) for link in joints.unknown(known) for pair in joints.between(link, known)
+    ]
+    joined = [(link, pair) for link, pair in joined if taken(pair) == 2]
+    for kind in (Pin, object):
+        for link, pair in joined:
+            if isinstance(pair, kind) and (kind is Pin or not isinstance(pair, Pin)):
+                yield TriedLink(link, pair)
+
+
+def tried(
+    joints: Joints, known: Collection[str], waiting: list[Driver], trial: TriedLink
+) -> Iterator[Higher]:
+    """The group that closes when a link's place is taken as known, if one does."""
+    grown, left = {*known, trial.link}, list(waiting)
+    chain: list[Group] = []
+    while True:
+        last = over_given(joints, known, grown, left) or next_tie(joints, grown)
+        if isinstance(last, Tie) and not isinstance(last.first, Pin):
+            return
+        if last is not None:
+            break
+        group = (
+            next_driven(joints, grown, left)
+            or next_group(joints, grown)
+            or next_stretched(joints, grown, left)
+        )
+        if group is None:
+            return
+        chain.append(group)
+        settle(group, grown, left)
+    ends = {last.link, last.against} if isinstance(last, Driver) else supports(last)
+    kept = needed(joints, chain, ends)
+    if trial.link not in kept.needs:
+        return
+    higher = Higher(trial, kept.chain, last, ((), ()))
+    yield replace(higher, joints=pairs_of(joints, higher, known))
+
+
+def over_given(
+    joints: Joints, known: Collection[str], grown: Collection[str], waiting: list[Driver]
+) -> Driver | None:
+    """A driver whose two links have become known without it."""
+    for driver in waiting:
+        ends = {driver.link, driver.against}
+        if ends <= set(grown) and not ends <= set(known):
+            return driver
+    return None
+
+
+def supports(group: Group) -> set[str]:
+    """The links on which a group hangs."""
+    pairs: list[Joint] = []
+    match group:
+        case Tie(link, first, second):
+            return {partner(first, link), partner(second, link)}
+        case _:
+            for name in ("left", "right", "pair", "contact"):
+                if hasattr(group, name):
+                    pairs.append(getattr(group, name))
+    found = {link for pair in pairs for link in pair.links}
+    if hasattr(group, "driver"):
+        found |= {group.driver.link, group.driver.against}
+    return found - set(group.links)
+
+
+class Needed:
+    """The part of a chain that its end hangs on, and the links that it needs."""
+
+    def __init__(self, chain: tuple[Group, ...], needs: set[str]) -> None:
+        self.chain, self.needs = chain, needs
+
+
+def needed(joints: Joints, chain: list[Group], ends: set[str]) -> Needed:
+    """Drop what hangs on the chain without helping it to close."""
+    needs, kept = set(ends), list[Group]()
+    for group in reversed(chain):
+        if needs.intersection(group.links):
+            kept.insert(0, group)
+            needs |= supports(group) | pivots(joints, group)
+    return Needed(tuple(kept), needs)
+
+
+def pivots(joints: Joints, group: Group) -> set[str]:
+    """The links that own the pin about which a crank turns."""
+    pivot = getattr(group, "pivot", None)
+    return set(joints.owners[pivot]) - set(group.links) if pivot else set()
+
+
+def pairs_of(
+    joints: Joints, group: Higher, known: Collection[str]
+) -> tuple[tuple[tuple[str, str], ...], tuple[str, ...]]:
+    """The inner pairs of a group as pairs of links, and the link of each outer pair."""
+    links, inner, outer = group.links, list[tuple[str, str]](), list[str]()
+    for i, link in enumerate(links):
+        outer += [link for pair in joints.between(link, known) if pair_counts(pair)]
+        for j, other in enumerate(links[i + 1 :], i + 1):
+            held = joints.inner(link, other, known)
+            inner += [(link, other) for pair in held if is_next(joints, pair, links[i + 1 : j])]
+    return tuple(inner), tuple(outer)
+
+
+def is_next(joints: Joints, pair: Joint, between: Collection[str]) -> bool:
+    """Whether none of some links has the pin too: a pin of k links is k - 1 pairs, in a row."""
+    return not isinstance(pair, Pin) or set(between).isdisjoint(joints.owners[pair.point])
+
+
+def pair_counts(pair: Joint) -> bool:
+    """Whether a pair counts for class and order: contacts that take one freedom do not."""
+    return not isinstance(pair, Contact) or pair.taken == 2

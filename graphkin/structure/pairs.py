@@ -1,0 +1,144 @@
+"""The kinematic pairs of a scene: what joins which links."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+from graphkin.scene.contact_letters import contact_letters
+from graphkin.scene.model import FRAME, Rolling, Scene, Slide, Wheel
+from graphkin.structure.touching_wheels import touching
+from graphkin.structure.turning import guides_under, turns
+
+__all__ = [
+    "Contact",
+    "Pair",
+    "Pin",
+    "Sliding",
+    "contacts",
+    "contacts_between",
+    "guides_under",
+    "meshes",
+    "pairs",
+    "pairs_between",
+    "sharers",
+    "turns",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """A turning pair: two links share a point."""
+
+    point: str
+    links: tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Sliding:
+    """A sliding pair: a block on a guide of another link."""
+
+    slide: Slide
+    links: tuple[str, str]
+
+    @property
+    def block(self) -> str:
+        """The link that slides."""
+        return self.links[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A wheel that rolls without slip on a straight track or on a wheel of another link.
+
+    ``links`` are the wheel's and the track's; ``track`` is the wheel rolled on, None on a straight
+    track. ``arm`` is the link that keeps the two together already, None where only the contact
+    does. ``letter`` names the place where they touch.
+    """
+
+    rolling: Rolling
+    links: tuple[str, str]
+    wheel: Wheel
+    track: Wheel | None
+    arm: str | None
+    letter: str
+
+    @property
+    def taken(self) -> int:
+        """Freedoms that it takes: the slip, and the distance unless an arm keeps that."""
+        return 2 if self.arm is None else 1
+
+
+Pair = Pin | Sliding
+
+
+def meshes(scene: Scene, contact: Contact) -> bool:
+    """Whether a contact is one of gears: of two wheels, or of a wheel on its pin with a rack.
+
+    Other wheels roll along their track.
+    """
+    pinned = contact.arm is not None and contact.wheel.centre in scene.link(contact.arm).points
+    return contact.track is not None or pinned
+
+
+def pairs(scene: Scene) -> tuple[Pair, ...]:
+    """All lower pairs; a pin shared by k links counts as k - 1 pairs (the multiple hinge)."""
+    found: list[Pair] = []
+    for point, links in sharers(scene).items():
+        found += [Pin(point, joined) for joined in pairwise(links)]
+    for link in scene.links.values():
+        found += [Sliding(slide, (link.name, slide.on)) for slide in link.slides]
+    return tuple(found)
+
+
+def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:
+    """The links that own each point, the frame first, then as written."""
+    owners: dict[str, list[str]] = {}
+    for link in (scene.frame, *scene.links.values()):
+        for point in link.points:
+            owners.setdefault(point, []).append(link.name)
+    return {point: tuple(links) for point, links in owners.items()}
+
+
+def pairs_between(scene: Scene, link: str, others: frozenset[str]) -> tuple[Pair, ...]:
+    """The pairs that join a link to a set of other links; a shared pin counts once."""
+    owners = sharers(scene)
+    pins = [
+        Pin(point, (link, next(other for other in owners[point] if other in others)))
+        for point in scene.link(link).points
+        if any(other in others for other in owners[point] if other != link)
+    ]
+    guides = [Sliding(s, (link, s.on)) for s in scene.link(link).slides if s.on in others]
+    carried = [
+        Sliding(slide, (other, link))
+        for other in others
+        if other != FRAME
+        for slide in scene.links[other].slides
+        if slide.on == link
+    ]
+    return (*pins, *guides, *carried)
+
+
+def contacts(scene: Scene) -> tuple[Contact, ...]:
+    """All rolling pairs, as written. Raises StructureError for wheels that do not touch."""
+    letters = contact_letters(scene)
+    return tuple(each for link in letters for each in contacts_of(scene, link, letters[link]))
+
+
+def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Contact]:
+    """The rolling pairs that a link is written with; each may rest on the tracks before it."""
+    found: list[Contact] = []
+    for rolling, letter in zip(scene.links[link].rolls, letters, strict=True):
+        before = [(each.rolling, each.wheel) for each in found if each.track is None]
+        touch = touching(scene, link, rolling, before)
+        found.append(Contact(rolling, (link, rolling.on), *touch, letter))
+    return found
+
+
+def contacts_between(scene: Scene, link: str, others: frozenset[str]) -> tuple[Contact, ...]:
+    """The rolling pairs that join a link, by its wheel or by its track, to a set of others."""
+    return tuple(
+        contact
+        for contact in contacts(scene)
+        if link in contact.links and not others.isdisjoint(set(contact.links) - {link})
+    )

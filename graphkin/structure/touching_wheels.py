@@ -1,0 +1,174 @@
+"""Which wheels of two links touch, and which link keeps them together already."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
+from graphkin.scene.quantity import SI
+from graphkin.structure.link_axes import body, metres, track_line
+from graphkin.structure.turning import LEVEL, stands
+from graphkin.text.errors import Problem, StructureError
+
+TOUCH = 1e-9
+"""Gap between wheels that touch, as a share of their distance, that rounding may leave."""
+
+
+class RollingContact(NamedTuple):
+    """The wheel that rolls, the wheel that it rolls on (None: straight), and the arm."""
+
+    wheel: Wheel
+    track: Wheel | None
+    arm: str | None
+
+
+class WheelsApart(NamedTuple):
+    """Two wheels, or a wheel and a track, at a distance (m) that link ``arm`` keeps."""
+
+    wheel: Wheel
+    track: Wheel | None
+    arm: str
+    distance: float
+    needed: float
+
+    @property
+    def touches(self) -> bool:
+        """Whether the distance is the one at which they touch."""
+        return self.needed > 0 and miss(self) <= TOUCH * self.needed
+
+
+def miss(apart: WheelsApart) -> float:
+    """How far a distance is from the one needed."""
+    return abs(apart.distance - apart.needed)
+
+
+def touching(
+    scene: Scene, name: str, rolling: Rolling, before: Sequence[tuple[Rolling, Wheel]]
+) -> RollingContact:
+    """The wheels of a rolling pair; ``before`` are the straight tracks of the same link, so far.
+
+    Where the distance is kept, wheels are told by their radii, else the first written ones are
+    meant. Raises StructureError for wheels that are kept apart.
+    """
+    link, on = scene.links[name], scene.link(rolling.on)
+    if rolling.through is None:
+        kept = list(kept_centres(scene, name, rolling))
+        loose = RollingContact(link.wheels[0], on.wheels[0], None)
+    else:
+        kept = list(kept_heights(scene, name, rolling, before))
+        loose = RollingContact(link.wheels[0], None, None)
+    found = next((apart for apart in kept if apart.touches), None)
+    if found is not None:
+        return RollingContact(found.wheel, found.track, found.arm)
+    if kept:
+        raise StructureError(gap(scene, name, rolling, min(kept, key=miss)))
+    return loose
+
+
+def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsApart]:
+    """Every two wheels whose centres one link owns, with their distance on it.
+
+    Wheels outside one another touch at the sum of their radii, a ring and a wheel within it at
+    the difference; two rings cannot touch, nor a ring a wheel that is larger.
+    """
+    for wheel in scene.links[name].wheels:
+        for track in scene.link(rolling.on).wheels:
+            arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
+            if arm is None or (wheel.inside and track.inside):
+                continue
+            points, own, other = body(scene, arm), radius(scene, wheel), radius(scene, track)
+            distance = abs(points[wheel.centre] - points[track.centre])
+            needed = other - own if track.inside else own - other if wheel.inside else own + other
+            yield WheelsApart(wheel, track, arm, distance, needed)
+
+
+def owner_of(scene: Scene, points: Sequence[str], but: Sequence[str]) -> str | None:
+    """The first link, the frame before all, that owns all of some points and is none of a few."""
+    for link in (scene.frame, *scene.links.values()):
+        if link.name not in but and set(points) <= set(link.points):
+            return link.name
+    return None
+
+
+def kept_heights(
+    scene: Scene, name: str, rolling: Rolling, before: Sequence[tuple[Rolling, Wheel]]
+) -> Iterator[WheelsApart]:
+    """Every wheel whose centre is kept at a distance from a straight track: on its proper side.
+
+    By a link that owns the centre and only slides along the track (rack and pinion), or by a
+    track before this one that is parallel to it (roller between plates).
+    """
+    line = track_line(scene, rolling)
+    standing = stands(scene, rolling.on, line.along)
+    zero = cross(line.along, line.point)
+    link = scene.links[name]
+    for arm in (FRAME, *scene.links):
+        if arm not in standing or arm in (name, rolling.on):
+            continue
+        points, stand = body(scene, arm), standing[arm]
+        for wheel in link.wheels:
+            if wheel.centre in points:
+                height = stand.height + cross(line.along, stand.lean * points[wheel.centre]) - zero
+                yield WheelsApart(wheel, None, arm, rolling.side * height, radius(scene, wheel))
+    for other, rolled in before:
+        if other.on not in standing or other.on == rolling.on:
+            continue
+        stand, track = standing[other.on], track_line(scene, other)
+        if abs(cross(line.along, stand.lean * track.along)) > LEVEL:
+            continue
+        centre = track.point + 1j * other.side * radius(scene, rolled) * track.along
+        height = stand.height + cross(line.along, stand.lean * centre) - zero
+        for wheel in link.wheels:
+            if wheel.centre == rolled.centre:
+                yield WheelsApart(
+                    wheel, None, other.on, rolling.side * height, radius(scene, wheel)
+                )
+
+
+def radius(scene: Scene, wheel: Wheel) -> float:
+    """The radius of a wheel in metres."""
+    assert wheel.radius is not None
+    return metres(scene, wheel.radius)
+
+
+def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Problem:
+    """How far two wheels, or a wheel and its track, are from touching."""
+    place, on = f"links.{name}.rolls", link_words(rolling.on)
+    keeper = link_words(apart.arm)
+    own = shown(scene, radius(scene, apart.wheel))
+    if apart.track is None:
+        lies = "left" if (rolling.side > 0) == (apart.distance > 0) else "right"
+        found = (
+            f"the wheel of radius {own} does not touch its track on {on}: {keeper} keeps its "
+            f"centre {apart.wheel.centre} {shown(scene, abs(apart.distance))} to the {lies} of it"
+        )
+        side = "left" if rolling.side > 0 else "right"
+        hint = f'write side = "{lies}"' if apart.distance < 0 else ""
+        return Problem(place, found, f"{shown(scene, apart.needed)} to the {side}", hint)
+    other = shown(scene, radius(scene, apart.track))
+    centres = f"{apart.track.centre}-{apart.wheel.centre}"
+    found = (
+        f"wheels of radius {own} and {other} (on {on}) do not touch: {keeper} keeps "
+        f"{centres} = {shown(scene, apart.distance)}"
+    )
+    how = "difference" if apart.track.inside or apart.wheel.inside else "sum"
+    if apart.needed <= 0:
+        return Problem(place, found, "a ring that is larger than the wheel within it")
+    expected = f"the {how} of the radii, {centres} = {shown(scene, apart.needed)}"
+    within = abs(radius(scene, apart.track) - radius(scene, apart.wheel))
+    is_ring = how == "sum" and abs(within - apart.distance) <= TOUCH * apart.distance
+    hint = "write inside = true in the larger wheel, if it is a ring" if is_ring else ""
+    return Problem(place, found, expected, hint)
+
+
+def shown(scene: Scene, length: float) -> str:
+    """A length in the unit of the scene."""
+    unit = scene.units["length"]
+    return f"{length / float(SI[unit][0]):.10g} {unit}"
+
+
+def link_words(name: str) -> str:
+    """A link by its name, link 0 as the frame."""
+    return "the frame" if name == FRAME else f"link {name}"

@@ -1,0 +1,72 @@
+"""How far links have turned since wheels stood as at the start: the angle that each counts near.
+
+Pins show the direction of a link and not how often it went round, which decides how its wheels
+stand. It is taken within half a turn of an angle: that of its start, with the whole turns that the
+scene adds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from graphkin.scene.expression import CONSTANT, Name, Number, Pair, Tree
+from graphkin.scene.model import FRAME, Rolling, Scene
+from graphkin.scene.quantity import Quantity, exact
+from graphkin.structure.pairs import contacts
+from graphkin.text.errors import Problem, StructureError
+
+WHOLE: Mapping[str, Tree] = {
+    "deg": Number(Fraction(360)),
+    "rad": Pair("*", Number(Fraction(2)), Name(CONSTANT)),
+}
+"""A turn in the units of angles."""
+
+
+def counted_near(scene: Scene) -> Mapping[str, Quantity]:
+    """The angle within half a turn of which that of each link is taken.
+
+    It counts from the start of what rolls and states its turns, else of what rolls first. Raises
+    StructureError where two state turns of one link.
+    """
+    found = {link: near(rolling, link) for link, rolling in counting(scene).items()}
+    return {**found, **scene.near}
+
+
+def counting(scene: Scene) -> Mapping[str, Rolling]:
+    """What rolls and counts the angle of each link that wheels, their tracks and arms are."""
+    found: dict[str, Rolling] = {}
+    for contact in contacts(scene):
+        for link in (*contact.links, *([contact.arm] if contact.arm else [])):
+            found.setdefault(link, contact.rolling)
+            for driver in scene.drivers:
+                if driver.kind == "turn" and driver.link == link:
+                    found.setdefault(driver.against, contact.rolling)
+    found.pop(FRAME, None)
+    return found | stated(scene)
+
+
+def stated(scene: Scene) -> dict[str, Rolling]:
+    """What rolls and states the turns of a link, by the link."""
+    found: dict[str, Rolling] = {}
+    problems = []
+    for each in scene.links.values():
+        for rolling in each.rolls:
+            for link, count in rolling.turns.items():
+                if link in found:
+                    first = found[link].turns[link].place
+                    problems.append(Problem(count.place, f"{first} states them too", "one of both"))
+                found.setdefault(link, rolling)
+    if problems:
+        raise StructureError(problems)
+    return found
+
+
+def near(rolling: Rolling, link: str) -> Quantity:
+    """The angle of a link at the start, and the whole turns that are added."""
+    start = rolling.start.get(link, exact(0, "deg"))
+    if link not in rolling.turns:
+        return start
+    turns = rolling.turns[link]
+    tree: Tree = Pair("+", start.tree, Pair("*", turns.tree, WHOLE[start.unit]))
+    return Quantity(f"({start.text}) + ({turns.text}) turns", tree, start.unit, turns.place)

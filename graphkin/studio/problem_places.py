@@ -1,0 +1,164 @@
+"""From the place that a problem names to the line and the key of the text that it is about."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from graphkin.scene.file_limits import WHERE
+from graphkin.studio.toml_spans import Path, Span, spans, unquoted
+from graphkin.text.errors import Problem
+
+PART = re.compile(r'"(?:\\.|[^"\\])*"|\[(\d+)\]|[^.\[\]"]+')
+LINE = re.compile(r"line (\d+)")
+SETTING = re.compile(r"(?:setting|parameter) (\S+)")
+ABOUT = re.compile(r"[A-Za-z ]+ of (?:links? )?(.+)")
+LONE = re.compile(r"only one link has the points (\w+) \((the frame|[^)]+)\)")
+"""A pin that is missing, as the hint of too few drivers names it: a point and its link."""
+SHORTER = re.compile(r"(\S+-\S+) shorter than")
+"""The side of a triangle that is too long, as it is expected."""
+POSITION = "position"
+"""The place of what is wrong with the position as a whole."""
+SOLID = ("frame", "links")
+"""The tables whose keys hold points."""
+VERSION = ("graphkin",)
+DRIVERS = ("drivers",)
+
+
+@dataclass(frozen=True, slots=True)
+class MarkedProblem:
+    """A problem with where it stands: its line from 1, 0 where it has none, and what to select.
+
+    ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two. ``column``,
+    from 1, is where the text fails to be TOML.
+    """
+
+    problem: Problem
+    line: int = 0
+    start: int = 0
+    end: int = 0
+    column: int = 0
+
+
+def marked(problems: Iterable[Problem], text: str) -> list[MarkedProblem]:
+    """Each problem with its place in the text, in the order of the text."""
+    wrong = list(problems)
+    found = spans(text) if wrong else {}
+    marks = [mark_of(problem, text, span_of(problem, text, found)) for problem in wrong]
+    return sorted(marks, key=lambda mark: (mark.line == 0, mark.start))
+
+
+def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
+    """A problem at a span, cut to its first line."""
+    if span is None:
+        return MarkedProblem(problem)
+    start, end = span
+    stop = text.find("\n", start)
+    end = min(end, len(text) if stop < 0 else stop)
+    line = text.count("\n", 0, start) + 1
+    told = LINE.fullmatch(problem.place)
+    column = failing(text, line) if told else None
+    column = 0 if column is None else column + 1
+    return MarkedProblem(problem, line, units(text[:start]), units(text[:end]), column)
+
+
+def units(text: str) -> int:
+    """The length of a text as a browser counts it."""
+    return len(text.encode("utf-16-le", "surrogatepass")) // 2
+
+
+def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:
+    """What of the text a problem is about; the nearest heading where its key is not written."""
+    line = LINE.fullmatch(problem.place)
+    if line:
+        return span_of_line(text, int(line[1]))
+    if not problem.place:
+        return found.get(VERSION, Span(0, 0))
+    for path in paths(problem, found):
+        for length in range(len(path), 0, -1):
+            span = found.get(path[:length]) or found.get((*path[: length - 1], f"{path[-1]}s"))
+            span = span or pinned(path[:length], found)
+            if span is not None:
+                return span
+    return None
+
+
+def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
+    """The paths that a problem may mean, the likeliest first.
+
+    A pin that is missing is a point that one link alone has; of lengths that make no triangle the
+    longest is meant; what cannot be found by drawing is settled by a branch, else by a length
+    there, else by where the drivers stand.
+    """
+    place = problem.place
+    setting, about = SETTING.fullmatch(place), ABOUT.fullmatch(place)
+    lone, longest = LONE.search(problem.hint), SHORTER.match(problem.expected)
+    if lone:
+        yield (("frame",) if lone[2] == "the frame" else ("links", lone[2])) + (lone[1],)
+    if setting:
+        yield "parameters", setting[1]
+    elif about:
+        names = re.split(r"[,\s-]+", about[1])
+        tried = [(table, name) for name in names for table in ("branches", "links")]
+        yield from (path for path in tried if path in found)
+        yield from (path for name in names for path in holding(name, found))
+        yield DRIVERS
+    elif place == POSITION or place.endswith(f": {POSITION}"):
+        yield DRIVERS
+    else:
+        path = tuple(parts(place.partition(", ")[0]))
+        if longest and (*path[:-1], longest[1]) in found:
+            yield (*path[:-1], longest[1])
+        yield path
+        if path[0] == "branches":
+            yield from holding(str(path[-1]), found)
+
+
+def pinned(path: Path, found: Mapping[Path, Span]) -> Span | None:
+    """The first key of a link, or of the frame, that holds a point: ``B`` stands in ``A-B``."""
+    if len(path) < 2 or path[0] not in SOLID:
+        return None
+    table = path[:-1]
+    keys = (key for key in found if key[:-1] == table and path[-1] in str(key[-1]).split("-"))
+    return next((found[key] for key in keys), None)
+
+
+def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
+    """The keys of links that hold a point and another: the lengths that place it."""
+    for path in found:
+        names = str(path[-1]).split("-")
+        if path[0] == "links" and len(path) == 3 and len(names) > 1 and point in names:
+            yield path
+
+
+def parts(place: str) -> Iterator[str | int]:
+    """The keys and indices of a dotted place."""
+    for match in PART.finditer(place):
+        yield int(match[1]) if match[1] else unquoted(match[0])
+
+
+def span_of_line(text: str, number: int) -> Span:
+    """A line without the blanks around it, from the sign at which it fails to be TOML."""
+    lines = text.split("\n")
+    number = min(number, len(lines))
+    start = sum(len(line) + 1 for line in lines[: number - 1])
+    line = lines[number - 1]
+    first, last = len(line) - len(line.lstrip()), len(line.rstrip())
+    column = failing(text, number)
+    heading = line.lstrip().startswith("[")
+    if column is not None and first < column < last and line[column] != "#" and not heading:
+        first = column
+    return Span(start + first, start + last)
+
+
+def failing(text: str, number: int) -> int | None:
+    """The column, from 0, at which a text fails to be TOML on a line."""
+    try:
+        tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        where = re.search(WHERE, str(error))
+        if where and where[1] and int(where[1]) == number:
+            return int(where[2]) - 1
+    return None

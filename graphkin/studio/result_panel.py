@@ -1,0 +1,183 @@
+"""The numbers beside the drawings: what is read off, where lines cross flat, and the verdict."""
+
+from __future__ import annotations
+
+from cmath import isnan
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from html import escape
+from itertools import chain
+from math import degrees
+from typing import Any
+
+from graphkin.construction.core.crossings import Crossing
+from graphkin.construction.core.drawn_scene import METRES, Drawing
+from graphkin.construction.core.program import Part
+from graphkin.construction.core.solution import Solution, Verdict
+from graphkin.construction.result_tables import slide_rows, turning_rows, vector_rows
+from graphkin.documents.centre_tables import breadth_of, completed, place_of
+from graphkin.documents.flattest import crossings_on
+from graphkin.drawing.columns import Row
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.plane import Ratio
+from graphkin.scene.model import Scene
+from graphkin.text import Words
+from graphkin.writers.html_markup import marked_up
+
+FLATTEST = 6
+"""Crossings that are shown."""
+FLAT, SLANTED = 15.0, 30.0
+"""Angles in degrees below which a crossing is too flat to be fair, and below which it is poor."""
+WHERE = {
+    Part.POSITION: "studio.in_mechanism",
+    Part.VELOCITY: "sheet.velocity",
+    Part.NORMAL: "studio.in_triangle",
+    Part.ACCELERATION: "sheet.acceleration",
+    Part.CENTRE: "studio.in_centre",
+    Part.POLE: "studio.in_pole",
+}
+"""What is said of where a crossing is drawn."""
+
+
+def results(drawings: Sequence[Drawing], solution: Solution) -> str:
+    """What is read off the plans, the angular values, what slides, centres and poles."""
+    parts = [part for drawing in drawings for part in read_off(drawing, solution)]
+    return "".join([*parts, *places(drawings[0].scene, solution, drawings[0].words)])
+
+
+def read_off(drawing: Drawing, solution: Solution) -> Iterator[str]:
+    """The tables of one sheet; a value of which no digit is sure is left out."""
+    words = drawing.words
+    lost = losses(drawing, solution)
+    unit = words(f"table.{drawing.kind}")
+    spin = words(f"table.{'omega' if drawing.kind == 'velocity' else 'epsilon'}")
+    first, sense = words("table.symbol"), words("table.sense")
+    caption = words(f"sheet.{drawing.kind}")
+    vectors = (first, words("table.segment"), words("table.millimetres"), unit)
+    yield table(caption, vectors, told(vector_rows(drawing, empty=False), lost, 2))
+    turning = words("studio.turning_of", plan=caption)
+    yield table(turning, (first, spin, sense), told(turning_rows(drawing, empty=False), lost, 1))
+    sliding = words("studio.sliding_of", plan=caption)
+    yield table(sliding, (first, unit, sense), told(slide_rows(drawing, empty=False), lost, 1))
+
+
+def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
+    """Of which rows of a sheet's tables no digit is sure: NaN in the solution.
+
+    Vectors that the solution does not hold, such as those of one point relative to another, are as
+    sure as all that it holds.
+    """
+    velocity = drawing.kind == "velocity"
+    letter, angular = ("v", "ω") if velocity else ("a", "ε")
+    known: dict[str, Any] = {
+        f"{letter}_{name}": point.velocity if velocity else point.acceleration
+        for name, point in solution.points.items()
+    }
+    known |= {
+        f"{angular}{name}": link.omega if velocity else link.epsilon
+        for name, link in solution.links.items()
+    }
+    known |= {
+        f"slide {name}": slide.speed if velocity else slide.acceleration
+        for name, slide in solution.slides.items()
+    }
+    sure = {name: not isnan(value) for name, value in known.items() if value is not None}
+    return lambda name: not sure.get(name, all(sure.values()))
+
+
+def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[Row]:
+    """Rows with a dash for each value that is lost, after so many cells that name it."""
+    return [
+        replace(row, cells=(*row.cells[:heads], *["–"] * (len(row.cells) - heads)))
+        if lost(row.name)
+        else row
+        for row in rows
+    ]
+
+
+def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
+    """Where the centres and poles lie that are asked, in the unit of the scene."""
+    full, breadth, unit = completed(scene, solution), breadth_of(solution), scene.units["length"]
+    asked: list[tuple[str, Ratio | None]] = []
+    asked += [(f"I_{name}", full.links[name].instant_centre) for name in scene.ask.centres]
+    asked += [(f"I_{name}", solution.centres.get(name)) for name in scene.ask.pairs]
+    asked += [(f"J_{name}", full.links[name].acceleration_pole) for name in scene.ask.poles]
+    rows = []
+    for name, ratio in asked:
+        at = place_of(ratio, breadth)
+        cells = (words("calculation.at_infinity"), "")
+        if at is not None and isnan(at):
+            cells = ("–", "–")
+        elif at is not None:
+            metre = METRES[unit]
+            cells = (words.significant(at.real / metre, 5), words.significant(at.imag / metre, 5))
+        elif ratio is None or ratio.shift == 0:
+            cells = (words("calculation.everywhere"), "")
+        rows.append(Row((symbol(name), *cells)))
+    head = (words("table.symbol"), f"*x*, {unit}", f"*y*, {unit}")
+    yield table(words("studio.places"), head, rows)
+
+
+def margins(drawings: Sequence[Drawing]) -> str:
+    """The flattest crossings, with what a millimetre of pencil becomes there."""
+    words = drawings[0].words
+    found = chain.from_iterable(crossings_on(drawing) for drawing in drawings)
+    worst = sorted(found, key=lambda crossing: crossing.angle)[:FLATTEST]
+    keys = ("studio.crossing", "studio.drawn_in", "studio.angle", "studio.pencil")
+    head = tuple(map(words, keys))
+    rows = [margin_row(crossing, words) for crossing in worst]
+    looks = [look_of(crossing) for crossing in worst]
+    return table(words("studio.margins"), head, rows, looks)
+
+
+def margin_row(crossing: Crossing, words: Words) -> Row:
+    """One crossing: its letter, where it is drawn, its angle, and what becomes of a millimetre."""
+    angle = words.fixed(degrees(crossing.angle), 1)
+    factor = words.significant(crossing.factor, 2)
+    flat = f" ({words('studio.flat')})" if look_of(crossing) == "flat" else ""
+    where = words(WHERE.get(crossing.part, "studio.in_mechanism"))
+    return Row((symbol(crossing.name), where, f"{angle}°{flat}", f"{factor} mm"))
+
+
+def look_of(crossing: Crossing) -> str:
+    """How a crossing is marked: flat, slanted, or not at all."""
+    angle = degrees(crossing.angle)
+    return "flat" if angle < FLAT else "slanted" if angle < SLANTED else ""
+
+
+def verdict_words(verdict: Verdict, scene: Scene, words: Words) -> str:
+    """What the independent route says, and how far apart both may be."""
+    difference = words.significant(verdict.largest_difference, 2)
+    limit = words.significant(verdict.limit, 2)
+    if verdict.agrees:
+        said = words("page.verified", difference=difference)
+        return f"{said} ({words('studio.limit', limit=limit)})"
+    found = {"difference": difference, "limit": limit, "where": verdict.quantity}
+    says = [words("studio.disagrees", **found)] if verdict.differs else []
+    if verdict.branches:
+        stated = verdict.not_as_stated(scene.branches)
+        says.append(words("studio.not_as_stated", branches=stated))
+    return " ".join(says)
+
+
+@lru_cache(maxsize=1024)
+def tagged(markup: str) -> str:
+    """A markup in tags; heads and symbols come again with every move."""
+    return marked_up(markup)
+
+
+def table(caption: str, head: Sequence[str], rows: Sequence[Row], looks: Iterable[str] = ()) -> str:
+    """A table in tags, its cells given as markup; nothing where it has no rows."""
+    if not rows:
+        return ""
+    classes = [*looks, *[""] * len(rows)]
+    heads = "".join(f'<th scope="col">{tagged(cell)}</th>' for cell in head)
+    lines = []
+    for row, look in zip(rows, classes, strict=False):
+        first, *rest = map(tagged, row.cells)
+        cells = "".join(f"<td>{cell}</td>" for cell in rest)
+        kind = f' class="{look}"' if look else ""
+        lines.append(f'<tr{kind}><th scope="row">{first}</th>{cells}</tr>')
+    title = f"<caption>{escape(caption)}</caption>"
+    return f"<table>{title}<thead><tr>{heads}</tr></thead><tbody>{''.join(lines)}</tbody></table>"

@@ -1,0 +1,216 @@
+"""What the studio knows while it runs, and what it does for its page: one thing at a time."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from threading import Condition, Lock
+from typing import Any
+
+from graphkin.classroom.lab.new_lab import START
+from graphkin.scene import scene_files
+from graphkin.scene.file_limits import tables_of
+from graphkin.studio.folder import ENDING, Folder, completed, shipped, shipped_text, stem_of
+from graphkin.studio.look import Sight, look, spoken_in, told
+from graphkin.studio.page_requests import PageRequest
+from graphkin.studio.panels import Memory, StaleError
+from graphkin.studio.problem_places import marked
+from graphkin.studio.saving import (
+    FORMATS,
+    VIEWS,
+    Saved,
+    WantedSheets,
+    mark_of_file,
+    save_files,
+    save_scene,
+    sheets_of,
+)
+from graphkin.studio.scene_edits import edits
+from graphkin.text import LANGUAGES, Words
+from graphkin.text.errors import GraphkinError, SceneError
+
+TABS = 8
+"""Pages whose last drawing is remembered."""
+KINDS = ("velocity", "acceleration")
+FIRST = "graphkin ="
+"""How the first line of a scene begins."""
+
+
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """A text to begin with, and the name of the file as which it would be saved.
+
+    ``mark`` identifies the content of that file; it is empty for a text that is in no file here.
+    """
+
+    name: str
+    text: str
+    mark: str = ""
+
+
+class Session:
+    """The folder, the language of the page, and what each open page last saw.
+
+    Drawings are made by one thread at a time: their fonts and caches are shared, and a newer move
+    of a slider makes an older one needless. Texts are saved without waiting for a drawing.
+    """
+
+    def __init__(self, folder: Folder, language: str | None = None) -> None:
+        self.folder = folder
+        self.language = language
+        self.turns, self.writing = Condition(), Lock()
+        self.busy = False
+        self.newest: OrderedDict[str, int] = OrderedDict()
+        self.memories: dict[str, Memory] = {}
+
+    def words(self, text: str, chosen: str = "") -> Words:
+        """The words of the page: those chosen on it or at the start, else the scene's own."""
+        return spoken_in(chosen or self.language or language_of(text))
+
+    def address_of(self, name: str) -> dict[str, str]:
+        """How the page is told what to open: a shipped lab, or a scene of the folder, by its path.
+
+        Raises SceneError for what is neither, or lies outside the folder.
+        """
+        if not name:
+            return {}
+        if name in scene_files.names() and not Path(name).exists():
+            return {"lab": name}
+        return {"scene": self.folder.name_of(scene_files.find(name))}
+
+    def open(self, scene: str, lab: str) -> Opened:
+        """The text of a scene here, of a shipped lab, or one to start from.
+
+        Raises SceneError for a name that is none.
+        """
+        if lab:
+            return Opened(f"{lab}{ENDING}", shipped_text(lab))
+        if scene:
+            text = self.folder.read(scene)
+            return Opened(scene, text, mark_of_file(self.folder.path(scene)))
+        return Opened(f"new{ENDING}", start_text())
+
+    def listed(self) -> dict[str, Any]:
+        """The scenes that can be opened: those here, and the labs that come with graphkin."""
+        return {"scenes": self.folder.scenes(), "labs": [list(lab) for lab in shipped()]}
+
+    def look(self, order: PageRequest) -> dict[str, Any]:
+        """What is seen of a text; only that it is stale where a newer one was asked for since."""
+        tab, number = order.text("tab"), order.number("number")
+        sight = Sight(
+            order.scene(),
+            stem_of(order.text("name")),
+            order.choice("language", LANGUAGES),
+            order.settings(),
+            order.choice("mechanism", KINDS),
+            order.flag("quick"),
+        )
+        self.arrived(tab, number)
+        try:
+            with self.drawing(lambda: self.still_wanted(tab, number)):
+                found = look(sight, self.memory(tab), lambda: self.still_wanted(tab, number))
+        except StaleError:
+            found = {"stale": True}
+        return found | {"number": number}
+
+    @contextmanager
+    def drawing(self, go_on: Callable[[], None] = lambda: None) -> Iterator[None]:
+        """Wait until nothing else is drawn; ``go_on`` is called while waiting, and may raise."""
+
+        def free() -> bool:
+            go_on()
+            return not self.busy
+
+        with self.turns:
+            self.turns.wait_for(free)
+            self.busy = True
+        try:
+            yield
+        finally:
+            with self.turns:
+                self.busy = False
+                self.turns.notify_all()
+
+    def arrived(self, tab: str, number: int) -> None:
+        """Note the newest request of a page; pages not heard of for long are forgotten."""
+        with self.turns:
+            self.newest[tab] = max(number, self.newest.get(tab, 0))
+            self.newest.move_to_end(tab)
+            while len(self.newest) > TABS:
+                gone, _ = self.newest.popitem(last=False)
+                self.memories.pop(gone, None)
+            self.turns.notify_all()
+
+    def still_wanted(self, tab: str, number: int) -> None:
+        """Raise StaleError where a page has asked for something newer."""
+        if self.newest.get(tab, number) > number:
+            raise StaleError
+
+    def memory(self, tab: str) -> Memory:
+        """What a page last saw."""
+        return self.memories.setdefault(tab, Memory())
+
+    def write(self, order: PageRequest) -> dict[str, Any]:
+        """The changes of a text that put the values of the sliders into it, or why they cannot."""
+        text, settings = order.scene(), order.settings()
+        try:
+            return {"edits": [asdict(edit) for edit in edits(text, settings)], "problems": []}
+        except GraphkinError as error:
+            return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
+
+    def save(self, order: PageRequest) -> dict[str, Any]:
+        """Save the text of a scene, whatever is wrong with it."""
+        name, mark, replace = order.text("name"), order.text("mark"), order.flag("replace")
+        text, whole = order.scene(), completed(name)
+
+        def saved() -> Saved:
+            with self.writing:
+                return save_scene(self.folder, whole, text, mark, replace=replace)
+
+        return self.saving(saved, text)
+
+    def sheets(self, order: PageRequest) -> dict[str, Any]:
+        """Draw and save the sheets of a text."""
+        wanted = WantedSheets(
+            order.scene(),
+            completed(order.text("name")),
+            order.settings(),
+            order.choice("language", LANGUAGES),
+            order.choice("view", VIEWS),
+            order.choices("formats", FORMATS),
+        )
+        replace = order.flag("replace")
+
+        def saved() -> Saved:
+            with self.drawing():
+                files = sheets_of(self.folder, wanted)
+            with self.writing:
+                return save_files(self.folder, files, replace=replace)
+
+        return self.saving(saved, wanted.text)
+
+    def saving(self, work: Callable[[], Saved], text: str) -> dict[str, Any]:
+        """What was written, what is in the way, or why nothing was written."""
+        try:
+            return asdict(work()) | {"problems": []}
+        except GraphkinError as error:
+            problems = [told(mark) for mark in marked(error.problems, text)]
+        return asdict(Saved()) | {"problems": problems}
+
+
+def language_of(text: str) -> str:
+    """The language that a scene names for its sheets, as far as its text can be read."""
+    try:
+        sheet = tables_of(text).get("sheet")
+    except SceneError:
+        return ""
+    return str(sheet.get("language", "en")) if isinstance(sheet, dict) else "en"
+
+
+def start_text() -> str:
+    """A scene to start from: a slider-crank with a word beside each key."""
+    text = (START / "scene.toml").read_text(encoding="utf-8")
+    return text[text.index(FIRST) :].replace("NAME", "Slider-crank")

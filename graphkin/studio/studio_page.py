@@ -1,0 +1,114 @@
+"""The page of the studio: its frame in the words of a language, and the text it begins with."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import lru_cache
+from html import escape
+from pathlib import Path
+
+from graphkin import __version__
+from graphkin.studio.look import spoken_in
+from graphkin.studio.session import Opened
+from graphkin.text import LANGUAGES, Words
+
+FRAME = Path(__file__).parent / "web" / "page.html"
+GAP = re.compile(r"\{\{([\w.]+)\}\}")
+SPOKEN = (
+    "studio.language",
+    "studio.sheet_language",
+    "studio.text",
+    "studio.problems",
+    "studio.none_wrong",
+    "studio.one_wrong",
+    "studio.some_wrong",
+    "studio.line",
+    "studio.column",
+    "studio.file_name",
+    "studio.new",
+    "studio.open",
+    "studio.save",
+    "studio.save_sheets",
+    "studio.here",
+    "studio.no_scenes",
+    "studio.labs",
+    "studio.close",
+    "studio.cancel",
+    "studio.replace",
+    "studio.exist",
+    "studio.changed",
+    "studio.leave",
+    "studio.go_on",
+    "studio.moved",
+    "studio.write_save",
+    "studio.save_text",
+    "studio.with_values",
+    "studio.as_text",
+    "studio.not_drawable",
+    "studio.mend_first",
+    "studio.drawn_for",
+    "studio.saved",
+    "studio.unsaved",
+    "studio.drawing_sheets",
+    "studio.files",
+    "studio.no_files",
+    "studio.view",
+    "studio.parameters",
+    "studio.no_parameters",
+    "studio.value_of",
+    "studio.write",
+    "studio.reset",
+    "studio.larger",
+    "studio.on_mechanism",
+    "studio.on_velocity",
+    "studio.on_acceleration",
+    "studio.old",
+    "studio.checked_before",
+    "studio.gone",
+    "studio.failed",
+    "studio.drawings",
+    "studio.numbers",
+    "studio.in_mechanism",
+    "studio.key",
+    "studio.task",
+    "studio.steps",
+    "studio.overlay",
+    "sheet.velocity",
+    "sheet.acceleration",
+)
+"""The sentences of the page, those that stand in it and those that it says later."""
+
+
+def page(opened: Opened, words: Words) -> str:
+    """The whole page, to begin with a text; the words of all languages go with it."""
+    spoken = {language: spoken_in(language) for language in LANGUAGES}
+    said = {language: said_in(each) for language, each in spoken.items()}
+    start = {"language": words.language, "words": said}
+    filled = {
+        **said[words.language],
+        **{f"name.{language}": each("language") for language, each in spoken.items()},
+        "language": words.language,
+        "version": __version__,
+        "name": opened.name,
+        "mark": opened.mark,
+        "text": opened.text.removeprefix("\ufeff"),
+        "start": json.dumps(start, ensure_ascii=False),
+    }
+    return GAP.sub(lambda gap: escape(filled[gap[1]]), frame())
+
+
+def said_in(words: Words) -> dict[str, str]:
+    """The sentences of the page in one language."""
+    return {key: words(key, **gaps(words, key)) for key in SPOKEN}
+
+
+def gaps(words: Words, key: str) -> dict[str, str]:
+    """The gaps of a sentence, left as they are for the page to fill."""
+    return {name: f"{{{name}}}" for name in re.findall(r"\{(\w+)\}", words.sentences[key])}
+
+
+@lru_cache(maxsize=1)
+def frame() -> str:
+    """The page's frame, with gaps for words and texts."""
+    return FRAME.read_text(encoding="utf-8")

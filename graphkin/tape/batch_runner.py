@@ -1,0 +1,138 @@
+"""Many variants the quickest way: step by step, by emitted numpy, or by a loop that numba compiles.
+
+A program is traced and source is written once for what is asked of it; that costs some
+milliseconds, and compiling it a second or more. So small batches go step by step, and a batch goes
+the same way whatever has been run before: the ways differ by rounding alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from typing import Any, Literal
+
+from graphkin.construction.core.batch import is_array, run_batch, run_blocks
+from graphkin.construction.core.program import Program
+from graphkin.construction.core.results import merged
+from graphkin.construction.core.run import Trace, Values
+from graphkin.numbers.arithmetic import batch_kind
+from graphkin.tape.emitted import Emitted
+from graphkin.tape.traced import UntraceableError
+from graphkin.tape.tracer import parts_named, traced
+
+EMITTED_FROM = 2_000
+"""Variants from which source is written: a few such batches make up for it."""
+COMPILED_FROM = 100_000
+"""Variants from which it is compiled, where numba is installed: seconds, once for each process."""
+
+LEAST: Literal["least"] = "least"
+Margins = bool | Literal["least"]
+Overrides = Mapping[int, Any]
+"""Values, or arrays of them, in place of those of steps."""
+Way = Literal["steps", "numpy", "numba"]
+"""Step by step on arrays, by emitted numpy, or by the compiled loop."""
+
+
+@dataclass(frozen=True)
+class BatchRequest:
+    """What is asked of a program: the steps to run, the values that enter, and what is kept."""
+
+    needed: Sequence[int]
+    values: Values
+    keep: Sequence[int]
+    margins: Margins
+    overrides: Overrides
+
+    def key(self) -> tuple[Any, ...]:
+        """What the source of an order hangs on: all but the numbers in the arrays."""
+        marks = marked(self.values), marked(self.overrides)
+        return (tuple(self.needed), tuple(self.keep), self.margins, *marks)
+
+    def size(self) -> int:
+        """How many variants there are."""
+        every = (*self.values.values(), *self.overrides.values())
+        return max((len(value) for value in every if is_array(value)), default=1)
+
+    def inputs(self) -> dict[str, Any]:
+        """Plain arrays of floats for all inputs by name, two for a point."""
+        import numpy as np
+
+        found = {name: value for name, value in self.values.items() if is_array(value)}
+        for number, array in self.overrides.items():
+            if is_array(array):
+                x, y = parts_named(number)
+                found |= {x: array.real, y: array.imag} if array.dtype.kind == "c" else {x: array}
+        return {name: np.ascontiguousarray(array, dtype=float) for name, array in found.items()}
+
+
+@dataclass
+class BatchRunner:
+    """Runs a program on many variants; ``kept`` holds None for what source cannot follow."""
+
+    program: Program
+    kept: dict[tuple[Any, ...], Emitted | None] = field(default_factory=dict)
+
+    def run(
+        self,
+        needed: Sequence[int],
+        values: Values,
+        keep: Sequence[int],
+        *,
+        margins: Margins = False,
+        overrides: Overrides | None = None,
+        way: Way | None = None,
+    ) -> Trace:
+        """As run_blocks: what cannot be drawn is NaN; the caller wraps it in numpy's errstate.
+
+        ``overrides`` gives arrays in place of the values of steps; ``way`` states how, None leaves
+        it to the number of variants. What source cannot follow goes step by step. ``margins``
+        asks for all of them, or for the least of each variant.
+        """
+        order = BatchRequest(needed, values, keep, margins, overrides or {})
+        chosen = way or best_way(order.size())
+        emitted = None if chosen == "steps" else self.emitted(order)
+        if emitted is None:
+            return self.by_steps(order)
+        return emitted.run(order.inputs(), order.size(), compiled=chosen == "numba")
+
+    def by_steps(self, order: BatchRequest) -> Trace:
+        """The steps one after the other on arrays."""
+        args = self.program, order.needed, order.values, batch_kind(), order.keep
+        asked = bool(order.margins)
+        if order.overrides:
+            trace = run_batch(*args, margins=asked, overrides=order.overrides)
+        else:
+            trace = run_blocks(*args, margins=asked)
+        return merged(trace) if order.margins == LEAST else trace
+
+    def emitted(self, order: BatchRequest) -> Emitted | None:
+        """The program emitted for an order, once; None where source cannot follow it."""
+        key = order.key()
+        if key not in self.kept:
+            self.kept[key] = emitted_for(self.program, order)
+        return self.kept[key]
+
+
+def best_way(variants: int) -> Way:
+    """The way that pays for so many variants."""
+    if variants >= COMPILED_FROM and find_spec("numba") is not None:
+        return "numba"
+    return "numpy" if variants >= EMITTED_FROM else "steps"
+
+
+def marked(values: Mapping[Any, Any]) -> tuple[Any, ...]:
+    """Each name with its constant, or with the sort of array that it has."""
+    return tuple((name, v.dtype.kind if is_array(v) else (v,)) for name, v in values.items())
+
+
+def emitted_for(program: Program, order: BatchRequest) -> Emitted | None:
+    """The program traced for an order, ready to be printed; None where it cannot be traced."""
+    asked = order.needed, order.values, order.keep, order.overrides
+    try:
+        graph, trace = traced(program, *asked, margins=bool(order.margins))
+        if order.margins == LEAST:
+            trace = merged(trace)
+    except UntraceableError:
+        return None
+    return Emitted(program, graph, trace.values, trace.margins)

@@ -1,0 +1,123 @@
+"""A traced graph printed as JavaScript: the same straight line, for a page that moves by itself.
+
+What is used once stands inside what uses it; everything else has a short name of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from graphkin.tape.graph import Graph, Node
+
+SIGNS = {
+    "add": "{}+{}",
+    "sub": "{}-{}",
+    "mul": "{}*{}",
+    "over": "1/{}",
+    "neg": "-{}",
+    "less": "{}<{}",
+    "at_most": "{}<={}",
+    "equal": "{}=={}",
+    "both": "{}&&{}",
+    "either": "{}||{}",
+    "not": "!{}",
+    "choose": "{}?{}:{}",
+}
+"""Operations written with signs; each argument is a name, a number or stands in brackets."""
+CALLS = {
+    "min": "min",
+    "max": "max",
+    "abs": "abs",
+    "sqrt": "sqrt",
+    "round": "round",
+    "floor": "floor",
+    "cos": "cos",
+    "sin": "sin",
+    "sin45": "sin",
+    "atan2": "atan2",
+}
+"""Operations that are functions of JavaScript's own Math."""
+TRUTHS = frozenset({"less", "at_most", "equal", "both", "either", "not"})
+"""Operations that give a condition."""
+MATH = "const {" + ",".join(sorted(set(CALLS.values()))) + "}=Math;"
+"""The line by which those functions are known by their names."""
+DEEP = 40
+"""How many operations stand inside one another at most: parsers have their limits."""
+DIGITS = "abcdefghijklmnopqrstuvwxyz"
+
+
+def script_source(
+    graph: Graph, outputs: Sequence[int], inputs: Mapping[str, int], name: str
+) -> str:
+    """Source of ``function name(x,y)``: y[i] becomes output i, x holds the inputs.
+
+    ``inputs`` gives the place in x of each input of the graph by its name. Wants ``MATH`` before.
+    """
+    body = "\n".join(Writer(graph, outputs, inputs).lines())
+    return f"function {name}(x,y){{\n{body}\n}}\n"
+
+
+class Writer:
+    """The text of each node: its own name, or its expression where it is used only once."""
+
+    def __init__(self, graph: Graph, outputs: Sequence[int], inputs: Mapping[str, int]) -> None:
+        self.graph, self.outputs, self.inputs = graph, outputs, inputs
+        self.order = graph.needed(outputs)
+        self.uses = dict.fromkeys(self.order, 0)
+        for number in (*outputs, *(arg for n in self.order for arg in graph.nodes[n].args)):
+            self.uses[number] += 1
+        self.text: dict[int, str] = {}
+        self.depth: dict[int, int] = {}
+        """How deep the operations lie in one another that stand for a node; names lie at 0."""
+
+    def lines(self) -> Iterator[str]:
+        """The constants of the function in order, then its outputs."""
+        named = 0
+        for number in self.order:
+            node = self.graph.nodes[number]
+            if not node.args:
+                self.text[number], self.depth[number] = self.plain(node), 0
+                continue
+            expression = self.expression(node)
+            deep = 1 + max([self.depth[arg] for arg in node.args])
+            if self.uses[number] == 1 and deep < DEEP:
+                self.text[number], self.depth[number] = expression, deep
+                continue
+            name, named = short_name(named), named + 1
+            yield f"const {name}={expression};"
+            self.text[number], self.depth[number] = name, 0
+        for place, number in enumerate(self.outputs):
+            truth = self.graph.nodes[number].op in TRUTHS
+            whole = self.signed(number) if truth else self.text[number]
+            yield f"y[{place}]={whole}{'?1:0' if truth else ''};"
+
+    def plain(self, node: Node) -> str:
+        """A number or an input. A negative number has brackets: two signs must not meet."""
+        return written(node.value) if node.op == "number" else f"x[{self.inputs[node.name]}]"
+
+    def expression(self, node: Node) -> str:
+        """An operation in terms of the texts before it."""
+        if node.op in CALLS:
+            return f"{CALLS[node.op]}({','.join([self.text[arg] for arg in node.args])})"
+        return SIGNS[node.op].format(*[self.signed(arg) for arg in node.args])
+
+    def signed(self, number: int) -> str:
+        """The text of a node between signs: what has signs of its own stands in brackets."""
+        text = self.text[number]
+        has_signs = self.depth[number] and self.graph.nodes[number].op in SIGNS
+        return f"({text})" if has_signs else text
+
+
+def written(value: float) -> str:
+    """A constant with all its digits."""
+    if not math.isfinite(value):
+        return "NaN" if math.isnan(value) else f"({'-' if value < 0 else ''}Infinity)"
+    text = repr(value).removesuffix(".0")
+    return f"({text})" if text.startswith("-") else text
+
+
+def short_name(number: int) -> str:
+    """The name of a constant: one letter and digits, so that it is never a word of the language."""
+    rest, letter = divmod(number, len(DIGITS))
+    return f"{DIGITS[letter]}{rest or ''}" if DIGITS[letter] not in "xy" else f"_{letter}{rest}"

@@ -1,0 +1,121 @@
+"""What a moving page reckons at each position of the driver: numbers that a graph gives, in order.
+
+The same graph gives their values where the scene stands, so that what is drawn there can be put
+beside them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from graphkin.tape.graph import FOLD, Graph, Node
+from graphkin.tape.traced import COMPARE, TracedNumber, Truth, entered
+
+TRUTHS: Mapping[str, Callable[..., Any]] = {
+    **COMPARE,
+    "both": lambda a, b: bool(a) and bool(b),
+    "either": lambda a, b: bool(a) or bool(b),
+    "not": lambda a: not a,
+    "choose": lambda condition, yes, no: yes if condition else no,
+}
+"""The value of an operation that gives or asks a condition."""
+NOWHERE = -1
+"""In the place of an output: there is none."""
+
+
+class TapeOutputs:
+    """The outputs of a graph: numbers and places by their first index; equal ones stand once."""
+
+    def __init__(self, graph: Graph, inputs: Mapping[str, float]) -> None:
+        self.graph, self.inputs = graph, dict(inputs)
+        self.outputs: list[int] = []
+        self.places: dict[tuple[int, ...], int] = {}
+        self.values: list[Any] = []
+        self.pages: dict[Any, TracedNumber] = {}
+        """Places of the page by field and point, each reckoned once."""
+
+    def lifted(self, value: Any) -> TracedNumber:
+        """A number or point of the graph, also of a plain one."""
+        return entered(self.graph, value)
+
+    def number(self, value: Any) -> int:
+        """The place of a number among the outputs."""
+        return self.put(self.lifted(value).node)
+
+    def point(self, value: Any) -> int:
+        """The place of a point: its x there, its y next."""
+        point = self.lifted(value)
+        return self.put(point.node, point.imag.node)
+
+    def put(self, *nodes: int) -> int:
+        """The place of some nodes that follow one another."""
+        if nodes not in self.places:
+            self.places[nodes] = len(self.outputs)
+            self.outputs.extend(nodes)
+        return self.places[nodes]
+
+    def now(self, value: Any) -> Any:
+        """A number, point or condition where the scene stands; what is not traced stays."""
+        if isinstance(value, Truth):
+            return self.value(value.node)
+        if not isinstance(value, TracedNumber):
+            return value
+        if value.down is None:
+            return self.value(value.node)
+        return complex(self.value(value.node), self.value(value.down))
+
+    def value(self, number: int) -> Any:
+        """The value of a node where the scene stands."""
+        if number >= len(self.values):
+            for node in self.graph.nodes[len(self.values) : number + 1]:
+                self.values.append(value_of(node, self.values, self.inputs))
+        return self.values[number]
+
+
+def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> Any:
+    """The value of a node from those before it; NaN where there is none."""
+    if node.op == "number":
+        return node.value
+    if node.op == "input":
+        return inputs[node.name]
+    args = [values[arg] for arg in node.args]
+    if node.op in TRUTHS:
+        return TRUTHS[node.op](*args)
+    try:
+        return FOLD[node.op](*args)
+    except (ValueError, OverflowError):
+        return math.nan
+
+
+def ran(graph: Graph, outputs: Sequence[int], inputs: Mapping[str, Any]) -> list[Any]:
+    """The values of outputs for arrays of inputs, each array of the same length."""
+    return runner(graph, outputs)(inputs)
+
+
+def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
+    """Some outputs as a function of arrays of inputs, each array of the same length."""
+    import numpy as np
+
+    from graphkin.tape.emit import ARRAYS
+    from graphkin.tape.emit import TRUTHS as CONDITIONS
+
+    known = {**ARRAYS, **CONDITIONS, "choose": "where", "over": "reciprocal"}
+    order = [(number, graph.nodes[number]) for number in graph.needed(outputs)]
+    calls = [
+        (number, node, getattr(np, known[node.op]) if node.op in known else None)
+        for number, node in order
+    ]
+
+    def found(inputs: Mapping[str, Any]) -> list[Any]:
+        values: dict[int, Any] = {}
+        with np.errstate(all="ignore"):
+            for number, node, call in calls:
+                if call is not None:
+                    values[number] = call(*[values[arg] for arg in node.args])
+                else:
+                    values[number] = inputs[node.name] if node.name else np.float64(node.value)
+        return [values[number] for number in outputs]
+
+    return found

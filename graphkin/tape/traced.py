@@ -1,0 +1,292 @@
+"""Numbers that are nodes of a graph instead of values: they write down what is done to them.
+
+They stand where a batch has arrays and answer numpy's own functions, so a program runs on them
+unchanged. What hangs on the value itself (an ``if``, an index) cannot be traced and says so.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from numbers import Complex, Real
+from typing import Any
+
+from graphkin.tape.graph import Graph
+
+
+class UntraceableError(AttributeError, TypeError):
+    """A step whose way depends on a value, so that no straight line of source can follow it."""
+
+
+def refused(self: Traced, *_: Any) -> Any:
+    """Stop where a traced number is used as if it had a value."""
+    raise UntraceableError("a step that looks at a value, other than by arithmetic.pick")
+
+
+class Traced:
+    """Something that a run reckons for each variant; ``shape`` as an array of variants has it."""
+
+    __slots__ = ("graph",)
+    __hash__ = None  # type: ignore[assignment]
+    shape = ()
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+
+    __bool__ = __float__ = __complex__ = __int__ = __index__ = __array__ = refused
+    __len__ = __iter__ = __getitem__ = refused
+
+    def __getattr__(self, name: str) -> Any:
+        raise UntraceableError(f"a step that asks an array for {name}")
+
+    def __array_ufunc__(self, function: Any, method: str, *args: Any, **options: Any) -> Any:
+        """Numpy's functions of numbers."""
+        known = UFUNCS.get(function.__name__)
+        if known is None or method != "__call__" or options:
+            raise UntraceableError(f"numpy's {function.__name__}")
+        return known(self.graph, *args)
+
+    def __array_function__(self, function: Any, _: Any, args: Any, options: Any) -> Any:
+        """Numpy's choice, element by element, and the angle of a direction."""
+        if function.__name__ == "where" and len(args) == 3 and not options:
+            return chosen(self.graph, *args)
+        if function.__name__ == "angle" and isinstance(self, TracedNumber) and not options:
+            return self.imag.do("atan2", self.real)
+        raise UntraceableError(f"numpy's {function.__name__}")
+
+
+class Truth(Traced):
+    """A condition, true or false for each variant."""
+
+    __slots__ = ("node",)
+
+    def __init__(self, graph: Graph, node: int) -> None:
+        super().__init__(graph)
+        self.node = node
+
+    def __and__(self, other: Any) -> Any:
+        return self.joined("both", other)
+
+    def __or__(self, other: Any) -> Any:
+        return self.joined("either", other)
+
+    def __invert__(self) -> Truth:
+        return Truth(self.graph, self.graph.do("not", self.node))
+
+    def joined(self, op: str, other: Any) -> Any:
+        """Two conditions as one; a plain truth decides at once."""
+        if isinstance(other, Truth):
+            return Truth(self.graph, self.graph.do(op, self.node, other.node))
+        return self if bool(other) == (op == "both") else bool(other)
+
+    __rand__, __ror__ = __and__, __or__
+
+
+class TracedNumber(Traced):  # noqa: PLW1641
+    """A real number of a graph, or a point of the plane as two of them."""
+
+    __slots__ = ("down", "node")
+
+    def __init__(self, graph: Graph, node: int, down: int | None = None) -> None:
+        self.graph, self.node, self.down = graph, node, down
+
+    @property
+    def real(self) -> TracedNumber:
+        """The part along the x axis."""
+        return TracedNumber(self.graph, self.node)
+
+    @property
+    def imag(self) -> TracedNumber:
+        """The part along the y axis."""
+        return TracedNumber(self.graph, self.below())
+
+    def below(self) -> int:
+        """The node of the part along the y axis; that of a real number is nought."""
+        return self.graph.number(0.0) if self.down is None else self.down
+
+    def conjugate(self) -> TracedNumber:
+        """The point seen in a mirror along the x axis."""
+        if self.down is None:
+            return self
+        return TracedNumber(self.graph, self.node, self.graph.do("neg", self.down))
+
+    def of(self, x: TracedNumber, y: TracedNumber) -> TracedNumber:
+        """A point from its parts."""
+        return TracedNumber(self.graph, x.node, y.node)
+
+    def of_constant(self, value: float) -> TracedNumber:
+        """A constant of the same graph."""
+        return TracedNumber(self.graph, self.graph.number(value))
+
+    def do(self, op: str, *others: TracedNumber) -> TracedNumber:
+        """A real operation on this number and others."""
+        return TracedNumber(
+            self.graph, self.graph.do(op, self.node, *[each.node for each in others])
+        )
+
+    def __add__(self, other: Any) -> TracedNumber:
+        return self.by_parts("add", entered(self.graph, other))
+
+    def __sub__(self, other: Any) -> TracedNumber:
+        return self.by_parts("sub", entered(self.graph, other))
+
+    def __rsub__(self, other: Any) -> TracedNumber:
+        return entered(self.graph, other).by_parts("sub", self)
+
+    def by_parts(self, op: str, other: TracedNumber) -> TracedNumber:
+        """A sum or a difference."""
+        graph = self.graph
+        along = graph.do(op, self.node, other.node)
+        if self.down is None and other.down is None:
+            return TracedNumber(graph, along)
+        return TracedNumber(graph, along, graph.do(op, self.below(), other.below()))
+
+    def __mul__(self, other: Any) -> TracedNumber:
+        other, do = entered(self.graph, other), self.graph.do
+        a, b, c, d = self.node, self.down, other.node, other.down
+        if b is None:
+            return TracedNumber(self.graph, do("mul", a, c), None if d is None else do("mul", a, d))
+        if d is None:
+            return TracedNumber(self.graph, do("mul", c, a), do("mul", c, b))
+        along = do("sub", do("mul", a, c), do("mul", b, d))
+        return TracedNumber(self.graph, along, do("add", do("mul", a, d), do("mul", b, c)))
+
+    def __truediv__(self, other: Any) -> TracedNumber:
+        below = entered(self.graph, other)
+        if below.down is None:
+            return self.__mul__(below.do("over"))
+        return self.__mul__(below.conjugate()).__mul__(square(below).do("over"))
+
+    def __rtruediv__(self, other: Any) -> TracedNumber:
+        return entered(self.graph, other).__truediv__(self)
+
+    def __pow__(self, exponent: Any) -> TracedNumber:
+        if exponent == 0.5:
+            return root(self.graph, self)
+        if exponent != int(exponent) or exponent < 0:
+            raise UntraceableError("a broken or negative power")
+        found = self.of_constant(1.0)
+        for _ in range(int(exponent)):
+            found = found * self
+        return found
+
+    def __neg__(self) -> TracedNumber:
+        do = self.graph.do
+        down = None if self.down is None else do("neg", self.down)
+        return TracedNumber(self.graph, do("neg", self.node), down)
+
+    def __pos__(self) -> TracedNumber:
+        return self
+
+    def __abs__(self) -> TracedNumber:
+        if self.down is None:
+            return self.do("abs")
+        if (self.node, self.down) in self.graph.units:
+            return self.of_constant(1.0)
+        for part, other in ((self.real, self.imag), (self.imag, self.real)):
+            if self.graph.constant(part.node) == 0:
+                return abs(other)
+        return square(self).do("sqrt")
+
+    def compared(self, op: str, other: Any, *, turned: bool = False) -> Any:
+        """A condition on two numbers; on two constants plainly true or false."""
+        pair = (self, entered(self.graph, other))
+        first, second = pair[::-1] if turned else pair
+        values = [self.graph.constant(each.node) for each in (first, second)]
+        if None not in values:
+            return COMPARE[op](*values)
+        return Truth(self.graph, self.graph.do(op, first.node, second.node))
+
+    def __lt__(self, other: Any) -> Any:
+        return self.compared("less", other)
+
+    def __le__(self, other: Any) -> Any:
+        return self.compared("at_most", other)
+
+    def __gt__(self, other: Any) -> Any:
+        return self.compared("less", other, turned=True)
+
+    def __ge__(self, other: Any) -> Any:
+        return self.compared("at_most", other, turned=True)
+
+    def __eq__(self, other: Any) -> Any:
+        return self.compared("equal", other)
+
+    def __ne__(self, other: Any) -> Any:
+        found = self.compared("equal", other)
+        return ~found if isinstance(found, Truth) else not found
+
+    __radd__, __rmul__ = __add__, __mul__
+
+
+COMPARE: dict[str, Callable[..., bool]] = {
+    "less": operator.lt,
+    "at_most": operator.le,
+    "equal": operator.eq,
+}
+
+
+def entered(graph: Graph, value: Any) -> TracedNumber:
+    """A plain number as a constant of the graph; what is traced as it is."""
+    if isinstance(value, TracedNumber):
+        return value
+    if isinstance(value, (float, Real)):
+        return TracedNumber(graph, graph.number(float(value)))
+    if isinstance(value, (complex, Complex)):
+        point = complex(value)
+        return TracedNumber(graph, graph.number(point.real), graph.number(point.imag))
+    raise UntraceableError(f"a {type(value).__name__} among traced numbers")
+
+
+def square(point: TracedNumber) -> TracedNumber:
+    """Square of a distance: lengths beyond 1e±150 would be out of range."""
+    return TracedNumber(point.graph, point.graph.sum_of_squares(point.node, point.below()))
+
+
+def root(graph: Graph, value: Any) -> TracedNumber:
+    """Square root of a real number."""
+    return entered(graph, value).do("sqrt")
+
+
+def chosen(graph: Graph, condition: Any, yes: Any, no: Any) -> TracedNumber:
+    """One of two numbers or points by a condition."""
+    if not isinstance(condition, Truth):
+        return entered(graph, yes if condition else no)
+    first, second = entered(graph, yes), entered(graph, no)
+
+    def one(x: TracedNumber, y: TracedNumber) -> TracedNumber:
+        return TracedNumber(graph, graph.do("choose", condition.node, x.node, y.node))
+
+    if first.down is None and second.down is None:
+        return one(first, second)
+    return first.of(one(first.real, second.real), one(first.imag, second.imag))
+
+
+def plain(op: str) -> Callable[..., TracedNumber]:
+    """A function of real numbers as an operation of the graph."""
+    return lambda graph, *args: entered(graph, args[0]).do(
+        op, *(entered(graph, each) for each in args[1:])
+    )
+
+
+def by_operator(function: Callable[..., Any]) -> Callable[..., Any]:
+    """An operator of Python on numbers entered in the graph."""
+    return lambda graph, *args: function(
+        *(each if isinstance(each, Traced) else entered(graph, each) for each in args)
+    )
+
+
+UFUNCS: dict[str, Callable[..., Any]] = {
+    "sqrt": plain("sqrt"),
+    "cos": plain("cos"),
+    "sin": plain("sin"),
+    "arctan2": plain("atan2"),
+    "rint": plain("round"),
+    "floor": plain("floor"),
+    "absolute": by_operator(abs),
+    "add": by_operator(operator.add),
+    "subtract": by_operator(operator.sub),
+    "multiply": by_operator(operator.mul),
+    "divide": by_operator(operator.truediv),
+}
+"""Numpy's functions by their names."""

@@ -1,0 +1,1 @@
+"""Pages for a browser: sheets that draw themselves and move, and animations."""

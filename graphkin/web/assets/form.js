@@ -1,0 +1,222 @@
+// The form of a lab: reads what is written as `graphkin grade` does, keeps it in this browser,
+// saves it as a file and opens such a file again. Nothing is sent anywhere.
+const form = document.querySelector("form.answers");
+if (!form) return;
+const told = JSON.parse(form.dataset.form);
+const NUMBER = new RegExp("^(?:" + told.number + ")");
+const MISTYPED = new RegExp(told.mistyped);
+const RUNS = /(^|;[\s"]*)(?=[=+\-@])/g; // before what a spreadsheet takes for a formula
+const HEADS = ["field", "value"];
+const SHOWN = 30;
+const NAMED = 8; // fields that are named in one sentence
+const memory = `${told.memory} ${location.origin}${location.pathname}`; // a copy elsewhere has its own
+const fields = [...form.querySelectorAll("[name]")];
+const own = form.querySelector("#answers-id");
+const status = form.querySelector(".status");
+const file = form.querySelector(".file");
+
+const say = (key, values = {}) =>
+  told.words[key].replace(/\{(\w+)\}/g, (gap, name) => (name in values ? values[name] : gap));
+const shown = (text) => (text.length <= SHOWN ? text : text.slice(0, SHOWN - 1) + "…");
+const clean = (text) => text.replace(/[\p{Cc}\p{Cf}\p{Cs}]/gu, "").trim().normalize("NFC");
+const id = () => told.id || clean(own.value);
+
+// What is wrong with an answer, as graphkin.classroom.grading.answer_numbers says it; empty where it is read.
+function wrong(text, unit) {
+  const stripped = clean(text);
+  if (!stripped) return "";
+  const found = stripped.length <= told.longest ? NUMBER.exec(stripped) : null;
+  if (!found) return say("no_number", { text: shown(stripped) });
+  const rest = stripped.slice(found[0].length);
+  const written = plainUnit(rest);
+  const known = told.units[unit];
+  if (written && !Object.hasOwn(known, written)) {
+    if (MISTYPED.test(rest)) return say("no_number", { text: shown(stripped) });
+    const list = Object.keys(known).join(", ");
+    return say("no_unit", { unit: shown(written), list });
+  }
+  const digits = found.groups.digits.replaceAll(",", ".");
+  const value = Number(`${digits}e${found.groups.power || 0}`) * (written ? known[written] : 1);
+  return Number.isFinite(value) ? "" : say("too_large", { text: shown(stripped) });
+}
+
+function plainUnit(text) {
+  const bare = text.replace(/[\s()[\]^*·]/g, "");
+  return bare.replaceAll("²", "2").replaceAll("⁻¹", "-1").replaceAll("−", "-");
+}
+
+// Show beside a field what is wrong with it, and tell whether anything is.
+function judge(field) {
+  const problem = field.dataset.unit === undefined ? "" : wrong(field.value, field.dataset.unit);
+  return mark(field, problem);
+}
+
+function mark(field, problem) {
+  form.querySelector(`#${field.id}-wrong`).textContent = problem;
+  if (problem) field.setAttribute("aria-invalid", "true");
+  else field.removeAttribute("aria-invalid");
+  return Boolean(problem);
+}
+
+function answers() {
+  return Object.fromEntries(fields.map((field) => [field.name, field.value]));
+}
+
+function fill(values) {
+  for (const field of fields.filter((field) => Object.hasOwn(values, field.name))) {
+    const text = values[field.name];
+    const sense = field.options && ["", "+", "-"].indexOf(text);
+    if (sense > 0) field.selectedIndex = sense;
+    else field.value = text;
+    judge(field);
+    if (field.options && field.selectedIndex < 0) {
+      field.selectedIndex = 0;
+      mark(field, say("no_sense", { text: shown(text) }));
+    }
+  }
+}
+
+function keep() {
+  try {
+    localStorage.setItem(memory, JSON.stringify({ id: own?.value ?? "", ...answers() }));
+    return true;
+  } catch {
+    return false; // a browser that keeps nothing, as told when the page opens
+  }
+}
+
+function recall() {
+  try {
+    const kept = JSON.parse(localStorage.getItem(memory) ?? "{}");
+    if (own && typeof kept.id === "string") own.value = kept.id;
+    fill(Object.fromEntries(Object.entries(kept).filter(([, text]) => typeof text === "string")));
+  } catch {
+    // what is not ours, or nothing: the form stays empty
+  }
+}
+
+// A cell that no spreadsheet runs, in quotes where it must be.
+function cell(text, read) {
+  const safe = read ? text : text.replace(RUNS, "$1'");
+  return /[",;\t\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+}
+
+function table() {
+  const rows = [HEADS, ["id", cell(id(), told.id || /^[+-]?\d+$/.test(id()))]];
+  for (const field of fields) {
+    const read = !wrong(field.value, field.dataset.unit ?? "");
+    rows.push([field.name, cell(clean(field.value), read)]);
+  }
+  return rows.map((row) => row.join(told.separator) + "\r\n").join("");
+}
+
+function save() {
+  if (own && mark(own, id() ? "" : say("no_id"))) {
+    status.textContent = say("no_id");
+    own.focus();
+    return;
+  }
+  const stem = told.id ? told.stem : `${told.stem}-${id().replace(/[^\w-]+/g, "_")}`;
+  const name = `${stem}-answers.csv`;
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([table()], { type: "text/csv;charset=utf-8" }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  keep();
+  const bad = fields.filter(judge);
+  const empty = fields.filter((field) => !clean(field.value));
+  const count = fields.length - empty.length;
+  status.textContent = say("saved", { file: name, count, all: fields.length });
+  if (count && empty.length) list("empty", empty.slice(0, NAMED), empty.length > NAMED);
+  if (bad.length) list("unread", bad, false);
+}
+
+// Add a sentence with a list of fields, each by its symbol and its unit as its label has them.
+function list(key, some, more) {
+  const [before, after] = told.words[key].split("{list}");
+  const named = some.flatMap((field, i) => {
+    const symbol = form.querySelector(`label[for="${field.id}"] .symbol`).cloneNode(true);
+    return [i ? ", " : "", symbol, ` (${field.dataset.unit || told.sense})`];
+  });
+  status.append(` ${before}`, ...named, more ? ", …" : "", after);
+}
+
+// The rows of a CSV text, whatever stands between its cells.
+function rowsOf(text) {
+  const first = text.split(/\r?\n/, 1)[0];
+  const separator = [";", ",", "\t"].find((sign) => first.includes(sign)) ?? ",";
+  const rows = [[""]];
+  let quoted = false;
+  for (let i = 0; i < text.length; i++) {
+    const sign = text[i];
+    const row = rows.at(-1);
+    if (quoted && sign === '"' && text[i + 1] === '"') row[row.length - 1] += text[++i];
+    else if (sign === '"') quoted = !quoted;
+    else if (!quoted && sign === separator) row.push("");
+    else if (!quoted && sign === "\n") rows.push([""]);
+    else row[row.length - 1] += sign;
+  }
+  return rows.map((row) => row.map((text) => clean(text).replace(/(^|;[\s"]*)'(?=[=+\-@])/g, "$1")));
+}
+
+async function open() {
+  const chosen = file.files[0];
+  file.value = "";
+  if (!chosen) return;
+  const rows = rowsOf(await chosen.text());
+  const known = new Set(fields.map((field) => field.name));
+  const found = rows.slice(1).filter(([name, text]) => name && text !== undefined);
+  const given = found.find(([name]) => name === "id")?.[1] ?? "";
+  const values = Object.fromEntries(found.filter(([name]) => known.has(name)));
+  const strange = found.map(([name]) => name).filter((n) => n !== "id" && !known.has(n));
+  const count = Object.values(values).filter(Boolean).length;
+  const said = { file: chosen.name, id: shown(given), count };
+  const ours = HEADS.every((head, i) => rows[0][i] === head);
+  if (ours && told.id && given && given !== told.id) {
+    status.textContent = say("other", said);
+  } else if (!ours || !Object.keys(values).length) {
+    status.textContent = say("no_file", said);
+  } else if (!differs(values) || confirm(say("replace", said))) {
+    if (own && given) mark(Object.assign(own, { value: given }), "");
+    fill(values);
+    keep();
+    const list = strange.map(shown).join(", ");
+    status.textContent = say("opened", said) + (list ? " " + say("strange", { list }) : "");
+  }
+}
+
+// Whether something that is written would be replaced by something else.
+function differs(values) {
+  return fields.some((f) => clean(f.value) && f.name in values && values[f.name] !== clean(f.value));
+}
+
+function clear() {
+  if (!confirm(say("sure"))) return;
+  for (const field of [own, ...fields].filter(Boolean)) {
+    field.value = "";
+    mark(field, "");
+  }
+  keep();
+  status.textContent = say("cleared");
+}
+
+form.addEventListener("submit", (event) => event.preventDefault());
+form.addEventListener("input", (event) => {
+  keep();
+  const field = event.target;
+  if (field === own) {
+    mark(own, "");
+    if (id() && status.textContent === say("no_id")) status.textContent = "";
+  } else if (field.getAttribute("aria-invalid")) judge(field);
+});
+form.addEventListener("change", (event) => {
+  if (fields.includes(event.target)) judge(event.target);
+});
+form.querySelector(".save").addEventListener("click", save);
+form.querySelector(".open").addEventListener("click", () => file.click());
+file.addEventListener("change", open);
+form.querySelector(".clear").addEventListener("click", clear);
+recall();
+status.textContent = keep() ? say("kept") : say("lost");
+form.querySelector(".buttons").hidden = false;

@@ -1,0 +1,118 @@
+"""What stands below the drawings: the tables of results, the data, what is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import given
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
+from graphkin.documents.members import members
+from graphkin.documents.sheet import asked
+from graphkin.documents.task_scale import plan_at
+from graphkin.drawing.columns import Row
+from graphkin.drawing.scale import digits
+from graphkin.writers.html_markup import marked_up
+
+SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
+"""What is asked of a block on each sheet."""
+
+
+def results(drawing: Drawing) -> Iterator[str]:
+    """The tables of a sheet: vectors of the plan, angular values, what slides."""
+    words = drawing.words
+    unit = words(f"table.{drawing.kind}")
+    spin = "omega" if drawing.kind == "velocity" else "epsilon"
+    first, millimetres, sense = (
+        words(f"table.{key}") for key in ("symbol", "millimetres", "sense")
+    )
+    asked_for = asked_rows(drawing)
+    kinds = (
+        (
+            "vectors",
+            "screen.vectors",
+            (first, words("table.segment"), millimetres, unit),
+            vector_rows,
+        ),
+        ("turns", "screen.turns", (first, words(f"table.{spin}"), sense), turning_rows),
+        ("slides", "screen.slides", (first, unit, sense), slide_rows),
+    )
+    for kind, key, head, rows in kinds:
+        found = [(name_of(drawing, row), row) for row in rows(drawing, empty=False)]
+        if found:
+            yield from table(kind, words(key), head, found, asked_for)
+
+
+def table(
+    kind: str,
+    caption: str,
+    head: Sequence[str],
+    rows: Sequence[tuple[str, Row]],
+    asked_for: frozenset[str],
+) -> Iterator[str]:
+    """A table whose rows can be found by the name of their quantity."""
+    yield f'<table class="{kind}"><caption>{escape(caption)}</caption>'
+    heads = "".join(f'<th scope="col">{marked_up(cell)}</th>' for cell in head)
+    yield f"<thead><tr>{heads}</tr></thead><tbody>"
+    for named, row in rows:
+        own = " data-asked" if named in asked_for else ""
+        name = f'<th scope="row">{marked_up(row.cells[0])}</th>'
+        cells = "".join(f"<td>{marked_up(cell)}</td>" for cell in row.cells[1:])
+        yield f'<tr data-row="{escape(named)}"{own}>{name}{cells}</tr>'
+    yield "</tbody></table>"
+
+
+def name_of(drawing: Drawing, row: Row) -> str:
+    """The name of a row's quantity, on no other sheet the same."""
+    what, _, block = row.name.partition(" ")
+    return f"{SLIDES[drawing.kind]} {block}" if what == "slide" else row.name
+
+
+def asked_rows(drawing: Drawing) -> frozenset[str]:
+    """The names of the rows that the scene asks for."""
+    ask = drawing.scene.ask
+    first = drawing.kind == "velocity"
+    points, spins = (ask.velocity, ask.omega) if first else (ask.acceleration, ask.epsilon)
+    letter, turn = ("v", "ω") if first else ("a", "ε")
+    return frozenset(
+        (
+            *(f"{letter}_{lettered(point)}" for point in points),
+            *(f"{turn}{link}" for link in spins),
+            *(f"{SLIDES[drawing.kind]} {block}" for block in ask.slides),
+        )
+    )
+
+
+def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
+    """For the row of each block on either sheet the words of both its senses along its guide."""
+    return {
+        f"{what} {block}": (
+            marked_up(slide_sense(drawing, block, 1.0)),
+            marked_up(slide_sense(drawing, block, -1.0)),
+        )
+        for block in drawing.scene.ask.slides
+        for what in SLIDES.values()
+    }
+
+
+def data(drawing: Drawing, datum: str = "") -> str:
+    """What is given, piece by piece; a script finds the datum with the symbol ``datum``."""
+    start = marked_up(f"{datum} = ")
+    pieces = listed(given(drawing))
+    return pieces.replace(f"<li>{start}", f'<li id="datum">{start}', 1) if datum else pieces
+
+
+def wanted(drawing: Drawing) -> str:
+    """At which scales a task is to be drawn, and what it asks for, piece by piece."""
+    words, kL = drawing.words, drawing.words.decimal(digits(drawing.scales.kL))
+    first = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
+    then = plan_at(drawing)
+    scales = f'<p class="scales"><strong>{marked_up(first)}</strong> {marked_up(then)}</p>'
+    return scales + listed([*asked(drawing), members(drawing)])
+
+
+def listed(markups: Iterable[str]) -> str:
+    """Pieces of markup as a list."""
+    return "<ul>" + "".join(f"<li>{marked_up(markup)}</li>" for markup in markups) + "</ul>"

@@ -1,0 +1,209 @@
+"""How a mark follows: a record of a kind, of outputs by their places, and of constants.
+
+Every record begins with its mark's id, its kind and the place of what must be positive for it to
+show (or -1). The kinds, as moving.js lays them out:
+
+- ``l`` a line between two places; ``g`` a polygon between places; ``h`` an arrowhead at the second
+- ``f`` a line, ``r`` a polygon, ``m`` a circle, ``e`` an arc, ``t`` a text that a pose carries;
+  ``x`` a polygon whose corners are carried by several poses; ``b`` a text beside a segment
+- ``a`` an arc, ``i`` a circle as a broken line, of which centre and size are given
+- ``s`` a part of a construction line
+- ``o`` what holds for the drawn position alone
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import atan2, degrees
+from typing import Any
+
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import XY, Field
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text
+from graphkin.drawing.richtext import extent
+from graphkin.tape.tape_outputs import NOWHERE, TapeOutputs
+from graphkin.web.field_extents import room_of
+from graphkin.web.moving_sheet import MovingSheet
+from graphkin.web.traced_poses import BodyPose
+
+Record = list[Any]
+Binding = Callable[[Mark], Record | None]
+"""What makes the record of a mark, all but its number; None for what stands still."""
+Told = dict[Mark, Binding]
+SPACING = 2.2
+"""Distance of the strokes of a hatching in mm."""
+DIGITS = 6
+"""Decimals of millimetres in records."""
+
+
+def still(_: Mark) -> None:
+    """A mark that stays where it is."""
+
+
+def only_at_start(_: Mark) -> Record:
+    """A mark that tells a number of the drawn position, or what is only there."""
+    return ["o", NOWHERE]
+
+
+def rounded(*numbers: float) -> list[float]:
+    """Millimetres as they are written."""
+    return [int(r) if (r := round(number, DIGITS)) == int(r) else r for number in numbers]
+
+
+@dataclass(frozen=True)
+class FieldBinder:
+    """Where the marks of one field are bound: the sheet's places, the field, and the outputs."""
+
+    places: MovingSheet
+    field: Field
+    rects: list[Rect]
+
+    @property
+    def tape(self) -> TapeOutputs:
+        """The outputs."""
+        return self.places.tape
+
+    @property
+    def room(self) -> Rect:
+        """What the field can grow to, where lines are cut."""
+        return room_of(self.field.rect)
+
+    def page(self, point: Any) -> Any:
+        """Where a traced point of the drawing falls on the page: x to the right, y down."""
+        place, known = self.tape.lifted(point), self.tape.pages
+        key = (self.field, place.node, place.down)
+        if key not in known:
+            mm, middle, (x, y) = self.field.mm, self.field.middle, self.field.at
+            across = place.real * mm + (x - middle.real * mm)
+            down = (y + middle.imag * mm) - place.imag * mm
+            known[key] = across.of(across, down)
+        return known[key]
+
+    def pose(self, pose: BodyPose) -> BodyPose:
+        """A pose of the drawing on the page."""
+        return BodyPose(self.page(pose.origin), self.tape.lifted(pose.way).conjugate())
+
+    def rect(self, rect: Rect | None) -> int:
+        """The number of a rectangle to which lines are cut."""
+        if rect is None:
+            return NOWHERE
+        if rect not in self.rects:
+            self.rects.append(rect)
+        return self.rects.index(rect)
+
+    # --- bindings ------------------------------------------------------------------------------
+
+    def carried_by(self, pose: BodyPose | None) -> Binding:
+        """A mark that moves rigidly with a pose of the drawing."""
+        return still if pose is None else self.on(self.pose(pose))
+
+    def with_point(self, point: Any) -> Binding:
+        """A mark that keeps its distance from a point of the drawing and does not turn."""
+        return self.on(BodyPose(self.page(point), self.tape.lifted(1 + 0j)))
+
+    def on(self, pose: BodyPose, rect: Rect | None = None) -> Binding:
+        """A mark that moves rigidly with a pose of the page."""
+        fixed = all(self.is_constant(part) for part in pose)
+        return still if fixed else lambda mark: [*self.rigid(mark, pose, rect)]
+
+    def is_constant(self, value: Any) -> bool:
+        """True for a number or point that does not move."""
+        number, graph = self.tape.lifted(value), self.tape.graph
+        nodes = [number.node, number.imag.node]
+        return all(graph.constant(node) is not None for node in nodes)
+
+    def rigid(self, mark: Mark, pose: BodyPose, rect: Rect | None) -> Record:
+        """The record of a mark that moves rigidly."""
+        head = [NOWHERE, self.tape.point(pose.origin), self.tape.point(pose.way)]
+        origin, way = complex(self.tape.now(pose.origin)), complex(self.tape.now(pose.way))
+
+        def local(x: float, y: float) -> list[float]:
+            place = (complex(x, y) - origin) * way.conjugate()
+            return rounded(place.real, place.imag)
+
+        match mark:
+            case LineMark():
+                ends = [*local(mark.x1, mark.y1), *local(mark.x2, mark.y2)]
+                return ["f", *head, *ends, self.rect(rect)]
+            case Polyline():
+                return ["r", *head, *(number for point in mark.points for number in local(*point))]
+            case CircleMark():
+                return ["m", *head, *local(mark.cx, mark.cy)]
+            case Arc():
+                turned = degrees(atan2(-way.imag, way.real))
+                angles = rounded(mark.start - turned, mark.end - turned)
+                return ["e", *head, *local(mark.cx, mark.cy), *rounded(mark.r), *angles]
+            case Text():
+                middle = middle_of(mark)
+                return ["t", *head, *local(*middle), *rounded(*middle)]
+
+    def beside(self, pose: BodyPose, shown: Any = None) -> Binding:
+        """A text beside a segment, given by its middle and direction on the page: it goes round
+        with the segment, stays upright, and keeps its clear distance."""
+
+        def bound(mark: Mark) -> Record:
+            if not isinstance(mark, Text):
+                return self.conditioned(self.rigid(mark, pose, None), shown)
+            width, top, bottom = extent(mark.markup, mark.height)
+            half, tall = width / 2, (bottom - top) / 2
+            middle = CircleMark(*middle_of(mark), 1.0, "")
+            _, *head, along, aside = self.rigid(middle, pose, None)
+            way = complex(self.tape.now(pose.way))
+            room = abs(aside) - abs(way.imag) * half - abs(way.real) * tall
+            box = rounded(middle.cx, middle.cy, half, tall, room)
+            return self.conditioned(["b", *head, along, aside, *box], shown)
+
+        return bound
+
+    def between(self, start: Any, end: Any, rect: Rect | None = None, shown: Any = None) -> Binding:
+        """A line between two traced points of the drawing."""
+        return self.joining(self.page(start), self.page(end), rect, shown)
+
+    def joining(self, start: Any, end: Any, rect: Rect | None = None, shown: Any = None) -> Binding:
+        """A line between two traced places of the page."""
+        return lambda _: [
+            "l",
+            self.condition(shown),
+            self.tape.point(start),
+            self.tape.point(end),
+            self.rect(rect),
+        ]
+
+    def head(self, tail: Any, tip: Any, shown: Any = None) -> Binding:
+        """The head of an arrow between two traced points of the drawing."""
+        ends = self.page(tail), self.page(tip)
+        return lambda _: ["h", self.condition(shown), *map(self.tape.point, ends)]
+
+    def corners(self, places: Sequence[Any], shown: Any = None) -> Binding:
+        """A polygon or broken line through traced places of the page."""
+        return lambda _: ["g", self.condition(shown), *map(self.tape.point, places)]
+
+    def at(self, point: Any, shown: Any = None) -> Binding:
+        """A circle of constant size about a traced point of the drawing."""
+        one = BodyPose(self.page(point), self.tape.lifted(1 + 0j))
+        return lambda mark: self.conditioned(self.rigid(mark, one, None), shown)
+
+    def conditioned(self, record: Record, shown: Any) -> Record:
+        """A record that shows only where something is positive."""
+        return [record[0], self.condition(shown), *record[2:]]
+
+    def condition(self, shown: Any) -> int:
+        """The place of what must be positive for a mark to show."""
+        return NOWHERE if shown is None else self.tape.number(shown)
+
+    def arc(self, centre: Any, radius: Any, span: tuple[Any, Any], shown: Any = None) -> Binding:
+        """An arc whose centre and angles (degrees) move; the radius is in metres."""
+        return lambda _: [
+            "a",
+            self.condition(shown),
+            self.tape.point(self.page(centre)),
+            self.tape.number(self.tape.lifted(radius) * self.field.mm),
+            *map(self.tape.number, span),
+        ]
+
+
+def middle_of(text: Text) -> XY:
+    """The middle of a text's box, which a label turns about while it stays upright."""
+    width, top, bottom = extent(text.markup, text.height)
+    return text.x + text.left() + width / 2, text.y + (top + bottom) / 2

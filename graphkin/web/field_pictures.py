@@ -1,0 +1,91 @@
+"""A field of a sheet as a picture of its own in a page, in inks that follow light and dark."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from html import escape
+
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.glyphs import font_face
+from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.style import BRIEF, Ink, in_variables
+from graphkin.text import Words
+from graphkin.web.protocol import Timed
+from graphkin.writers.svg import LETTERING, element, number, rules
+
+WIDTH = re.compile(r"stroke-width:([\d.]+)")
+THINNEST = 0.24
+"""Lines no thinner than this, in mm, on a screen whose dots are coarser than paper's grain."""
+BAR = 20
+"""Millimetres of paper that the bar of a field's scale is long, until a script finds others."""
+
+
+def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str) -> str:
+    """The marks of a field, each under its id, as SVG whose units are millimetres of the page.
+
+    ``named_by`` is the id of the words that tell what the picture is.
+    """
+    left, top, right, bottom = rect
+    box = " ".join(map(number, (left, top, right - left, bottom - top)))
+    drawn = "\n".join(placed(name, timed) for name, timed in marks)
+    return f'<svg viewBox="{box}" role="img" aria-labelledby="{named_by}">\n{drawn}\n</svg>'
+
+
+def scale_bar(words: Words) -> str:
+    """A bar as long as some millimetres of paper are in a field, which its style sheet knows."""
+    told, paper = escape(words("screen.bar")), escape(words("screen.on_paper"))
+    return (
+        f'<span class="bar" aria-hidden="true" title="{told}"><span class="mm">{BAR}</span> mm'
+        f'<span class="paper"> {paper}</span><i></i></span>'
+    )
+
+
+def bar_rules(fields: str, rects: Sequence[Rect]) -> Iterator[str]:
+    """What of each of some fields side by side its bar is to know: how wide and high it is."""
+    for place, (left, top, right, bottom) in enumerate(rects, 1):
+        box = f"--bar:{BAR};--wide:{number(right - left)};--high:{number(bottom - top)}"
+        yield f"{fields}>:nth-child({place}){{{box}}}"
+
+
+def placed(name: str, timed: Timed) -> str:
+    """A mark with its id, the sentence that draws it, and the step that it shows.
+
+    One without an id belongs to a picture within the picture.
+    """
+    own = f' id="{name}"' if name else " data-aside"
+    of = f' data-of="{timed.step}"' if timed.step is not None else ""
+    written = element(timed.mark).replace(" ", f'{own} data-at="{timed.at}"{of} ', 1)
+    return f'<g class="lettering">{written}</g>' if isinstance(timed.mark, Text) else written
+
+
+def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
+    """The style sheet of some marks, with their faces; no shaft changes while a vector moves."""
+    marks = [replace(mark, cls=mark.cls.removesuffix(f" {BRIEF}")) for mark in marks]
+    return "\n".join((faces(), LETTERING, *map(themed, rules(marks, ink))))
+
+
+def faces() -> str:
+    """Both faces of the sheets' lettering."""
+    return "\n".join((font_face(False), font_face(True)))
+
+
+def themed(rule: str) -> str:
+    """A rule of the sheets in inks that follow light and dark, its lines as strong as told."""
+    return WIDTH.sub(
+        lambda found: f"stroke-width:calc({max(float(found[1]), THINNEST):g}px*var(--w))",
+        in_variables(rule),
+    )
+
+
+def headline(marks: Sequence[Mark]) -> tuple[str, Sequence[Mark]]:
+    """The markup of a field's caption, which stands above it, and the marks in the field.
+
+    The field of a plan of which nothing is asked has neither.
+    """
+    if not marks:
+        return "", marks
+    first = marks[0]
+    assert isinstance(first, Text)
+    return first.markup, marks[1:]

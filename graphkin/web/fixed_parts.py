@@ -1,0 +1,98 @@
+"""What of the frame stands still in an animation: guides, slots and tracks as far as they are used.
+
+A sheet draws a guide about its block and a track about its wheel; over a motion these would travel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from graphkin.construction.core.bodies import Touch
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.guides.slide_symbols import (
+    REACH,
+    STROKE,
+    Rail,
+    draw_frame_guides,
+    merged,
+    rails_of,
+    within,
+)
+from graphkin.construction.rolling.wheel_symbols import track, track_ends
+from graphkin.drawing.field import Field
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import Mark
+from graphkin.drawing.symbols import across, hatched, rails, slot, slot_ground
+from graphkin.numbers.plane import dot
+from graphkin.scene.model import FRAME
+
+STILL = ("guide", "ground", "slot")
+"""The classes of what is drawn once for a whole motion."""
+
+
+def travelling(drawing: Drawing, field: Field) -> set[Mark]:
+    """The marks of the frame that a sheet draws about a block or a wheel."""
+    board = FieldContent(field.rect)
+    draw_frame_guides(board, drawing, field)
+    for touch in lines_of(drawing):
+        board.marks += within(track(drawing, field, touch), field.rect)
+    return {mark for mark in board.marks if mark.cls in STILL}
+
+
+def standing(drawings: Sequence[Drawing], field: Field) -> Iterator[Mark]:
+    """The guides, slots and tracks of the frame, as long as a whole motion needs them."""
+    for rail, others in alike([fixed_rails(drawing) for drawing in drawings]):
+        yield from guide(rail, others, field)
+    for place, touch in enumerate(lines_of(drawings[0])):
+        yield from line(drawings, place, touch, field)
+
+
+def fixed_rails(drawing: Drawing) -> list[Rail]:
+    """The lines of the frame on which blocks and pins slide."""
+    return [rail for rail in rails_of(drawing) if rail.owner == FRAME]
+
+
+def alike(every: Sequence[list[Rail]]) -> Iterator[tuple[Rail, list[Rail]]]:
+    """Each line of the first moment with itself at all moments."""
+    for place, rail in enumerate(every[0]):
+        yield rail, [found[place] for found in every if len(found) == len(every[0])]
+
+
+def guide(rail: Rail, others: Sequence[Rail], field: Field) -> Iterator[Mark]:
+    """One guide with its slots, from where its blocks and pins begin to where they end."""
+    at, way = field(rail.zero), field.way(rail.along)
+
+    def span(places: list[complex], beyond: float) -> tuple[float, float]:
+        along = [rail.along_of(place) * field.mm for place in places]
+        return min(along) - beyond, max(along) + beyond
+
+    parts = [
+        span([other.at(other.marks[i]) for other in others], REACH) for i in range(len(rail.marks))
+    ]
+    for low, high in merged(parts):
+        yield from within(rails(at, way, low, high), field.rect)
+    for i, (_, name) in enumerate(rail.slots):
+        low, high = span([other.at(other.slots[i][0]) for other in others], STROKE)
+        yield from within(slot_ground(at, way, low, high), field.rect)
+        yield slot(at, way, low, high, name)
+
+
+def lines_of(drawing: Drawing) -> list[Touch]:
+    """Where wheels without teeth touch straight tracks of the frame."""
+    touches = drawing.standing.touches
+    return [
+        t for t in touches if t.zero is not None and t.rolling.on == FRAME and not t.disc.module
+    ]
+
+
+def line(drawings: Sequence[Drawing], place: int, touch: Touch, field: Field) -> Iterator[Mark]:
+    """One track, from where its wheel begins to where it ends."""
+    ends: list[float] = []
+    for drawing in drawings:
+        here = lines_of(drawing)[place]
+        moved = float(dot(here.at - touch.at, touch.along)) * field.mm
+        ends += [moved + end for end in track_ends(drawing, field, here)]
+    at, way = field(touch.at), field.way(touch.along)
+    start, end = across(at, way, min(ends), 0), across(at, way, max(ends), 0)
+    both = (start, end) if touch.rolling.side > 0 else (end, start)
+    yield from within(hatched(*both), field.rect)

@@ -1,0 +1,245 @@
+"""How every mark of a field follows the driver: bodies, steps, and the labels beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import Layout
+from graphkin.construction.core.plot import TINY, above_foot
+from graphkin.construction.links.mechanism_symbols import stretched
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
+from graphkin.drawing.style import VECTORS
+from graphkin.numbers.arithmetic import pick, smaller
+from graphkin.numbers.plane import Line as Carrier
+from graphkin.numbers.plane import Ratio, Vector
+from graphkin.web.body_binding import told
+from graphkin.web.driver_binding import of_driver
+from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
+from graphkin.web.field_extents import must_be_seen
+from graphkin.web.moving_sheet import place_of
+from graphkin.web.step_binding import BEYOND_BOTH, FAR, Steps
+from graphkin.web.traced_poses import BodyPose, unit
+
+SOLID = ("link", "plate", "weld", "spoke", "guide-bar", "block", "slider", "disc", "gear-disc")
+"""The classes of marks that are parts of the link whose name they bear."""
+LABELS = ("label", "number", "leader")
+"""The classes of a letter and of the circle and the leader that go with it."""
+PINS = ("pin", "hinge", "fixed-pivot")
+"""The classes of marks at the point whose name they bear."""
+FIXED = ("caption", "guide", "ground", "centre-line", "fixed-pivot", "title", "panel")
+"""The classes of marks that stay, where nothing else is known of them."""
+ACROSS = ("guide ", "track ")
+"""The beginnings of the names of lines that go across a whole field."""
+CURVES = ("trajectory", "fixed-centrode")
+"""The curves that stay; the locus of a group that is tried is another at each place."""
+
+
+@dataclass(frozen=True)
+class MarkBindings:
+    """The marks of one field, each with how it follows."""
+
+    binder: FieldBinder
+    layout: Layout
+    marks: Sequence[Mark]
+    angles: Mapping[str, Any]
+    """The angles in degrees of the links that drivers turn."""
+
+    @property
+    def drawing(self) -> Drawing:
+        """The sheet's material."""
+        return self.binder.places.drawing
+
+    @cached_property
+    def steps(self) -> Steps:
+        """The steps of this field."""
+        return Steps(self.binder, self.layout)
+
+    @cached_property
+    def on_mechanism(self) -> bool:
+        """Whether this is the field of the mechanism."""
+        return self.binder.field is self.layout.mechanism
+
+    @cached_property
+    def bodies(self) -> Told:
+        """The marks of bodies and drivers."""
+        if not self.on_mechanism:
+            return {}
+        found = told(self.binder)
+        if self.drawing.kind == "velocity":
+            for driver in self.drawing.scene.drivers:
+                found.update(of_driver(self.binder, driver, self.angles))
+        return found
+
+    def records(self) -> Iterator[tuple[int, Record]]:
+        """The record of every mark that moves, with the mark's number in the field."""
+        for k, mark in enumerate(self.marks):
+            record = self.binding(k, mark)(mark)
+            if record is not None:
+                yield k, record
+
+    def in_sight(self, mark: Mark, record: Record) -> bool:
+        """Whether what is at a mark's place must be in sight: all but what may be endlessly far, as
+        are centres, poles and the lines to them."""
+        if record[0] in "sioa" or not must_be_seen(mark):
+            return False
+        value = None if mark.step is None else self.drawing.trace.values.get(mark.step)
+        if isinstance(value, Carrier):
+            return not self.on_mechanism
+        return not isinstance(value, Ratio)
+
+    def has_sides(self, k: int, record: Record) -> bool:
+        """Whether a label can as well stand on the other side of what it names: that of a vector or
+        a line, or a letter at a point, unless a leader or a circle goes with it."""
+        before = {mark.cls.split()[0] for mark in self.marks[max(k - 2, 0) : k]}
+        return not before & {"leader", "number"} and (record[0] == "b" or self.is_upright(record))
+
+    def keeps_off(self, k: int, record: Record) -> bool:
+        """Whether a letter, or the leader or circle that goes with it, stands off a point."""
+        text = self.text_of(k) if self.marks[k].cls.split()[0] in LABELS else None
+        if text is None or record[0] not in "tmf" or not self.is_upright(record):
+            return False
+        return text.step is not None or text.name in self.binder.places.spots
+
+    def is_upright(self, record: Record) -> bool:
+        """Whether what a pose carries does not turn."""
+        graph, outputs = self.binder.tape.graph, self.binder.tape.outputs
+        way = [outputs[record[3] + i] for i in (0, 1)]
+        return all(graph.constant(node) is not None for node in way)
+
+    def more(self) -> Iterator[tuple[int, str, str, Record]]:
+        """Marks that are not drawn where the scene stands, after those of the same step: number of
+        that one, element, class, record.
+
+        The head of a vector too short to have one, the far part of a line too short to be parted.
+        """
+        for k, mark in enumerate(self.marks):
+            first = mark.cls.split()[0]
+            if not isinstance(mark, LineMark) or mark.step is None:
+                continue
+            ends, after = self.steps.vector(mark.step), self.marks[k + 1 : k + 2]
+            found = None
+            if first in VECTORS and ends is not None:
+                if not (after and after[0].cls.startswith("arrowhead")):
+                    found = self.binder.head(*ends, self.steps.seen(mark.step))(mark)
+                if found is not None:
+                    yield k, "polygon", f"arrowhead {first}", found
+            elif self.steps.is_short(mark):
+                found = self.steps.part(mark.step, FAR)(mark)
+                if found is not None:
+                    yield k, "line", mark.cls, found
+
+    def binding(self, k: int, mark: Mark) -> Binding:
+        """How a mark follows; what nothing is known of holds for the drawn position alone."""
+        found = self.bodies.get(mark)
+        if found is not None:
+            return found
+        first = mark.cls.split()[0]
+        if first in LABELS:
+            return self.label(k, mark)
+        if mark.step is not None:
+            return self.steps.binding(mark) or only_at_start
+        if isinstance(mark, Text):
+            return only_at_start if mark.name == "note" else still
+        return self.body(mark, first)
+
+    def body(self, mark: Mark, first: str) -> Binding:
+        """A mark of the mechanism that no step has drawn."""
+        places = self.binder.places
+        if mark.name in self.drawing.scene.links and first in SOLID:
+            return self.binder.carried_by(places.pose(mark.name))
+        if first in PINS and mark.name in places.positions:
+            return self.binder.with_point(places.positions[mark.name])
+        if isinstance(mark, LineMark) and mark.name.startswith(ACROSS):
+            return self.across(mark)
+        if first == "moving-centrode":
+            return self.binder.carried_by(places.pose(mark.name.partition(" ")[2]))
+        is_fixed = first in FIXED or first in CURVES or mark.name in self.drawing.scene.frame.points
+        return still if is_fixed else only_at_start
+
+    def across(self, mark: LineMark) -> Binding:
+        """A line across the field, which stays and goes on where the field grows."""
+        ends = stretched((mark.x1, mark.y1), (mark.x2, mark.y2))
+        start, end = (self.binder.tape.lifted(complex(*place)) for place in ends)
+        return self.binder.joining(start, end, above_foot(self.binder.room))
+
+    # --- labels --------------------------------------------------------------------------------
+
+    def label(self, k: int, mark: Mark) -> Binding:
+        """A letter, a number in its circle, or a leader: each goes with what it names."""
+        text = self.text_of(k)
+        if text is None:
+            return only_at_start
+        name, step = text.name, text.step
+        if step is not None:
+            if (step, name) not in self.named:
+                self.named[step, name] = self.of_step(text, step)
+            return self.named[step, name]
+        places = self.binder.places
+        if name in self.drawing.scene.links:
+            return self.binder.carried_by(places.pose(name))
+        if name in places.spots:
+            return self.binder.with_point(places.spots[name])
+        if name.startswith(("omega ", "speed ")):
+            pose = places.pose(name.partition(" ")[2])
+            return self.binder.carried_by(pose)
+        if name.partition(" ")[0] in (*CURVES, "moving-centrode"):
+            return still
+        return only_at_start
+
+    @cached_property
+    def named(self) -> dict[tuple[int, str], Binding]:
+        """The labels of steps that are known."""
+        return {}
+
+    def text_of(self, k: int) -> Text | None:
+        """The text of a label: a leader and a circle come right before it."""
+        for mark in self.marks[k : k + 3]:
+            if isinstance(mark, Text):
+                return mark
+        return None
+
+    def of_step(self, mark: Mark, number: int) -> Binding:
+        """The label of a vector, of a construction line, or of a point."""
+        binder, steps = self.binder, self.steps
+        if number not in binder.places.values:
+            return only_at_start
+        ends, value = steps.vector(number), steps.value(number)
+        if ends is not None and not (number in steps.ends and self.names_point(mark, number)):
+            tail, tip = (binder.page(end) for end in ends)
+            pose = BodyPose((tail + tip) * 0.5, unit(tip - tail))
+            size, seen = abs(tip - tail) - TINY, steps.seen(number)
+            return binder.beside(pose, size if seen is None else smaller(size, seen))
+        if isinstance(value, Carrier):
+            return self.beside_line(number)
+        if isinstance(value, Ratio):
+            if not self.near_mark(number):
+                return only_at_start
+            place = value.start if steps.key(number) == "pin-centre" else place_of(value)
+            return binder.at(place, steps.within(place))
+        if isinstance(value, Vector) or not isinstance(binder.tape.now(value), complex):
+            return only_at_start
+        return binder.at(value, steps.seen(number))
+
+    def names_point(self, mark: Mark, number: int) -> bool:
+        """Whether a label is the letter of the point at a vector's tip."""
+        letter = self.steps.step(number).name
+        return bool(letter) and mark.name == letter
+
+    def near_mark(self, number: int) -> bool:
+        """Whether a centre is marked in this field, so that its label stands beside it."""
+        return any(isinstance(m, CircleMark) and m.step == number for m in self.marks)
+
+    def beside_line(self, number: int) -> Binding:
+        """What stands beside the far end of a construction line."""
+        binder, line = self.binder, self.steps.value(number)
+        if number not in self.layout.spans:
+            return only_at_start
+        low, high = binder.places.span(number, binder.field.mm)
+        way = binder.places.way(number).conjugate()
+        near_low = abs(low) < abs(high) if self.steps.key(number) in BEYOND_BOTH else low < high
+        end = pick(near_low, high, low)
+        return binder.beside(BodyPose(binder.page(line.point) + way * end, way))

@@ -1,0 +1,215 @@
+"""The moments of a motion that an animation shows, each one constructed anew.
+
+They begin where the scene stands and go in the sense of the driver's speed, so that every point
+moves as its velocity says: once round for a whole turn, from end to end for a range between dead
+points or a time, and then anew. Close to a dead point a driver at constant speed makes velocities
+and accelerations grow beyond all bounds; an animation ends before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.solution import Verdict
+from graphkin.documents.scaling import WANTED, drawing, natural_seconds, targets_of
+from graphkin.drawing.scale import Scales
+from graphkin.mechanism import Mechanism
+from graphkin.motion.driving import TURN, stated
+from graphkin.scene.expression import TIME
+from graphkin.text import Words
+from graphkin.text.errors import GraphkinError, Problem, SceneError
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+    from graphkin.motion.pieces import Piece
+
+FRAMES = 72
+"""Pictures of a whole turn or of a time; a range has half as many."""
+GROWN = 3.0
+"""Before a dead point the motion is shown while its rates are so many times their middle ones."""
+LEAST, LITTLE = 4, 1e-4
+"""Moments that make a motion, and the least part of a turn, or of what is looked at, that does."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The mechanism at one place of its driver (degrees, metres) or at one time (s).
+
+    ``drawings`` are those of the plans that the scene asks for, by kind; ``alone`` the positions
+    without any plan.
+    """
+
+    at: float
+    drawings: dict[str, Drawing]
+    alone: Drawing
+
+
+@dataclass(frozen=True)
+class FrameSequence:
+    """The moments of an animation, in ascending order, and the order in which they are shown.
+
+    The first that is shown is ``start``, where the scene stands if that lies within; ``low`` to
+    ``high`` is what is shown of the whole range ``reached``.
+    """
+
+    cycle: Cycle
+    moments: tuple[Frame, ...]
+    order: tuple[int, ...]
+    low: float
+    high: float
+    reached: tuple[float, float]
+
+    @property
+    def shortened(self) -> bool:
+        """Whether the animation ends before the ends of the range."""
+        slack = 1e-6 * (self.reached[1] - self.reached[0])
+        return self.low > self.reached[0] + slack or self.high < self.reached[1] - slack
+
+
+def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
+    """The moments of a cycle, constructed one by one with the closures that hold there.
+
+    Raises SceneError where there is nothing to be moved.
+    """
+    reached = cycle.ranges[0]
+    if reached[1] - reached[0] < LITTLE * (cycle.sweep.high - cycle.sweep.low):
+        raise SceneError(stands(cycle))
+    low, high = shown_range(cycle)
+    places, order = (
+        round_trip(cycle, frames)
+        if goes_round(cycle) and cycle.path.returns
+        else end_to_end(cycle, low, high, frames)
+    )
+    order = order if sense_of(cycle) > 0 else [*order[:1], *order[:0:-1]]
+    found = [moment_at(cycle, place, words) for place in places]
+    kept = [i for i, moment in enumerate(found) if moment is not None]
+    if len(kept) < LEAST:
+        raise SceneError(stands(cycle))
+    numbers = {old: new for new, old in enumerate(kept)}
+    moments = tuple(moment for moment in found if moment is not None)
+    shown = tuple(numbers[i] for i in order if i in numbers)
+    return FrameSequence(cycle, moments, shown, low, high, reached)
+
+
+def stands(cycle: Cycle) -> Problem:
+    """The problem of a motion that has no room."""
+    low, high = cycle.ranges[0]
+    found = f"closes from {low:.6g} to {high:.6g} {cycle.sweep.unit}, too little to be moved"
+    return Problem("the animation", found, "a driver that moves", "graphkin check shows the range")
+
+
+def goes_round(cycle: Cycle) -> bool:
+    """Whether the driver turns fully."""
+    return cycle.sweep.whole and cycle.path.whole
+
+
+def round_trip(cycle: Cycle, frames: int) -> tuple[list[float], list[int]]:
+    """The places of a whole turn from where the scene stands."""
+    first = cycle.sweep.start
+    return [first + TURN * i / frames for i in range(frames)], list(range(frames))
+
+
+def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list[float], list[int]]:
+    """The places of a range, a time, or a turn that does not come back: from where the scene stands
+    to its end, then from its beginning on."""
+    start = min(max(place_in(cycle, low, high), low), high)
+    once = cycle.sweep.what == "time" or goes_round(cycle)
+    step = (high - low) / frames * (1 if once else 2)
+    below, above = (max(round(way / step), 1) for way in (start - low, high - start))
+    below, above = (below if start > low else 0), (above if high > start else 0)
+    places = [low + (start - low) * i / below for i in range(below)]
+    places += [start + (high - start) * i / above for i in range(above)]
+    places.append(high)
+    return places, [*range(below, len(places)), *range(below)]
+
+
+def sense_of(cycle: Cycle) -> int:
+    """In which sense the driver goes through its positions, by its speed; a time runs on."""
+    driver = cycle.sweep.driver
+    return -1 if driver is not None and stated(driver, cycle.sweep.original)[1] < 0 else 1
+
+
+def place_in(cycle: Cycle, low: float, high: float) -> float:
+    """Where the scene stands, whole turns apart, within a range; the time for which it is drawn."""
+    start = cycle.sweep.start
+    if cycle.sweep.what == "time":
+        return float(cycle.scene.values.get(TIME, start))  # type: ignore[arg-type]
+    turns = (0.0, TURN, -TURN) if cycle.sweep.whole else (0.0,)
+    return next((start + turn for turn in turns if low <= start + turn <= high), start)
+
+
+def shown_range(cycle: Cycle) -> tuple[float, float]:
+    """The range of the scene, cut where rates grow beyond bounds towards a dead point."""
+    import numpy as np
+
+    pieces = cycle.path.ranges[0]
+    low, high = pieces[0].low.at, pieces[-1].high.at
+    rows = (cycle.piece <= len(pieces)) & (cycle.piece > 0)
+    at = cycle.at[rows]
+    if len(at) < LEAST:
+        return low, high
+    grown = np.zeros(len(at))
+    for name in ("velocity", "acceleration"):
+        rates = [getattr(point, name) for point in cycle.solution.points.values()]
+        sizes = [np.abs(np.broadcast_to(r, len(rows))[rows]) for r in rates if r is not None]
+        largest = np.max(sizes, axis=0) if sizes else grown
+        usual = float(np.median(largest))
+        grown = np.maximum(grown, largest / usual if usual > 0 else 0)
+    calm, middle = grown <= GROWN, place_in(cycle, low, high)
+    inner = at[~calm & (at < middle)], at[~calm & (at > middle)]
+    if pieces[0].low.kind == "dead" and inner[0].size:
+        low = float(at[at > inner[0].max()].min(initial=middle))
+    if pieces[-1].high.kind == "dead" and inner[1].size:
+        high = float(at[at < inner[1].min()].max(initial=middle))
+    return clear_of_ends(cycle, low, high)
+
+
+def clear_of_ends(cycle: Cycle, low: float, high: float) -> tuple[float, float]:
+    """A range without its dead points themselves, where a construction may have no crossing."""
+    pieces = cycle.path.ranges[0]
+    room = 1e-3 * (pieces[-1].high.at - pieces[0].low.at)
+    first, last = pieces[0].low, pieces[-1].high
+    low = max(low, first.at + room) if first.kind == "dead" else low
+    high = min(high, last.at - room) if last.kind == "dead" else high
+    return low, high
+
+
+def moment_at(cycle: Cycle, place: float, words: Words) -> Frame | None:
+    """The construction at one place; None where there is no piece, or a step cannot be drawn."""
+    piece, within = piece_at(cycle, place)
+    if piece is None:
+        return None
+    mechanism = Mechanism(piece.course.standing(within))
+    try:
+        scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
+        drawings = {
+            kind: made(mechanism, kind, targets, scales, words)
+            for kind in WANTED
+            if (targets := targets_of(mechanism, kind))
+        }
+        positions = [t for t in mechanism.program.targets if t[0] == "position"]
+        alone = made(mechanism, "velocity", positions, scales, words)
+    except GraphkinError:
+        return None
+    return Frame(place, drawings, alone)
+
+
+def made(
+    mechanism: Mechanism, kind: str, targets: Sequence[Any], scales: Scales, words: Words
+) -> Drawing:
+    """The material of one plan."""
+    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    return drawing(mechanism, kind, tuple(targets), scales, nobody, words)
+
+
+def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:
+    """The piece that holds a place, whole turns apart, and the place within it."""
+    turns = (0.0, TURN, -TURN) if cycle.sweep.whole else (0.0,)
+    for piece in cycle.path.ranges[0]:
+        for turn in turns:
+            if piece.low.at <= place + turn <= piece.high.at:
+                return piece, place + turn
+    return None, place

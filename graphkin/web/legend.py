@@ -1,0 +1,66 @@
+"""What the symbols on a page mean, for whoever sees them for the first time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from html import escape
+
+from graphkin.construction.core.program import Part, Step
+from graphkin.drawing.style import BY_SIGN
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.text import Words
+from graphkin.web.screen_sheets import ScreenSheet
+from graphkin.writers.html_markup import marked_up
+
+PLANS = {
+    "velocity": ("*k*_v", "*ω*", "legend.omega"),
+    "acceleration": ("*k*_a", "*ε*", "legend.epsilon"),
+}
+"""The scale of each plan, and what a link's turning is called on its sheet."""
+FOUND = {Part.CENTRE: ("*I*", "legend.centre"), Part.POLE: ("*J*", "legend.pole")}
+"""The letters of what is found on the mechanism."""
+
+
+def legend(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+    """The symbols of some sheets with their meaning, as far as the sheets have them."""
+    words = sheets[0].drawing.words
+    yield f'<details id="legend"><summary>{escape(words("legend.title"))}</summary><dl>'
+    for term, meaning in meanings(words, sheets):
+        yield f"<div><dt>{marked_up(term)}</dt><dd>{marked_up(meaning)}</dd></div>"
+    yield "</dl></details>"
+
+
+def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, str]]:
+    """Each symbol and what it means, as markup."""
+    yield "*k*_L", words("legend.kL")
+    for sheet in sheets:
+        drawing = sheet.drawing
+        scale, rate, turning = PLANS[drawing.kind]
+        unit = words(f"table.{drawing.kind}")
+        yield scale, words("legend.scale", plan=words(f"sheet.{drawing.kind}"), unit=unit)
+        yield symbol(drawing.pole), words("legend.at_rest")
+        arrows = [step for _, step, _ in drawing.steps(drawing.plane) if step.arrow]
+        yield from images(words, arrows, sheet)
+        yield from components(words, arrows)
+        yield rate, words(turning)
+        parts = {drawing.trace.program.steps[number].part for number in drawing.trace.values}
+        own = parts & {Part.CENTRE if drawing.kind == "velocity" else Part.POLE}
+        yield from ((term, words(key)) for part, (term, key) in FOUND.items() if part in own)
+
+
+def images(words: Words, arrows: Sequence[Step], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:
+    """The segments that are the vector of a point, and of one point relative to another."""
+    steps = sheet.drawing.trace.program.steps
+    whole = [step for step in arrows if not step.says.get("kind")]
+    for key, has_pivot in (("legend.image", False), ("legend.relative", True)):
+        for step in [step for step in whole if bool(step.says["p"]) is has_pivot][:1]:
+            says = {name: symbol(step.says[name] or "o") for name in ("q", "p", "symbol")}
+            yield "".join(symbol(steps[arg].name) for arg in step.args), words(key, **says)
+
+
+def components(words: Words, arrows: Sequence[Step]) -> Iterator[tuple[str, str]]:
+    """The components of accelerations by their signs, in the order in which they are drawn."""
+    kinds = dict.fromkeys(step.says["kind"] for step in arrows if step.says.get("kind"))
+    yield from (
+        (symbol(f"a^{kind}"), words(BY_SIGN[kind].legend)) for kind in kinds if kind in BY_SIGN
+    )

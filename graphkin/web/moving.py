@@ -1,0 +1,260 @@
+"""The part of a page that moves: the construction as JavaScript, and how each mark follows it.
+
+The program is traced with the driver's place as its input, by the tracer that gives numpy and
+compiled source elsewhere; the scales and the fields stay those of the drawn position.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from graphkin.construction.core.crossings import is_drawn
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.marks import Text
+from graphkin.mechanism import Mechanism
+from graphkin.motion.driving import TURN, reach_of
+from graphkin.numbers.plane import Vector
+from graphkin.tape.javascript import MATH, script_source
+from graphkin.tape.traced import UntraceableError
+from graphkin.text.errors import GraphkinError, SceneError
+from graphkin.web.branch_tracking import TrackedBranch
+from graphkin.web.field_binder import FieldBinder, Record
+from graphkin.web.field_extents import box_of, half
+from graphkin.web.follow import MarkBindings
+from graphkin.web.moving_sheet import MovingSheet
+from graphkin.web.page_driver import PageDriver, Reach, driven_by
+from graphkin.web.scripts import MOVING, joined
+from graphkin.web.tracing import Tracing
+
+if TYPE_CHECKING:
+    from graphkin.web.screen_sheets import ScreenSheet
+
+NO_DRIVER, NO_RANGE, NO_LINE = "moving.no_driver", "moving.no_range", "moving.no_line"
+NO_END = "moving.no_end"
+"""The keys of the sentences why a page stands still: nothing drives it, it stands at a place from
+which it cannot move, its construction is no straight line of reckoning, or nothing says how long a
+law of time is to be shown."""
+
+
+@dataclass(frozen=True)
+class Moving:
+    """JavaScript that moves the marks of a page.
+
+    ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step,
+    set(x, element, times), extent(x, sheet, field, times), values(x), margins(x)}: ``set`` writes
+    the coordinates of all marks, which ``element`` finds by their ids, and tells {ok: false} where
+    the mechanism does not close; ``extent`` is the box (x, y, width, height) that must be in sight
+    of a field, 0 the mechanism or 1 the plan; ``times``, of each field of each sheet or of one, is
+    how many times larger what keeps its size on the screen is drawn, 1 if not told;
+    ``values`` are in SI by the names of the rows of the tables, ``margins`` sines of crossings by
+    the step. ``data`` is what it knows of the marks, ``tracing`` what it reckons.
+    """
+
+    source: str
+    driven: PageDriver
+    reach: Reach
+    data: dict[str, Any]
+    tracing: Tracing
+
+
+def moving(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Moving | None:
+    """How the marks of some sheets follow the driver; None where ``still`` says why they cannot."""
+    try:
+        driven = driven_by(mechanism.scene)
+        return None if driven is None else put_together(Tracing(mechanism, driven), sheets)
+    except (GraphkinError, UntraceableError):
+        return None
+
+
+def still(mechanism: Mechanism) -> str | None:
+    """The key of the sentence that says why a mechanism stands still on a page, or None."""
+    targets = [target for target in mechanism.program.targets if target[0] == "position"]
+    try:
+        driven = driven_by(mechanism.scene)
+        if driven is None:
+            return NO_DRIVER
+        tracing = Tracing(mechanism, driven)
+        trace = tracing.traced(mechanism.trace(targets))
+    except UntraceableError:
+        return NO_LINE
+    except GraphkinError:
+        return NO_RANGE
+    size = reach_of(mechanism.scene)
+    try:
+        return None if tracing.reached(tracing.closed(trace, size), size) else NO_RANGE
+    except SceneError:
+        return NO_END
+
+
+def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | None:
+    """The moving part of some sheets; None where the mechanism only has a place, not a range."""
+    places = [
+        MovingSheet(sheet.drawing, tracing.traced(sheet.drawing.trace), tracing.tape)
+        for sheet in sheets
+    ]
+    size = sheets[0].drawing.reach
+    closed = tracing.closed(places[0].trace, size)
+    found = tracing.reached(closed, size)
+    if found is None:
+        return None
+    driven, (reach, course) = tracing.driven, found
+    rects: list[Rect] = []
+    more: dict[str, tuple[str, str, str]] = {}
+    marks: list[Record] = []
+    fields = [
+        followed(s, sheet, here, rects, marks, more, tracing)
+        for s, (sheet, here) in enumerate(zip(sheets, places, strict=True))
+    ]
+    data = {
+        "name": driven.name,
+        "unit": driven.unit,
+        "low": reach.low,
+        "high": reach.high,
+        "start": driven.start,
+        "whole": reach.whole,
+        "step": reach.step,
+        "inputs": len(tracing.inputs),
+        "closed": closed,
+        "marks": marks,
+        "more": more,
+        "rects": rects,
+        "fields": fields,
+        "values": list(read_outs(places)),
+        "margins": list(crossings(tracing, sheets[0])),
+        "reach": size,
+    }
+    data |= {"size": len(tracing.tape.outputs), "course": way_through(course, tracing, reach)}
+    data["turned"] = list(turned_through(tracing))
+    return Moving(source(data, tracing), driven, reach, data, tracing)
+
+
+def followed(
+    s: int,
+    sheet: ScreenSheet,
+    places: MovingSheet,
+    rects: list[Rect],
+    records: list[Record],
+    more: dict[str, tuple[str, str, str]],
+    tracing: Tracing,
+) -> list[dict[str, Any]]:
+    """What must be in sight of both fields of a sheet.
+
+    ``records`` takes those of its marks, each with the id of its mark, ``more`` the marks that a
+    page makes itself: by id after which one, element and class. A field has the place of its first
+    record, its room, the box of what stands still in it, of each mark that must be in sight the
+    place of its record and how far it reaches across and down, and the same of its labels, as their
+    steps are drawn, with 1 where one may stand on the other side of what it names; and the places
+    of the records of what stands off a point.
+    """
+    angles, first = tracing.driven.angles(tracing.x), 0
+    fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
+    found = []
+    for marks, field in fields:
+        binder = FieldBinder(places, field, rects)
+        following = MarkBindings(binder, sheet.layout, marks, angles)
+        still, seen, off, began = set(marks), [], [], len(records)
+        labels: list[tuple[int, list[float]]] = []
+        for k, record in following.records():
+            still.discard(marks[k])
+            if following.in_sight(marks[k], record):
+                seen.append([len(records), *half(marks[k])])
+            if following.keeps_off(k, record):
+                off.append(len(records))
+            if record[0] in "tb" and isinstance(marks[k], Text):
+                own = [len(records), *half(marks[k]), int(following.has_sides(k, record))]
+                labels.append((-1 if (step := marks[k].step) is None else step, own))
+            records.append([f"m{s}-{first + k}", *record])
+        for k, element, cls, record in following.more():
+            before = f"m{s}-{first + k}"
+            more[f"{before}h"] = (before, element, cls)
+            records.append([f"{before}h", *record])
+        found.append({"first": began, "room": binder.room, "still": box_of(still), "seen": seen})
+        found[-1] |= {"off": off, "labels": [own for _, own in sorted(labels)]}
+        first += len(marks)
+    return found
+
+
+def read_outs(places: Sequence[MovingSheet]) -> Iterator[tuple[str, int, str, int]]:
+    """Name, sheet, kind and output of each number of the tables: vectors by their size in SI.
+
+    Of what slides the speeds are called ``slide 5``, the accelerations ``slide acceleration 5``.
+    """
+    for s, place in enumerate(places):
+        drawing, tape = place.drawing, place.tape
+        for number, step, value in drawing.steps(drawing.plane):
+            if step.arrow and isinstance(value, Vector):
+                vector = place.values[number]
+                size = abs(tape.lifted(vector.tip - vector.tail))
+                yield step.says["symbol"], s, drawing.kind, tape.number(size)
+        first = drawing.kind == "velocity"
+        rate, letter = ("omega", "ω") if first else ("epsilon", "ε")
+        for link in drawing.scene.links:
+            value = place.trace.value(rate, link)
+            if value is not None:
+                yield f"{letter}{link}", s, rate, tape.number(value)
+        what, name = ("slide speed", "slide") if first else ("slide acceleration",) * 2
+        for block in drawing.scene.ask.slides:
+            value = place.trace.value(what, block)
+            if value is not None:
+                yield f"{name} {block}", s, what, tape.number(value)
+
+
+def crossings(tracing: Tracing, sheet: ScreenSheet) -> Iterator[tuple[int, int]]:
+    """The sines of what crosses on paper, by the step."""
+    steps = sheet.drawing.trace.program.steps
+    for number, sine in sorted(tracing.margins.items()):
+        if is_drawn(steps[number], float(tracing.tape.now(sine))):
+            yield number, tracing.tape.number(sine)
+
+
+# --- JavaScript ----------------------------------------------------------------------------------
+
+
+def source(data: dict[str, Any], tracing: Tracing) -> str:
+    """The construction, the data and what lays the marks out, in one expression."""
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    lines = [
+        "const graphkinMotion = (() => {",
+        '"use strict";',
+        MATH,
+        script_source(tracing.graph, tracing.tape.outputs, tracing.inputs, "run"),
+        *misses(tracing),
+        f"const data = {text};",
+        joined(MOVING),
+        "})();",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def misses(tracing: Tracing) -> Iterator[str]:
+    """By how much each group that is closed anew misses, as functions."""
+    names = [f"miss{i}" for i, _ in enumerate(tracing.closings)]
+    for name, each in zip(names, tracing.closings, strict=True):
+        outputs = (each.misfit.node, each.facing.node)
+        yield script_source(tracing.graph, outputs, tracing.inputs, name)
+    yield f"const closings = [{','.join(names)}];"
+
+
+def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:
+    """Near which angle (degrees) each link counts from which place of the driver on."""
+    for name, link in tracing.counting.items():
+        assert tracing.turned is not None
+        near = tracing.turned.near[link].tolist()
+        yield {"place": tracing.inputs[name], "at": tracing.turned.at.tolist(), "near": near}
+
+
+def way_through(course: TrackedBranch, tracing: Tracing, reach: Reach) -> dict[str, Any]:
+    """The way of groups of higher class through the range, as a page knows it."""
+    places = [tracing.inputs[each.names[0]] for each in tracing.closings]
+    sizes = [each.size for each in tracing.closings]
+    turn = TURN if reach.whole else 0
+    return {
+        "at": course.at,
+        "states": course.states,
+        "places": places,
+        "sizes": sizes,
+        "turn": turn,
+    }

@@ -1,0 +1,65 @@
+"""How the marks of constructions follow while a page moves: the same drawing, on traced numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from graphkin.construction.core.drawn_scene import Drawing
+
+if TYPE_CHECKING:
+    from graphkin.web.visible_steps import VisibleSteps
+
+Ends = tuple[Any, Any]
+
+
+@dataclass
+class MovingCanvas:
+    """What the marks of one step are drawn from: its vector, its legs, and what its line faces."""
+
+    seen: VisibleSteps
+    ends: Ends | None = None
+    legs: list[Ends] = field(default_factory=list)
+    faces: Any = None
+    swung: Ends | None = None
+    is_beyond: bool = False
+
+    @property
+    def drawing(self) -> Drawing:
+        """The sheet where the scene stands."""
+        return self.seen.binder.places.drawing
+
+    def value(self, number: int) -> Any:
+        """The value of a step while it moves."""
+        return self.seen.value(number)
+
+    def size(self, way: Any) -> Any:
+        """How long a way of the mechanism is drawn, in mm."""
+        return abs(self.seen.binder.tape.lifted(way)) * self.seen.binder.field.mm
+
+    def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
+        """A vector between two points that move."""
+        self.ends = tail, tip
+
+    def point(self, name: str, at: Any) -> None:
+        """A small point, which is the step's own value."""
+
+    def segment(self, start: Any, end: Any) -> None:
+        """A thin line between two points that move."""
+        self.legs.append((start, end))
+
+    def line(self) -> bool:
+        """The step's own line."""
+        return True
+
+    def line_beyond(self) -> None:
+        """The same, while it leads farther than its own two points."""
+        self.is_beyond = True
+
+    def right_angle(self, toward: Any) -> None:
+        """The mark of a right angle at the beginning of the step's line."""
+        self.faces = toward
+
+    def swing(self, centre: Any, end: Any) -> None:
+        """The arc by which a point was carried about a centre."""
+        self.swung = centre, end

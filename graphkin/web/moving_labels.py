@@ -1,0 +1,276 @@
+"""Where letters stand in an animation: each keeps its place beside its point over all of a motion.
+
+A letter stands off its point in a direction of the page, or in one that turns with another point
+as seen from it. Which is best is found once, by what the letter covers over the motion; so it goes
+smoothly with its point and stands clear of bars, walls and other letters where that can be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from math import cos, hypot, pi, sin
+from typing import TYPE_CHECKING, Any
+
+from graphkin.drawing.field import XY
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text
+from graphkin.drawing.richtext import extent
+
+if TYPE_CHECKING:
+    from graphkin.drawing.areas import Rect
+
+LETTER = 3.5
+"""Height of letters, in mm."""
+FAR = (4.2, 6.0, 8.0, 11.0)
+"""How far a letter may stand from its point, in mm; wide ones farther to the side."""
+MOVING = 3
+"""A letter that other points may lead takes one of the first so many: farther off it would seem
+to belong to none of what moves.
+"""
+TURNS = 16
+"""Directions that are tried."""
+LEFT: XY = (-0.8, -0.6)
+"""Where a letter stands when its direction is lost: to the left, above."""
+GAP = 0.6
+"""Letters keep so far from one another, in mm."""
+ROUND = 2.0
+"""Circles up to this radius are pins and points, in mm."""
+FAINT = ("ground", "centre-line", "construction", "pitch", "trajectory", "drive")
+"""The classes of fine lines, which a letter may stand on rather than on others."""
+COVERED = {"fine": 0.3, "line": 1.0, "point": 2.0, "letter": 4.0, "outside": 6.0}
+"""What it costs a letter to cover something at one moment."""
+CROWDED = 3.0
+"""Lines that a letter covers cost no more than this."""
+DISTANT = 0.2
+"""What it costs a letter to stand farther away."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """The place of a letter: ``far`` from its point, away from others turned by ``turn``.
+
+    Without others it is the direction of ``turn`` itself on the page (x to the right, y down).
+    """
+
+    others: tuple[str, ...] = ()
+    turn: XY = LEFT
+    far: float = FAR[0]
+
+    def ways(self, at: XY, others: Sequence[XY]) -> list[XY]:
+        """Its direction, and those to which it changes in turn where another letter stands."""
+        u, v = off(at, others) if self.others else (1.0, 0.0)
+        c, s = self.turn
+        u, v = (u * c - v * s, u * s + v * c) if u or v else LEFT
+        return [(u, v), (-v, u), (v, -u), (-u, -v)]
+
+    def spot(self, at: XY, way: XY, width: float) -> XY:
+        """The middle of the letter."""
+        return at[0] + way[0] * (self.far + width / 4), at[1] + way[1] * self.far
+
+
+def off(at: XY, others: Sequence[XY]) -> XY:
+    """The way from some places to another, all of them alike; nought where none tells it."""
+    ways = [(at[0] - x, at[1] - y) for x, y in others]
+    ways = [(u / hypot(u, v), v / hypot(u, v)) for u, v in ways if hypot(u, v) > 1]
+    u, v = sum(u for u, _ in ways), sum(v for _, v in ways)
+    size = hypot(u, v)
+    return (u / size, v / size) if size > 0.1 else (0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class PointLetter:
+    """The letter of a point: its markup and look, and the number of its step."""
+
+    markup: str
+    look: str = ""
+    step: int | None = None
+
+    @property
+    def width(self) -> float:
+        """The width of its ink in mm."""
+        return extent(self.markup, LETTER)[0]
+
+    def text(self, name: str, at: XY) -> Text:
+        """The letter with the middle of its ink at a place."""
+        width, top, bottom = extent(self.markup, LETTER)
+        look = f"label {self.look}".strip()
+        x, y = at[0] - width / 2, at[1] - (top + bottom) / 2
+        return Text(x, y, self.markup, look, LETTER, "start", name, self.step)
+
+
+@dataclass(frozen=True)
+class FrameView:
+    """What one moment shows of a field: its points with their letters, and what lies about them.
+
+    ``near`` are the points by which the letter of another may be led.
+    """
+
+    letters: Mapping[str, PointLetter]
+    places: Mapping[str, XY]
+    marks: Sequence[Mark]
+    near: Mapping[str, tuple[str, ...]]
+
+
+def lettering(seen: FrameView, rules: Mapping[str, Rule], rect: Rect) -> Iterator[Text]:
+    """The letters of one moment; one for which all sides are taken is left out."""
+    taken: list[tuple[XY, float]] = []
+    left, top, right, bottom = rect
+    for name, letter in seen.letters.items():
+        rule, at, width = rules[name], seen.places[name], letter.width
+        if not (left <= at[0] <= right and top <= at[1] <= bottom):
+            continue
+        ways = rule.ways(at, [seen.places[other] for other in rule.others])
+        spots = (rule.spot(at, way, width) for way in ways)
+        spot = next((s for s in spots if not any(meet(s, width, *t) for t in taken)), None)
+        if spot is not None:
+            taken.append((spot, width))
+            yield letter.text(name, spot)
+
+
+def meet(one: XY, width: float, other: XY, breadth: float) -> bool:
+    """Whether two letters with their middles at two places lie on one another."""
+    across, down = abs(one[0] - other[0]), abs(one[1] - other[1])
+    return across < (width + breadth) / 2 + GAP and down < LETTER + GAP
+
+
+# --- finding the rules ----------------------------------------------------------------------------
+
+
+def rules_over(moments: Sequence[FrameView], rect: Rect, fars: Sequence[float]) -> dict[str, Rule]:
+    """The best rule for each letter over some moments, one letter after another.
+
+    ``rect`` is what letters should stay in; ``fars`` is how far they may stand off, in mm.
+    """
+    import numpy as np
+
+    found: dict[str, Rule] = {}
+    covered = [obstacles(seen.marks) for seen in moments]
+    boxes: list[list[tuple[XY, float]]] = [[] for _ in moments]
+    for name, letter in moments[0].letters.items():
+        near, width = moments[0].near[name], letter.width
+        own = fars[:MOVING] if near else fars
+        rules = list(rules_for(near, own))
+        cost = np.array([DISTANT * len(moments) * FAR.index(rule.far) for rule in rules])
+        spots = [spots_of(seen, name, near, own) for seen in moments]
+        for here, lies, others in zip(spots, covered, boxes, strict=True):
+            cost += price(here, width, lies, others, rect)
+        best = int(np.argmin(np.round(cost, 9)))
+        found[name] = rules[best]
+        for here, others in zip(spots, boxes, strict=True):
+            others.append(((float(here[best][0]), float(here[best][1])), width))
+    return found
+
+
+def rules_for(near: tuple[str, ...], fars: Sequence[float]) -> Iterator[Rule]:
+    """The rules that a letter may follow."""
+    for others in frames_of(near):
+        for far in fars:
+            for turn in turns():
+                yield Rule(others, turn, far)
+
+
+def frames_of(near: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """The points that may lead a letter: each by itself, all together, and none."""
+    return [*((each,) for each in near), *([near] if len(near) > 1 else []), ()]
+
+
+@lru_cache(maxsize=1)
+def turns() -> tuple[XY, ...]:
+    """Directions all round, that of nought first."""
+    angles = [2 * pi * k / TURNS for k in range(TURNS)]
+    return tuple((round(cos(a), 6), round(sin(a), 6)) for a in angles)
+
+
+def spots_of(seen: FrameView, name: str, near: tuple[str, ...], fars: Sequence[float]) -> Any:
+    """Where the rules put the letter of a point at one moment, in their order (n by 2, mm)."""
+    import numpy as np
+
+    at, wide, found = seen.places[name], seen.letters[name].width / 4, []
+    c, s = np.array(turns()).T
+    for others in frames_of(near):
+        u, v = off(at, [seen.places[other] for other in others]) if others else (1.0, 0.0)
+        x, y = u * c - v * s, u * s + v * c
+        if not (u or v):
+            x, y = np.full_like(c, LEFT[0]), np.full_like(c, LEFT[1])
+        found += [np.column_stack((x * (far + wide), y * far)) for far in fars]
+    return np.array(at) + np.concatenate(found)
+
+
+def obstacles(marks: Sequence[Mark]) -> tuple[Any, Any, Any]:
+    """The lines of some marks (n by 4, mm) with their prices, and the middles of small circles."""
+    import numpy as np
+
+    lines: list[tuple[float, ...]] = []
+    prices: list[float] = []
+    points: list[XY] = []
+    for mark in marks:
+        if isinstance(mark, Text):
+            continue
+        if isinstance(mark, CircleMark) and mark.r <= ROUND:
+            points.append((mark.cx, mark.cy))
+            continue
+        own = [*strokes(mark)]
+        lines += own
+        prices += [COVERED["fine" if mark.cls.split()[0] in FAINT else "line"]] * len(own)
+    return np.array(lines).reshape(-1, 4), np.array(prices), np.array(points).reshape(-1, 2)
+
+
+def strokes(mark: Mark) -> Iterator[tuple[float, ...]]:
+    """The straight lines of a mark, round ones as polygons."""
+    if isinstance(mark, LineMark):
+        points: list[XY] = [(mark.x1, mark.y1), (mark.x2, mark.y2)]
+    elif isinstance(mark, Polyline):
+        points = [*mark.points, *mark.points[:1]] if mark.closed else [*mark.points]
+    elif isinstance(mark, CircleMark):
+        ring = [2 * pi * k / 24 for k in range(25)]
+        points = [(mark.cx + mark.r * cos(a), mark.cy + mark.r * sin(a)) for a in ring]
+    elif isinstance(mark, Arc):
+        points = [mark.at(mark.start + (mark.end - mark.start) * k / 12) for k in range(13)]
+    else:
+        points = []
+    for start, end in pairwise(points):
+        yield *start, *end
+
+
+def price(
+    spots: Any,
+    width: float,
+    lies: tuple[Any, Any, Any],
+    letters: Sequence[tuple[XY, float]],
+    rect: Rect,
+) -> Any:
+    """What it costs a letter to stand at each of some places (n by 2, mm) at one moment."""
+    import numpy as np
+
+    lines, prices, points = lies
+    half = width / 2 + GAP / 2, LETTER / 2 + GAP / 2
+    ends = lines.reshape(-1, 2, 2)
+    near = (ends.max(axis=1) >= spots.min(axis=0) - half) & (
+        ends.min(axis=1) <= spots.max(axis=0) + half
+    )
+    chosen = near.all(axis=1)
+    cost = np.minimum(crossed(spots, half, lines[chosen]) @ prices[chosen], CROWDED)
+    apart = np.abs(spots[:, None] - points[None])
+    on = (apart[..., 0] < half[0] + 1) & (apart[..., 1] < half[1] + 1)
+    cost += COVERED["point"] * on.sum(axis=1)
+    for (x, y), breadth in letters:
+        across, down = np.abs(spots[:, 0] - x), np.abs(spots[:, 1] - y)
+        met = (across < (width + breadth) / 2 + GAP) & (down < LETTER + GAP)
+        cost += COVERED["letter"] * met
+    low, high = np.array(rect[:2]) + half, np.array(rect[2:]) - half
+    return cost + COVERED["outside"] * ((spots < low) | (spots > high)).any(axis=1)
+
+
+def crossed(spots: Any, half: XY, lines: Any) -> Any:
+    """Which boxes about some places (n) each of some lines (m) crosses: n by m."""
+    import numpy as np
+
+    ends = lines.reshape(-1, 2, 2)
+    middle, ways = ends.mean(axis=1), (ends[:, 1] - ends[:, 0]) / 2
+    away = middle[None] - spots[:, None]
+    u, v = np.abs(ways[:, 0]), np.abs(ways[:, 1])
+    within = (np.abs(away[..., 0]) <= half[0] + u) & (np.abs(away[..., 1]) <= half[1] + v)
+    turned = np.abs(away[..., 0] * ways[:, 1] - away[..., 1] * ways[:, 0])
+    return within & (turned <= half[0] * v + half[1] * u)

@@ -1,0 +1,93 @@
+"""One sheet while it moves: its bodies, and how far its lines and arcs are drawn."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+from graphkin.construction.core.drawn_scene import ENDLESS, NOISE
+from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined
+from graphkin.construction.core.program import Part
+from graphkin.numbers.arithmetic import larger, pick, smaller
+from graphkin.numbers.plane import Circle, Ratio, dot
+from graphkin.web.traced_poses import TracedBodies, unit
+
+
+class MovingSheet(TracedBodies):
+    """One sheet while it moves: its drawing, and the traced values of its steps."""
+
+    def points_on(self, number: int) -> list[int]:
+        """The steps whose points a line or an arc must reach, as the layout finds them."""
+        drawing, drawn = self.drawing, self.drawing.trace.values
+        numbers = [drawing.results.get(c, c) for c in drawing.children.get(number, ())]
+        numbers += joined(drawing, number)
+        return [each for each in numbers if isinstance(drawn[each], complex | Ratio)]
+
+    def reached(self, number: int, point: int, mm: float) -> Any:
+        """How far along a line a point on it lies, in mm."""
+        line, way, value = self.values[number], self.way(number), self.values[point]
+        if not isinstance(value, Ratio):
+            return dot(self.tape.lifted(value) - line.point, way) * mm
+        start, shift, size = (self.tape.lifted(part) for part in value)
+        reach, nought = self.drawing.reach, self.tape.lifted(0.0)
+        far, step = nought, self.drawing.trace.program.steps[point]
+        steps = self.drawing.trace.program.steps
+        if step.part is Part.CENTRE and step.by_hand and number in steps[step.by_hand].args:
+            ahead = pick(abs(size) == 0, shift, shift * size.conjugate())
+            far = dot(unit(ahead), way) * (FAR * reach * mm)
+        near = abs(size) * (ENDLESS * reach) > abs(shift)
+        here = dot(place_of(Ratio(start, shift, size)) - line.point, way) * mm
+        least = NOISE * (self.drawing.largest or 1.0)
+        everywhere = (abs(size) <= least) & (abs(shift) <= least * reach)
+        return pick(everywhere, nought, pick(near, here, far))
+
+    @cached_property
+    def ways(self) -> dict[int, Any]:
+        """The directions of lines that are known."""
+        return {}
+
+    def way(self, number: int) -> Any:
+        """The unit direction of a line."""
+        if number not in self.ways:
+            self.ways[number] = unit(self.tape.lifted(self.values[number].along))
+        return self.ways[number]
+
+    @cached_property
+    def spans(self) -> dict[int, tuple[Any, Any]]:
+        """The drawn parts of lines that are known."""
+        return {}
+
+    def span(self, number: int, mm: float) -> tuple[Any, Any]:
+        """The drawn part of a line in mm from its own point, as the layout has it."""
+        if number not in self.spans:
+            self.spans[number] = self.span_of(number, mm)
+        return self.spans[number]
+
+    def span_of(self, number: int, mm: float) -> tuple[Any, Any]:
+        """The same, reckoned."""
+        low = high = self.tape.lifted(0.0)
+        for point in self.points_on(number):
+            along = self.reached(number, point, mm)
+            low, high = smaller(low, along), larger(high, along)
+        return low - BEYOND, high + BEYOND
+
+    def arc_span(self, number: int, mm: float) -> tuple[Any, Any]:
+        """The drawn part of an arc in degrees, as the layout has it."""
+        import numpy as np
+
+        circle: Circle = self.values[number]
+        degrees = 180 / np.pi
+        half = smaller(degrees * SWEEP / (self.tape.lifted(circle.radius) * mm), 60.0)
+        low = high = None
+        for point in self.points_on(number):
+            way = self.tape.lifted(self.values[point] - circle.centre)
+            angle = way.imag.do("atan2", way.real) * degrees
+            low = angle if low is None else smaller(low, angle)
+            high = angle if high is None else larger(high, angle)
+        assert low is not None and high is not None
+        return low - half, high + half
+
+
+def place_of(centre: Ratio) -> Any:
+    """The point of a centre or pole."""
+    return centre.start + centre.shift / centre.size

@@ -1,0 +1,286 @@
+"""The page of a cycle: mechanism and plans that move, round or from end to end, in one file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from html import escape
+from typing import TYPE_CHECKING
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import Layout, spans
+from graphkin.documents.scaling import WANTED, natural_seconds, targets_of
+from graphkin.documents.sheet import title_of
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import XY, Field
+from graphkin.drawing.marks import CircleMark, Mark, Text
+from graphkin.drawing.richtext import escape as markup
+from graphkin.drawing.scale import Scales
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism
+from graphkin.text import Words
+from graphkin.text.errors import Problem, SceneError
+from graphkin.web.animation_pictures import MECHANISM, Stage, scale_bar, stage
+from graphkin.web.buttons import button
+from graphkin.web.facts import asked_rows, senses
+from graphkin.web.field_pictures import ink_sheet
+from graphkin.web.field_pictures import placed as drawn
+from graphkin.web.frame_marks import driver_marks
+from graphkin.web.frames import FrameSequence, made, place_in, sense_of
+from graphkin.web.moving import Moving, moving
+from graphkin.web.moving_labels import GAP, LEFT, LETTER
+from graphkin.web.offline_page import data_block, offline_page, part
+from graphkin.web.panes import AIR, room_in
+from graphkin.web.protocol import Timed
+from graphkin.web.screen_sheets import ScreenSheet
+from graphkin.web.scripts import PLAYER, together
+from graphkin.writers.html_markup import marked_up
+from graphkin.writers.svg import number
+
+if TYPE_CHECKING:
+    from graphkin.motion.cycle import Cycle
+
+POINTS = ("pin", "fixed-pivot", "point", "pole")
+"""The classes of the circles that points are drawn as."""
+SPEEDS = (0.25, 0.5, 1.0, 2.0)
+"""How many times as fast as usual it can be played."""
+
+TURN, WAY = 5.0, 3.5
+"""The seconds of a whole turn or a time, and of a range."""
+
+
+def player_page(motion: FrameSequence, words: Words) -> str:
+    """The page of a motion. Raises SceneError where a page cannot move the mechanism as asked."""
+    set_up = stage(motion, words, beside=True)
+    sheets = screen_sheets(set_up)
+    moved = moving(motion.cycle.mechanism, sheets)
+    if moved is None or moved.driven.driver is not motion.cycle.sweep.driver:
+        raise SceneError(cannot(motion.cycle))
+    shown = list(set_up.captions)
+    fixed = [list(scale_bar(field, unit, size, words)) for field, _, unit, size in shown]
+    fixed[0] = [*set_up.ground, *fixed[0]]
+    title = title_of(sheets[0].drawing)
+    body = "\n".join(
+        (
+            f"<header><h1>{escape(title)}</h1></header>",
+            '<main id="player">',
+            '<div id="stage">',
+            *figures(set_up, sheets, fixed),
+            "</div>",
+            *controls(words, moved, sheets),
+            *shortened(motion, moved, words),
+            "</main>",
+            data_block("run", record(set_up, moved, sheets)),
+        )
+    )
+    marks = [mark for sheet in sheets for mark in (*sheet.left, *sheet.right)]
+    marks += [mark for own in fixed for mark in own]
+    looks = (ink_sheet(marks, "colour"), part("page.css"), part("player.css"), shape(set_up))
+    scripts = (moved.source, together(PLAYER))
+    return offline_page(title, words.language, body, looks, scripts)
+
+
+def cannot(cycle: Cycle) -> Problem:
+    """The problem of a page that cannot show this motion."""
+    found = "a page moves the one driver of a scene, or all of them by the time"
+    hint = "--format gif shows other motions"
+    return Problem("--format html", f"{found}; not this motion", "", hint)
+
+
+def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
+    """The fields of a motion as they stand where the scene does, the mechanism on the first."""
+    mechanism = set_up.motion.cycle.mechanism
+    scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
+    kinds = [kind for kind in WANTED if targets_of(mechanism, kind)]
+    found = []
+    for place, kind in enumerate(kinds or ["velocity"]):
+        drawing = drawing_of(mechanism, kind, scales, set_up.words)
+        layout = layout_of(drawing, set_up.mechanism, set_up.plans.get(kind))
+        left, right = list[Mark](), list[Mark]()
+        if place == 0:
+            left = [*set_up.mechanism_marks(drawing), *driver_marks(drawing, layout.mechanism)]
+        if kinds:
+            right = set_up.plan_marks(drawing, layout.plan)
+        found.append(ScreenSheet(drawing, layout, tuple(left), tuple(right)))
+    return found
+
+
+def drawing_of(mechanism: Mechanism, kind: str, scales: Scales, words: Words) -> Drawing:
+    """The material of one plan; of a scene that asks for none, where everything stands."""
+    positions = [target for target in mechanism.program.targets if target[0] == "position"]
+    return made(mechanism, kind, targets_of(mechanism, kind) or positions, scales, words)
+
+
+def layout_of(drawing: Drawing, mechanism: Field, plan: Field | None) -> Layout:
+    """The fields of a sheet, and how much of each line is drawn on them."""
+    fields = Layout(mechanism, plan or mechanism, {})
+    return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
+
+
+def figures(
+    set_up: Stage, sheets: Sequence[ScreenSheet], fixed: Sequence[Sequence[Mark]]
+) -> Iterator[str]:
+    """The fields as pictures, each under its name."""
+    fields = [(0, 0, sheets[0].left)]
+    fields += [(s, len(sheet.left), sheet.right) for s, sheet in enumerate(sheets) if sheet.right]
+    for place, ((field, name, _, _), (s, first, marks), below) in enumerate(
+        zip(set_up.captions, fields, fixed, strict=True)
+    ):
+        shift, told = (0.0, 0.0), ""
+        if place:
+            at = set_up.seated(sheets[s].drawing).at
+            shift = at[0] - field.at[0], at[1] - field.at[1]
+            told = f' <span class="beyond" hidden>– {marked_up(set_up.beyond)}</span>'
+        moves = [drawn(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)]
+        yield f'<figure id="field-{place}"><figcaption><span id="name-{place}">{marked_up(name)}'
+        yield f"</span>{told}</figcaption>"
+        yield from picture(field.rect, shift, below, moves, f"name-{place}")
+        yield "</figure>"
+
+
+def picture(
+    rect: Rect, shift: XY, below: Sequence[Mark], moves: Sequence[str], named_by: str
+) -> Iterator[str]:
+    """A field whose plan is moved aside: the window goes the other way, and what is fixed with it.
+
+    The script does the same at each place of the driver.
+    """
+    left, top, right, bottom = rect
+    (u, v), window = shift, (left - shift[0], top - shift[1], right - left, bottom - top)
+    box = " ".join(map(number, window))
+    yield f'<svg viewBox="{box}" role="img" aria-labelledby="{named_by}">'
+    yield f'<g class="fixed" transform="translate({number(-u)} {number(-v)})">'
+    yield from (drawn("", Timed(mark, 0, None)) for mark in below)
+    yield from ("</g>", *moves, "</svg>")
+
+
+def controls(words: Words, moved: Moving, sheets: Sequence[ScreenSheet]) -> Iterator[str]:
+    """What plays and moves it, hidden until the script is there, and what it tells."""
+    play = (
+        f'data-play="{escape(words("screen.play"))}" data-pause="{escape(words("screen.pause"))}"'
+    )
+    label = f"{escape(words('screen.driver'))} {marked_up(moved.driven.name)}"
+    yield f'<div id="bar" role="group" aria-label="{escape(words("animation.controls"))}" hidden>'
+    yield button("play", words("screen.play"), play)
+    yield f'<label for="at">{label}</label>'
+    yield '<input type="range" id="at"><output id="told" for="at"></output>'
+    yield f'<label for="speed">{escape(words("animation.speed"))}</label><select id="speed">'
+    for speed in SPEEDS:
+        chosen = " selected" if speed == 1 else ""
+        yield f'<option value="{speed:g}"{chosen}>{words.decimal(f"{speed:g}")}×</option>'
+    yield "</select>"
+    yield button("back", words("screen.back"))
+    yield '</div><dl id="values" hidden>'
+    for sheet in sheets:
+        for row in sorted(asked_rows(sheet.drawing)):
+            name, unit = row_words(row, sheet.drawing)
+            yield f'<div data-row="{escape(row)}"><dt>{marked_up(name)}</dt>'
+            yield f'<dd><span class="size"></span> {marked_up(unit)}<span class="sense"></span>'
+            yield "</dd></div>"
+    yield f'</dl><p id="help" hidden>{escape(words("animation.help"))}</p>'
+
+
+def shortened(motion: FrameSequence, moved: Moving, words: Words) -> Iterator[str]:
+    """Where the motion ends before its dead points, and why."""
+    if not motion.shortened:
+        return
+    driven = moved.driven
+    unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
+    ends = dict(zip(("low", "high"), (motion.low, motion.high), strict=True))
+    ends |= dict(zip(("first", "last"), motion.reached, strict=True))
+    told = {name: words.significant(at / driven.metres, 4) + unit for name, at in ends.items()}
+    yield f'<p id="shown">{escape(words("animation.shortened", **told))}</p>'
+
+
+def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
+    """The symbol and the unit of a quantity that is asked."""
+    words, kind = drawing.words, drawing.kind
+    if row[0] in "ωε":
+        return symbol(row), words("table.omega" if row[0] == "ω" else "table.epsilon")
+    if row.startswith("slide "):
+        block = row.rpartition(" ")[2]
+        on = drawing.scene.links[block].slides[0].on
+        letter = "v" if kind == "velocity" else "a"
+        return f"*{letter}*_{{{markup(block)}/{markup(on)}}}", words(f"table.{kind}")
+    return symbol(row), words(f"table.{kind}")
+
+
+def record(set_up: Stage, moved: Moving, sheets: Sequence[ScreenSheet]) -> dict[str, object]:
+    """What the script has to know: what is shown of the motion, and how it is told."""
+    motion, words = set_up.motion, set_up.words
+    driven, sweep = moved.driven, motion.cycle.sweep
+    low, high = moved.reach.low, moved.reach.high
+    if not moved.reach.whole:
+        shift = driven.start - place_in(motion.cycle, motion.low, motion.high) / driven.metres
+        low = max(low, motion.low / driven.metres + shift)
+        high = min(high, motion.high / driven.metres + shift)
+    unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
+    return {
+        "low": low,
+        "high": high,
+        "start": min(max(driven.start, low), high),
+        "seconds": WAY if sweep.driver is not None and not moved.reach.whole else TURN,
+        "sense": sense_of(motion.cycle),
+        "unit": unit,
+        "mark": words("decimal_mark"),
+        "letters": [own for s, sheet in enumerate(sheets) for own in letters(set_up, sheet, s)],
+        "letter": [LETTER, GAP, *LEFT],
+        "panes": [panes(set_up, sheet, s) for s, sheet in enumerate(sheets) if sheet.right],
+        "senses": worded(sheets, words),
+    }
+
+
+def worded(sheets: Sequence[ScreenSheet], words: Words) -> dict[str, Sequence[str]]:
+    """For each row with a sense the words of both, the positive one first."""
+    turns = [escape(words(f"page.{key}")) for key in ("anticlockwise", "clockwise")]
+    rows = {row for sheet in sheets for row in asked_rows(sheet.drawing) if row[0] in "ωε"}
+    return {**dict.fromkeys(sorted(rows), turns), **senses(sheets[0].drawing)}
+
+
+def panes(set_up: Stage, sheet: ScreenSheet, s: int) -> dict[str, object]:
+    """The pane of a plan: its figure, its edges, the room for the plan, and its pole's circle."""
+    rect, pole = sheet.layout.plan.rect, sheet.drawing.pole
+    places = [k for k, m in enumerate(sheet.right) if isinstance(m, CircleMark) and m.name == pole]
+    return {
+        "figure": f"field-{s + 1}",
+        "rect": rect,
+        "room": room_in(rect, AIR),
+        "pole": f"m{s}-{len(sheet.left) + places[0]}",
+    }
+
+
+def letters(set_up: Stage, sheet: ScreenSheet, s: int) -> Iterator[list[list[object]]]:
+    """The letters of each field by their rules, as lettered.lettering sets them.
+
+    Each has the ids of its text and of its point's circle, the middle of its ink as drawn, its
+    width, how far it stands off, its turn, and the ids of the circles that lead it.
+    """
+    first, kind = 0, sheet.drawing.kind
+    for rules, marks in (
+        (set_up.rules[MECHANISM], sheet.left),
+        (set_up.rules.get(kind), sheet.right),
+    ):
+        circles = {
+            mark.name: f"m{s}-{first + k}"
+            for k, mark in enumerate(marks)
+            if isinstance(mark, CircleMark) and mark.cls.split()[0] in POINTS
+        }
+        found: list[list[object]] = []
+        for k, mark in enumerate(marks):
+            if rules and isinstance(mark, Text) and mark.name in circles:
+                rule, box = rules[mark.name], mark.corners()
+                middle = [(box[0][i] + box[2][i]) / 2 for i in (0, 1)]
+                near = [circles[name] for name in rule.others if name in circles]
+                own = [f"m{s}-{first + k}", circles[mark.name], *middle, box[1][0] - box[0][0]]
+                found.append([*own, rule.far, *rule.turn, near])
+        yield found
+        first += len(marks)
+
+
+def shape(set_up: Stage) -> str:
+    """How wide the mechanism stands beside the plans."""
+    left, _, right, _ = set_up.mechanism.rect
+    plans = list(set_up.plans.values())
+    if not plans:
+        return "#stage{--left:1fr;--right:0fr}"
+    across = plans[0].rect[2] - plans[0].rect[0]
+    return f"#stage{{--left:{right - left:g}fr;--right:{across:g}fr;--rows:{len(plans)}}}"

@@ -1,0 +1,314 @@
+"""The construction of all sheets as one run of sentences, and what each mark hangs on."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from graphkin.construction.core.crossings import Crossing, crossings
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.program import Part, Plane, Program, Step
+from graphkin.construction.core.sentence import Sentence
+from graphkin.documents.flattest import crossings_on
+from graphkin.documents.mark_dependencies import ground_of
+from graphkin.documents.sentences import sentences
+from graphkin.documents.step_numbers import behind, stage_of, stages
+from graphkin.documents.step_visibility import accompanied
+from graphkin.drawing.marks import CircleMark, Mark, Text
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.web.label_names import as_labelled, labels_of
+from graphkin.web.reasons import of_reading, reasons
+from graphkin.web.screen_sheets import ScreenSheet
+
+STOPS = (
+    Part.POSITION,
+    Part.VELOCITY,
+    Part.CENTRE,
+    Part.NORMAL,
+    Part.ACCELERATION,
+    Part.POLE,
+)
+"""The parts of the work to whose beginnings one may go."""
+GUIDE = "guide "
+"""The beginning of the name of a mark that shows where a guide lies; its block follows."""
+CONTACTS = ("contact-on-track", "contact-of-wheels")
+"""The steps that find where a wheel touches its track."""
+SAME = 1e-6
+"""Millimetres between places that are one."""
+DETAIL = "detail"
+"""The name of the small circle about what is enlarged beside it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProtocolSentence:
+    """A sentence of the run: its sheet, its markup, why, the crossings of its lines.
+
+    ``of`` are the steps to which the reasons belong, ``letters`` the names of the crossings as the
+    labels have them; ``ends`` are the parts of the work that it completes on its sheet. ``aside``
+    tells of what is drawn beside the drawing for the position of the scene alone.
+    """
+
+    sheet: int
+    markup: str
+    why: tuple[str, ...]
+    of: tuple[int, ...]
+    crossings: tuple[Crossing, ...]
+    letters: tuple[str, ...]
+    ends: tuple[Part, ...]
+    aside: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step."""
+
+    mark: Mark
+    at: int
+    step: int | None
+
+
+@dataclass(frozen=True)
+class PageProtocol:
+    """The run of sentences over all sheets, and for each sheet its marks in their order.
+
+    ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;
+    ``sources`` the steps with marks that it is drawn from; ``sides`` the two points of the
+    mechanism to whose bar it is square or parallel; ``letters`` its name as markup. ``tints`` tells
+    apart what one sentence draws for several points; ``hangs`` gives the crossings without which a
+    step cannot be, and to which a line is drawn; ``aside`` those of centres and poles; ``squares``
+    the pin, pole and image of a line square to a velocity.
+    """
+
+    said: tuple[ProtocolSentence, ...]
+    timed: tuple[tuple[Timed, ...], ...]
+    at: Mapping[int, int]
+    sources: Mapping[int, tuple[int, ...]]
+    sides: Mapping[int, tuple[int, int]]
+    letters: Mapping[int, str]
+    tints: Mapping[int, int]
+    hangs: Mapping[int, tuple[int, ...]]
+    aside: tuple[int, ...]
+    squares: Mapping[int, tuple[int, ...]]
+
+    def bounds(self, sheet: int) -> tuple[int, int]:
+        """The first and the last sentence of a sheet."""
+        return bounds_of(self.said, sheet)
+
+    def stops(self) -> Iterator[tuple[int, int, Part]]:
+        """The first and last sentence of each part of the work, in the order of their ends.
+
+        A part begins where on its sheet the one before it ends.
+        """
+        ends = [(number, said) for number, said in enumerate(self.said, 1) if said.ends]
+        for last, said in ends:
+            before = [number for number, one in ends if one.sheet == said.sheet and number < last]
+            first = max(before, default=self.bounds(said.sheet)[0] - 1) + 1
+            yield from ((first, last, part) for part in said.ends)
+
+
+def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
+    """The run of some sheets of one mechanism."""
+    said: list[ProtocolSentence] = []
+    timed: list[tuple[Timed, ...]] = []
+    at: dict[int, int] = {}
+    names: dict[str, str] = {}
+    tints: dict[int, int] = {}
+    for place, sheet in enumerate(sheets):
+        own = sentences(sheet.drawing)
+        staged = stages(sheet.drawing, own)
+        timed.append(timed_marks(sheet, own, staged, len(said)))
+        for step, stage in staged.items():
+            if not at.get(step):
+                at[step] = len(said) + stage + 1 if stage >= 0 else 0
+        labels = labels_of(sheet)
+        names |= labels
+        said += spoken(place, sheet.drawing, own, staged, labels)
+        said[-1] = replace(said[-1], aside=words_of_details(sheet))
+        first = bounds_of(said, place)[0]
+        for step, stage, tint in tinted(sheet.drawing, own, staged):
+            if at.get(step) == first + stage:
+                tints.setdefault(step, tint)
+    shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
+    ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
+    program = sheets[0].drawing.trace.program
+    pairs = {step: pair for step in shown if (pair := sides(program, step, shown))}
+    return PageProtocol(
+        tuple(said),
+        tuple(timed),
+        {step: at.get(step, 0) for step in shown},
+        {step: sources(program, step, frozenset(shown), ran) for step in shown},
+        pairs,
+        {
+            step: names.get(name, symbol(name))
+            for step in shown
+            if (name := letter(program.steps[step]))
+        },
+        {step: tint for step, tint in tints.items() if tint and step in shown},
+        hanging(sheets, shown),
+        tuple(found.number for found in lines_of(sheets) if found.part in (Part.CENTRE, Part.POLE)),
+        {step: args for step in shown if (args := square_to(program.steps[step]))},
+    )
+
+
+def words_of_details(sheet: ScreenSheet) -> str:
+    """What is told beside the last sentence of details drawn enlarged; nothing without any."""
+    scales = [
+        next(m.markup for m in more if isinstance(m, Text) and m.markup.endswith(":1"))
+        for marks, more in ((sheet.left, sheet.more_left), (sheet.right, sheet.more_right))
+        if any(mark.name == DETAIL for mark in marks)
+    ]
+    return "; ".join(
+        sheet.drawing.words("screen.detail", scale=scale) for scale in dict.fromkeys(scales)
+    )
+
+
+def bounds_of(said: Sequence[ProtocolSentence], sheet: int) -> tuple[int, int]:
+    """The first and the last sentence of a sheet."""
+    own = [number for number, one in enumerate(said, 1) if one.sheet == sheet]
+    return own[0], own[-1]
+
+
+def tinted(
+    drawing: Drawing, own: Sequence[Sentence], staged: Mapping[int, int]
+) -> Iterator[tuple[int, int, int]]:
+    """The steps that one sentence draws for several points: step, stage, number of the point."""
+    program = drawing.trace.program
+    for stage, sentence in enumerate(own):
+        if len(sentence.all_steps) > 1:
+            for tint, number in enumerate(sentence.all_steps):
+                fresh = (step for step in behind(program, [number]) if staged.get(step) == stage)
+                yield from ((step, stage, tint) for step in fresh)
+
+
+def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:
+    """For the steps of plans the crossings without which they cannot be; not those of positions."""
+    program = sheets[0].drawing.trace.program
+    lines = {found.number for found in lines_of(sheets) if found.part is not Part.POSITION}
+    found = {step: lines & behind(program, [step]) for step in shown}
+    for line in lines:
+        for step in program.steps[line].args:
+            if step in found and not program.steps[step].name:
+                found[step] |= {line}
+    return {step: tuple(sorted(needed)) for step, needed in found.items() if needed}
+
+
+def lines_of(sheets: Sequence[ScreenSheet]) -> Iterator[Crossing]:
+    """Every crossing of some sheets."""
+    for sheet in sheets:
+        yield from crossings(sheet.drawing.trace)
+
+
+def square_to(step: Step) -> tuple[int, ...]:
+    """The pin, the pole and the image of its velocity to which a line is drawn square."""
+    key = step.action.key if step.action is not None else ""
+    return step.args if key == "velocity-normal" else ()
+
+
+def spoken(
+    place: int,
+    drawing: Drawing,
+    own: Sequence[Sentence],
+    staged: Mapping[int, int],
+    labels: Mapping[str, str],
+) -> Iterator[ProtocolSentence]:
+    """The sentences of one sheet."""
+    steps = drawing.trace.program.steps
+    parts = [{steps[number].part for number in sentence.all_steps} for sentence in own]
+    last = {part: stage for stage, found in enumerate(parts) for part in found}
+    lines = crossings_on(drawing)
+    for stage, sentence in enumerate(own):
+        fresh = [step for step, at in staged.items() if at == stage]
+        why = [*reasons(drawing, fresh, labels), *of_reading(drawing, sentence)]
+        found = [crossing for crossing in lines if staged.get(crossing.number) == stage]
+        drawn = [steps[step].name for step in fresh if steps[step].part is Part.NORMAL]
+        yield ProtocolSentence(
+            place,
+            as_labelled(sentence.markup, drawn, labels),
+            tuple(text for text, _ in why),
+            tuple(step for _, step in why),
+            tuple(found),
+            tuple(labels.get(crossing.name, symbol(crossing.name)) for crossing in found),
+            tuple(part for part in STOPS if last.get(part) == stage),
+        )
+
+
+def timed_marks(
+    sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int], before: int
+) -> tuple[Timed, ...]:
+    """The marks of a sheet with the sentences that draw them."""
+    found, touched = [], dict(contacts(sheet))
+    ground = ground_of(sheet.drawing, sheet.layout.mechanism)
+    for mark, beside in accompanied((*sheet.left, *sheet.right)):
+        step = touched.get(mark)
+        if step is None:
+            step = step_of(sheet.drawing, mark)
+            stage = stage_of(sheet.drawing, beside, staged, own, ground)
+        else:
+            stage = staged[step]
+        found.append(Timed(mark, before + stage + 1 if stage >= 0 else 0, step))
+    return tuple(found)
+
+
+def contacts(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
+    """The marks of the contacts of wheels and their letters, each with the step that finds it."""
+    steps, field = sheet.drawing.trace.program.steps, sheet.layout.mechanism
+    for number, at in sheet.drawing.trace.values.items():
+        action = steps[number].action
+        if action is None or action.key not in CONTACTS:
+            continue
+        place = complex(*field(at))
+        for mark in sheet.left:
+            if isinstance(mark, CircleMark) and mark.cls == "contact":
+                if abs(complex(mark.cx, mark.cy) - place) < SAME:
+                    yield mark, number
+            elif isinstance(mark, Text) and mark.step is None and mark.name == steps[number].name:
+                yield mark, number
+
+
+def step_of(drawing: Drawing, mark: Mark) -> int | None:
+    """The step that a mark shows; that of its point or guide where the mark is not of a step."""
+    if mark.step is not None:
+        return mark.step
+    targets = drawing.trace.program.targets
+    if mark.name.startswith(GUIDE):
+        return targets.get(("guide", mark.name.removeprefix(GUIDE)))
+    return targets.get(("position", mark.name))
+
+
+def sources(
+    program: Program, number: int, shown: Collection[int], ran: Collection[int]
+) -> tuple[int, ...]:
+    """The steps with marks that a step is drawn from, through those that have none."""
+    found: set[int] = set()
+    seen = {number}
+    waiting = [number]
+    while waiting:
+        step = program.steps[waiting.pop()]
+        by_hand = () if step.by_hand is None else (step.by_hand,)
+        for source in (*step.args, *by_hand):
+            if source in seen or source not in ran:
+                continue
+            seen.add(source)
+            if source in shown:
+                found.add(source)
+            else:
+                waiting.append(source)
+    return tuple(sorted(found))
+
+
+def sides(program: Program, number: int, shown: Collection[int]) -> tuple[int, int] | None:
+    """The two points of the mechanism that give a line of a plan its direction."""
+    step = program.steps[number]
+    if step.plane in (Plane.MECHANISM, Plane.NUMBERS):
+        return None
+    points = [
+        arg
+        for arg in step.args
+        if arg in shown and program.steps[arg].plane is Plane.MECHANISM and program.steps[arg].name
+    ]
+    return (points[0], points[1]) if len(points) == 2 else None
+
+
+def letter(step: Step) -> str:
+    """The letter of a step's point on the drawing; nothing for a line or an arrow."""
+    return "" if step.arrow or step.plane is Plane.NUMBERS else step.name

@@ -1,0 +1,143 @@
+"""Why a step is drawn as it is: the law of rigid bodies, guides and wheels behind each line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from string import Formatter
+
+from graphkin.construction.core.component import is_hidden
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.naming import names_in
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.higher_class.coincident_images import fallen_on
+from graphkin.documents.flattest import OWN
+from graphkin.documents.sentences import TURNING
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.text import Words
+from graphkin.web.label_names import as_labelled
+
+WHY = {
+    (Part.POSITION, "contact-of-wheels"): "why.touch",
+    (Part.POSITION, "contact-on-track"): "why.touch",
+    (Part.POSITION, "arcs-meet"): "why.arcs",
+    (Part.POSITION, "arc-cuts-line"): "why.arc",
+    (Part.POSITION, "swing-through"): "why.lever",
+    (Part.VELOCITY, "turned-velocity"): "why.turned",
+    (Part.VELOCITY, "square-to"): "why.square",
+    (Part.VELOCITY, "parallel-to"): "why.along",
+    (Part.VELOCITY, "similar-point"): "why.similar",
+    (Part.VELOCITY, "driven-slide"): "why.driven",
+    (Part.VELOCITY, "between"): "why.trials",
+    (Part.VELOCITY, "meet"): "why.meet",
+    (Part.CENTRE, "instant-centre"): "why.centre",
+    (Part.CENTRE, "kennedy-line"): "why.kennedy",
+    (Part.ACCELERATION, "centripetal"): "why.normal",
+    (Part.ACCELERATION, "lay-off"): "why.normal",
+    (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
+    (Part.ACCELERATION, "square-to"): "why.tangential",
+    (Part.ACCELERATION, "parallel-to"): "why.along_acceleration",
+    (Part.ACCELERATION, "along-bar"): "why.no_slip",
+    (Part.ACCELERATION, "similar-point"): "why.similar",
+    (Part.ACCELERATION, "driven-slide"): "why.driven",
+    (Part.ACCELERATION, "between"): "why.trials",
+    (Part.ACCELERATION, "meet"): "why.meet",
+    (Part.POLE, "acceleration-pole"): "why.pole",
+}
+"""The key of the reason for an action in a part of the work; others need none."""
+AGAIN = {
+    "why.height": "why.height_again",
+    "why.normal": "why.normal_again",
+    "why.tangential": "why.tangential_again",
+}
+"""What is said of the second and each further one of a kind."""
+LAST, LAST_OF_MANY = "why.meet", "why.meet_many"
+"""The reason that is given at the end, for all points at once."""
+TURNS = {"velocity": "why.omega", "acceleration": "why.epsilon"}
+"""Why the turning of links is read off as each sheet says."""
+NO_STEP = -1
+"""Whose reason it is that belongs to no single step."""
+BY_HAND = {Plane.MECHANISM: "why.arcs"}
+"""The reason for a point of a plate that is found by two lines or arcs; in a plan they meet."""
+
+
+def reasons(
+    drawing: Drawing, numbers: Iterable[int], labels: Mapping[str, str]
+) -> list[tuple[str, int]]:
+    """The reasons for some steps as markup, each with its step, in their order, none twice.
+
+    ``labels`` are those of the drawing, by the names of what they stand at.
+    """
+    parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
+    found: dict[str, int] = {}
+    given: set[str] = set()
+    met: dict[str, int] = {}
+    for number in sorted(numbers):
+        step = drawing.trace.program.steps[number]
+        key, known = reason(drawing, step), fields(step)
+        if step.part not in parts or not key or is_hidden(drawing, number):
+            continue
+        if not all(known[gap] for gap in gaps(drawing.words, key)):
+            continue
+        if key == LAST:
+            if number not in drawing.tags or not fallen_on(drawing, number):
+                met[known["name"]] = number
+            continue
+        text = drawing.words(AGAIN.get(key, key) if key in given else key, **known)
+        given.add(key)
+        found.setdefault(as_labelled(text, alike(step, labels), labels), number)
+    if met:
+        names, (first, *more) = drawing.words("list_mark").join(met), met.values()
+        text = drawing.words(LAST_OF_MANY if more else LAST, name=names)
+        found[text] = NO_STEP if more else first
+    return list(found.items())
+
+
+def of_reading(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
+    """Why the turning of links is read off as the last sentence says."""
+    if sentence.name == TURNING:
+        yield drawing.words(TURNS[drawing.kind]), NO_STEP
+
+
+def alike(step: Step, names: Iterable[str]) -> Iterator[str]:
+    """The names with the letter and the index of a step: those of its right triangle."""
+    letter, _, index = step.name.partition("_")
+    for name in names:
+        base, _, own = name.partition("_")
+        if index and own == index and base[:1] == letter[:1]:
+            yield name
+
+
+def reason(drawing: Drawing, step: Step) -> str:
+    """The key of a step's reason; nothing where it needs none."""
+    kind = construction(step)
+    if kind is not None:
+        return kind.reason(step.role)
+    if step.action is None:
+        return ""
+    if step.action.key == "similar-point" and step.by_hand in drawing.trace.values:
+        return BY_HAND.get(step.plane, LAST)
+    return WHY.get((step.part, step.action.key), "")
+
+
+def gaps(words: Words, key: str) -> Iterator[str]:
+    """The letters that a reason speaks of."""
+    return (name for _, name, _, _ in Formatter().parse(words.sentences[key]) if name)
+
+
+def fields(step: Step) -> dict[str, str]:
+    """The letters of a step as markup, each empty where the step has none."""
+    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "t", "bar", "letter"), "")
+    kind = construction(step)
+    if kind is not None:
+        known |= kind.symbols()
+    says = {key: lettered(str(name)) for key, name in step.says.items() if name}
+    known |= names_in(says)
+    if says.get("k") and step.name:
+        known["t"] = symbol(lettered(f"{step.name}@{step.says['k']}"))
+    if "p" in says and "q" in says:
+        known["bar"] = bar(says["p"], says["q"])
+        known["letter"] = symbol(says["q"].lower())
+    return known | {"name": symbol(step.name) if step.name else ""}

@@ -1,0 +1,63 @@
+"""What a page for the screen shows: the two fields of each sheet, as marks in page millimetres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import Layout, lay_out
+from graphkin.documents.detail import parted
+from graphkin.documents.inset import insets
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet import left_board, right_board
+from graphkin.documents.sheet_documents import drawings_of, language_of, proved
+from graphkin.drawing.marks import Mark
+from graphkin.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+@dataclass(frozen=True)
+class ScreenSheet:
+    """The marks of a sheet's two fields; those of mark k of sheet s have the id ``m{s}-{k}``.
+
+    ``left`` is the field of the mechanism, ``right`` that of the plan; k counts through the left
+    ones first. ``more_left`` and ``more_right`` are pictures within the picture (an enlarged
+    detail, insets), which hold for the position drawn alone.
+    """
+
+    drawing: Drawing
+    layout: Layout
+    left: tuple[Mark, ...]
+    right: tuple[Mark, ...]
+    more_left: tuple[Mark, ...] = ()
+    more_right: tuple[Mark, ...] = ()
+
+
+def screen_sheets(
+    mechanism: Mechanism, language: str | None = None, view: str = "key"
+) -> list[ScreenSheet]:
+    """The sheets that a scene asks for, at the same scale, each one proved right before.
+
+    ``view`` is key or task. Raises WitnessError when the independent route disagrees, PageError
+    where a drawing does not fit.
+    """
+    spoken = language_of(mechanism, language)
+    verdict = proved(mechanism, shown(mechanism))
+    return screened(drawings_of(mechanism, verdict, spoken), view)
+
+
+def screened(drawings: Sequence[Drawing], view: str = "key") -> list[ScreenSheet]:
+    """The fields of some drawings."""
+    return [screen_sheet(drawing, lay_out(drawing), view) for drawing in drawings]
+
+
+def screen_sheet(drawing: Drawing, layout: Layout, view: str = "key") -> ScreenSheet:
+    """The fields of one drawing."""
+    boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
+    (left, detail), (right, other) = parted(*boards)
+    if view == "key":
+        detail += insets(drawing, layout.mechanism, [*left, *detail])
+    return ScreenSheet(drawing, layout, tuple(left), tuple(right), tuple(detail), tuple(other))

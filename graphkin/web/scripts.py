@@ -1,0 +1,46 @@
+"""The scripts of pages: short files that share their names, put together in a fixed order."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from graphkin.web.offline_page import part
+
+STEP_PAGE = (
+    "page.js",
+    "numbers.js",
+    "sheets.js",
+    "bars.js",
+    "zoom.js",
+    "halos.js",
+    "tracing.js",
+    "sentences.js",
+    "values.js",
+    "stepping.js",
+    "driver.js",
+    "room.js",
+    "address.js",
+    "playing.js",
+    "keys.js",
+)
+"""The script of a step page: at once, a file uses only what stands before it."""
+PLAYER = ("numbers.js", "player.js")
+"""The script of a cycle's page."""
+MOVING = ("moving.js",)
+"""What lays out the marks that follow the driver."""
+FORM = ("form.js",)
+"""The script of a form for answers."""
+REMARKS = ("//", "/**")
+"""How lines begin that only a reader of the files needs."""
+
+
+def together(names: tuple[str, ...]) -> str:
+    """Some files as one script, whose names nothing else on the page sees."""
+    return "\n".join(("(() => {", '"use strict";', joined(names), "})();"))
+
+
+@lru_cache(maxsize=4)
+def joined(names: tuple[str, ...]) -> str:
+    """Some files one after the other, without remarks."""
+    lines = (line.strip() for name in names for line in part(name).splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith(REMARKS))

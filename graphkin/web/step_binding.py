@@ -1,0 +1,275 @@
+"""How the marks of steps follow: each is drawn from values, so the same values draw it again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from math import hypot, pi
+from typing import Any
+
+from graphkin.construction.centres.centre_marks import FAR as ENDLESS
+from graphkin.construction.centres.centre_marks import STRAIGHT
+from graphkin.construction.centres.parallel_velocities import BEYOND as BEYOND_TIPS
+from graphkin.construction.centres.parallel_velocities import PARALLEL, parallel_velocities
+from graphkin.construction.core.layout import BEYOND, SWEEP
+from graphkin.construction.core.plot import TINY, above_foot
+from graphkin.construction.core.program import Plane
+from graphkin.construction.higher_class.closing_words import ends_of_bar
+from graphkin.construction.higher_class.misclosure_marks import gap_lines
+from graphkin.construction.higher_class.trial_marks import NEAR as SHORTEST
+from graphkin.construction.higher_class.trial_marks import leg_start
+from graphkin.construction.velocity.image_marks import undrawn_sides
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline
+from graphkin.drawing.style import VECTORS
+from graphkin.drawing.symbols import SHORT
+from graphkin.numbers.arithmetic import larger, pick, smaller
+from graphkin.numbers.plane import Circle as Round
+from graphkin.numbers.plane import Line as Carrier
+from graphkin.numbers.plane import Ratio, Vector, cross, dot
+from graphkin.web.field_binder import Binding, only_at_start
+from graphkin.web.moving_sheet import place_of
+from graphkin.web.traced_poses import unit
+from graphkin.web.visible_steps import ALIKE, VisibleSteps
+
+FULL, NEAR, FAR, LAST = 0, 1, 2, 3
+"""The parts of a construction line: all of it, before its first point, after its last, its end."""
+BEYOND_BOTH = ("square-to", "parallel-to", "along-bar")
+"""The lines of a plan of which only the parts beyond their points are drawn."""
+SQUARE, ROOMY = 2.0, 6.0
+"""Side of the mark of a right angle, and of a triangle that has room for one, in mm."""
+
+
+class Steps(VisibleSteps):
+    """How the marks of the steps of one field follow."""
+
+    def binding(self, mark: Mark) -> Binding | None:
+        """How a mark of a step follows; None where none of its values gives it."""
+        number = mark.step
+        assert number is not None
+        if isinstance(mark, CircleMark):
+            return self.circle(number, mark)
+        if isinstance(mark, Arc):
+            return self.arc(number)
+        if isinstance(mark, Polyline):
+            return self.polygon(number, mark)
+        if isinstance(mark, LineMark):
+            return self.line(number, mark)
+        return None
+
+    def circle(self, number: int, mark: CircleMark) -> Binding:
+        """A point, a pole or a centre; a centre shows where its field has room for it."""
+        value = self.value(number)
+        if not isinstance(value, Ratio):
+            is_inflection = self.key(number) == "inflection-point"
+            return self.binder.at(value, self.within(value) if is_inflection else self.seen(number))
+        if self.key(number) == "pin-centre":
+            return self.binder.at(value.start)
+        return self.binder.at(place_of(value), self.within(place_of(value)))
+
+    @cached_property
+    def ends(self) -> dict[int, tuple[Any, Any]]:
+        """The tails and tips of vectors that are set on the mechanism by steps that are points."""
+        found = {}
+        for number, _, value in self.binder.places.drawing.steps(Plane.MECHANISM):
+            if isinstance(value, complex) and (ends := self.part_of(number).ends) is not None:
+                found[number] = ends
+        return found
+
+    def vector(self, number: int) -> tuple[Any, Any] | None:
+        """Tail and tip of the vector of a step, if it has one."""
+        value = self.value(number)
+        if isinstance(value, Vector):
+            return value.tail, value.tip
+        return self.ends.get(number)
+
+    def arc(self, number: int) -> Binding | None:
+        """A compass arc about the points on it, or the one that turns a length over."""
+        if (swung := self.part_of(number).swung) is not None:
+            return self.arc_about(*swung, SWEEP / 2)
+        if self.key(number) == "close":
+            drawing, spots = self.binder.places.drawing, self.binder.places.spots
+            centre, pin = ends_of_bar(drawing, number, self.step(number))
+            return self.arc_about(spots[centre], spots[pin], SWEEP)
+        value = self.value(number)
+        if not isinstance(value, Round):
+            return None
+        span = self.binder.places.arc_span(number, self.binder.field.mm)
+        return self.binder.arc(value.centre, value.radius, span)
+
+    def arc_about(self, tail: Any, tip: Any, sweep: float) -> Binding:
+        """An arc about a centre through a point, so many mm of it on both sides of that."""
+        way, mm, degrees = self.binder.tape.lifted(tip - tail), self.binder.field.mm, 180 / pi
+        radius = abs(way)
+        bearing = way.imag.do("atan2", way.real) * degrees
+        half = smaller(degrees * sweep / (radius * mm), 60.0)
+        return self.binder.arc(tail, radius, (bearing - half, bearing + half), radius * mm - SHORT)
+
+    def polygon(self, number: int, mark: Polyline) -> Binding | None:
+        """An arrowhead, the mark of a right angle, or the inflection circle."""
+        ends = self.vector(number)
+        cls = mark.cls.split()[0]
+        if cls == "arrowhead":
+            return only_at_start if ends is None else self.binder.head(*ends, self.seen(number))
+        if cls == "square-mark":
+            return self.square(number)
+        value = self.value(number)
+        if isinstance(value, Round):
+            mm, lift = self.binder.field.mm, self.binder.tape.lifted
+            size = lift(value.radius) * mm
+            centre = self.binder.page(value.centre)
+            rect = self.binder.rect(above_foot(self.binder.room))
+            shown = smaller(size - TINY, STRAIGHT - size)
+            tape = self.binder.tape
+            return lambda _: [
+                "i",
+                self.binder.condition(shown),
+                tape.point(centre),
+                tape.number(size),
+                rect,
+            ]
+        return None
+
+    def square(self, number: int) -> Binding | None:
+        """The mark of a right angle at the corner of a triangle on the mechanism."""
+        value, other = self.value(number), self.part_of(number).faces
+        if other is None:
+            return None
+        binder = self.binder
+        corner, pivot = binder.page(value.point), binder.page(other)
+        first = unit(pivot - corner)
+        low, high = binder.places.span(number, binder.field.mm)
+        along = binder.places.way(number).conjugate()
+        second = along * pick(-low > high, -1.0, 1.0)
+        places = [corner + SQUARE * way for way in (first, first + second, second)]
+        large, seen = abs(pivot - corner) - ROOMY, self.seen(number)
+        return binder.corners(places, large if seen is None else smaller(large, seen))
+
+    # --- lines ---------------------------------------------------------------------------------
+
+    def line(self, number: int, mark: LineMark) -> Binding | None:
+        """A vector, a part of a construction line, or a leg of a triangle."""
+        ends, cls = self.vector(number), mark.cls.split()[0]
+        if ends is not None and cls in VECTORS:
+            return self.binder.between(*ends, shown=self.seen(number))
+        if cls == "centre":
+            return self.circle(number, CircleMark(0, 0, 1, ""))
+        if self.key(number) == "instant-centre" and cls == "ray":
+            return self.tips(number)
+        if self.key(number) == "guide-centre":
+            return self.endless(number)
+        for start, end in self.legs(number):
+            if self.is_at(mark, start, end):
+                is_leg = cls in ("trial", "trial-line") or self.key(number) == "similar-point"
+                shown = self.apart(end, start) - SHORTEST if is_leg else self.seen(number)
+                return self.binder.between(start, end, shown=shown)
+        if isinstance(self.drawn(number), Carrier) and number in self.layout.spans:
+            return self.part(number, self.which(number, mark))
+        return None
+
+    def endless(self, number: int) -> Binding:
+        """The ray to the centre of a block and its guide, which lies at infinity."""
+        start, way, _ = map(self.binder.tape.lifted, self.value(number))
+        end = start + unit(way) * (ENDLESS / self.binder.field.mm)
+        return self.binder.between(start, end, above_foot(self.binder.room))
+
+    def tips(self, number: int) -> Binding | None:
+        """The line through the tips of two velocities, while these are parallel."""
+        drawing, step, lift = self.binder.places.drawing, self.step(number), self.binder.tape.lifted
+        pole, scale = self.value(step.args[0]), drawing.at_scale(Plane.VELOCITIES, 1)
+        found = parallel_velocities(drawing, step).values()
+        if not found:
+            return None
+        ways = [lift(self.value(image) - pole) * scale for _, image in found]
+        tips = [lift(self.value(place)) + way for (place, _), way in zip(found, ways, strict=True)]
+        on = unit(tips[1] - tips[0]) * (BEYOND_TIPS / self.binder.field.mm)
+        shown = PARALLEL - abs(cross(unit(ways[0]), unit(ways[1])))
+        room = above_foot(self.binder.room)
+        return self.binder.between(tips[0] - on, tips[1] + on, room, shown)
+
+    def is_at(self, mark: LineMark, start: Any, end: Any) -> bool:
+        """Whether a line was drawn between two places."""
+        now = self.binder.tape.now
+        x0, y0 = self.binder.field(complex(now(start)))
+        x1, y1 = self.binder.field(complex(now(end)))
+        return max(hypot(x0 - mark.x1, y0 - mark.y1), hypot(x1 - mark.x2, y1 - mark.y2)) < ALIKE
+
+    def legs(self, number: int) -> Iterator[tuple[Any, Any]]:
+        """The lines between two points that a step may be drawn with."""
+        value, step, tape = self.value(number), self.step(number), self.binder.tape
+        for start, end in self.part_of(number).legs:
+            yield tape.lifted(start), tape.lifted(end)
+        if isinstance(value, Carrier):
+            return
+        drawing = self.binder.places.drawing
+        if number in drawing.tags and leg_start(self.plot, step) is not None:
+            yield tape.lifted(self.value(step.args[0])), tape.lifted(value)
+        if self.key(number) == "between":
+            yield self.divided(number)
+        for _, tail, tip in gap_lines(number, step, self.lifted, self.binder.field.mm):
+            yield tail, tip
+        if self.key(number) == "similar-point":
+            for one, other in undrawn_sides(drawing, number, step):
+                yield tape.lifted(self.value(one)), tape.lifted(self.value(other))
+
+    def lifted(self, number: int) -> Any:
+        """The value of a step as a traced number; a line as it is."""
+        value = self.value(number)
+        return value if isinstance(value, Carrier) else self.binder.tape.lifted(value)
+
+    def divided(self, number: int) -> tuple[Any, Any]:
+        """The line through the two trials of a point, as far as the right one and a little more."""
+        lift = self.binder.tape.lifted
+        first, last = (lift(self.value(arg)) for arg in self.step(number).args[:2])
+        way = unit(last - first)
+        low = high = lift(0.0)
+        for point in (last, lift(self.value(number))):
+            along = dot(point - first, way)
+            low, high = smaller(low, along), larger(high, along)
+        beyond = BEYOND / 2 / self.binder.field.mm
+        return first + way * (low - beyond), first + way * (high + beyond)
+
+    def is_short(self, mark: LineMark) -> bool:
+        """Whether a mark is all there is of a line of which only the ends are drawn elsewhere."""
+        number = mark.step
+        if number is None or self.key(number) not in BEYOND_BOTH:
+            return False
+        if number in self.binder.places.drawing.tags or number not in self.layout.spans:
+            return False
+        low, high = self.layout.spans[number]
+        return mark.cls == "construction" and high - low <= 2 * BEYOND + TINY
+
+    def part(self, number: int, which: int) -> Binding:
+        """A part of a construction line, cut at the edge of what its field can grow to."""
+        binder, line = self.binder, self.value(number)
+        origin = binder.page(line.point)
+        way = binder.places.way(number).conjugate()
+        low, high = binder.places.span(number, binder.field.mm)
+        shown = self.seen(number)
+        if self.part_of(number).is_beyond:
+            span = high - low - (2 * BEYOND + TINY)
+            shown = span if shown is None else smaller(span, shown)
+        tape, rect = binder.tape, binder.rect(above_foot(binder.room))
+        return lambda _: [
+            "s",
+            binder.condition(shown),
+            *map(tape.point, (origin, way)),
+            *map(tape.number, (low, high)),
+            which,
+            rect,
+        ]
+
+    def which(self, number: int, mark: LineMark) -> int:
+        """Which part of its line a mark is."""
+        if self.key(number) == "ray":
+            return LAST
+        if self.key(number) not in BEYOND_BOTH or number in self.binder.places.drawing.tags:
+            return FULL
+        low, high = self.layout.spans[number]
+        if high - low <= 2 * BEYOND + TINY:
+            return NEAR
+        value = self.drawn(number)
+        x, y = self.binder.field(value.point)
+        u, v = self.binder.field.way(value.along)
+        middle = ((mark.x1 + mark.x2) / 2 - x) * u + ((mark.y1 + mark.y2) / 2 - y) * v
+        is_low = abs(middle - low) < abs(middle - high)
+        return NEAR if is_low == (abs(low) < abs(high)) else FAR

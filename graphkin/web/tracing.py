@@ -1,0 +1,188 @@
+"""The construction of a page's sheets, traced once with the driver's place as its input."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import pi
+from typing import Any
+
+from graphkin.construction.core.batch import made_ready, run_moving
+from graphkin.construction.core.run import Trace
+from graphkin.construction.rolling.wheel_actions import counted_link
+from graphkin.mechanism import Mechanism
+from graphkin.motion.counted import Turned, name_of, through
+from graphkin.motion.pieces import followed
+from graphkin.motion.sweep import sweep_of
+from graphkin.tape.graph import Graph
+from graphkin.tape.tape_outputs import TapeOutputs
+from graphkin.tape.traced import TracedNumber
+from graphkin.tape.tracer import traced_kind
+from graphkin.web.branch_tracking import TrackedBranch, around
+from graphkin.web.page_driver import INPUT, PageDriver, Reach, reach_of, window
+from graphkin.web.traced_closings import (
+    TracedClosing,
+    closing,
+    drawn_state,
+    names_of,
+    solver,
+    tried,
+)
+
+SLACK = 1e-6
+"""Parts of the mechanism by which a bar's length may be off where it still closes."""
+
+
+@dataclass(frozen=True)
+class Tracing:
+    """The traced steps of a mechanism: what a sheet has traced, the next ones take over.
+
+    ``margins`` are the sines of all crossings, ``closings`` what closes groups of higher class,
+    ``counting`` by their inputs the links whose whole turns are followed.
+    """
+
+    mechanism: Mechanism
+    driven: PageDriver
+    graph: Graph = field(default_factory=Graph)
+    done: dict[int, Any] = field(default_factory=dict)
+    margins: dict[int, Any] = field(default_factory=dict)
+    closings: list[TracedClosing] = field(default_factory=list)
+    counting: dict[str, str] = field(default_factory=dict)
+
+    @cached_property
+    def x(self) -> TracedNumber:
+        """The driver's place, in the unit of the driver."""
+        return TracedNumber(self.graph, self.graph.input(INPUT))
+
+    @cached_property
+    def tape(self) -> TapeOutputs:
+        """The outputs."""
+        return TapeOutputs(self.graph, {INPUT: self.driven.start})
+
+    @property
+    def inputs(self) -> dict[str, int]:
+        """The places of the inputs: the driver, what closes groups, the angles links count near."""
+        names = [INPUT, *(name for each in self.closings for name in each.names)]
+        return {name: place for place, name in enumerate((*names, *self.counting))}
+
+    def traced(self, drawn: Trace) -> Trace:
+        """The steps that were run for a sheet, traced. Raises UntraceableError."""
+        program, values = drawn.program, self.mechanism.scene.values
+        scaled = dict(self.mechanism.trial_rates)
+        if program.seconds is not None and program.seconds in drawn.values:
+            scaled[program.seconds] = drawn.values[program.seconds]
+        own = {after for number in scaled for after in program.descendants(number)}
+        shared = {n: value for n, value in self.done.items() if n not in own}
+        overrides = scaled | self.closers(drawn) | shared
+        overrides |= self.driven.overrides(program, self.x) | self.counted(drawn)
+        overrides = {n: value for n, value in overrides.items() if n in drawn.values}
+        needed = sorted(drawn.values)
+        ready = made_ready(program, needed, values, needed, frozenset(overrides))
+        trace = run_moving(ready, values, traced_kind(), margins=True, overrides=overrides)
+        self.done.update(trace.values)
+        self.margins.update(trace.margins)
+        self.add_closings(drawn, trace)
+        return trace
+
+    # --- links that only their pins turn ---------------------------------------------------------
+
+    @cached_property
+    def turned(self) -> Turned | None:
+        """How far such links turn as the driver moves, which is in its unit."""
+        sweep = sweep_of(self.mechanism.scene)
+        turned = through(followed(sweep).ranges[0])
+        return None if turned is None else Turned(turned.at / self.driven.metres, turned.near)
+
+    def counted(self, drawn: Trace) -> dict[int, Any]:
+        """The steps that hold the angles near which these links count, traced."""
+        found: dict[int, Any] = {}
+        for number in drawn.values:
+            step = drawn.program.steps[number]
+            link = counted_link(step)
+            if link is None or self.turned is None or link not in self.turned.near:
+                continue
+            name = name_of(link)
+            self.counting[name] = link
+            self.tape.inputs |= self.near(self.driven.start)
+            angle = TracedNumber(self.graph, self.graph.input(name))
+            _, heading, near = step.args
+            found |= {heading: traced_kind().direction(angle), near: angle * (pi / 180)}
+        return found
+
+    def near(self, at: Any) -> dict[str, Any]:
+        """The angles near which links count at places of the driver, by their inputs."""
+        every = {} if self.turned is None else self.turned.values(at)
+        return {name: every[name] for name in self.counting}
+
+    # --- groups of higher class ----------------------------------------------------------------
+
+    def closers(self, drawn: Trace) -> dict[int, Any]:
+        """The steps that close groups, with a traced trial in their place."""
+        found = {}
+        for number, closer in closing_steps(drawn):
+            names = names_of(number, drawn.values[number])
+            state = drawn_state(closer, drawn.values[number])
+            self.tape.inputs.update(zip(names, state, strict=True))
+            found[number] = tried(names, self.graph, closer)
+        return found
+
+    def add_closings(self, drawn: Trace, trace: Trace) -> None:
+        """What closes the groups that no sheet before has, traced on what is known of them."""
+        steps = trace.program.steps
+        for number, closer in closing_steps(drawn):
+            names = names_of(number, drawn.values[number])
+            if any(each.names == names for each in self.closings):
+                continue
+            known = [trace.values[arg] for arg in steps[number].args]
+            each = closing(names, self.tape, closer, known, drawn.values[number])
+            self.closings.append(each)
+            parts = (later for later in trace.values if number in steps[later].args)
+            self.margins.update({n: each.sine for n in parts if steps[n].extra == (0,)})
+
+    # --- how far it goes -----------------------------------------------------------------------
+
+    def closed(self, trace: Trace, size: float) -> list[int]:
+        """The outputs that are finite where the mechanism closes: the places of all its points, and
+        a root of what is left of the room for each bar's length, which idle links may not keep."""
+        places = {
+            of: self.tape.lifted(trace.values[number])
+            for (quantity, of), number in trace.program.targets.items()
+            if quantity == "position" and number in trace.values
+        }
+        found: set[int] = set()
+        for point in places.values():
+            if self.moves(point):
+                first = self.tape.point(point)
+                found |= {first, first + 1}
+        for link in self.mechanism.scene.links.values():
+            points = [places[name] for name in link.points if name in places]
+            for point in points[1:]:
+                length = abs(point - points[0])
+                if self.moves(length):
+                    off = abs(length - float(self.tape.now(length)))
+                    found.add(self.tape.number((SLACK * size - off).do("sqrt")))
+        return sorted(found)
+
+    def moves(self, value: TracedNumber) -> bool:
+        """Whether a number or point is no constant."""
+        nodes = (value.node, value.imag.node)
+        return any(self.graph.constant(node) is None for node in nodes)
+
+    def reached(self, closed: Sequence[int], size: float) -> tuple[Reach, TrackedBranch] | None:
+        """The range, and what closes groups on the way through it; None where nothing moves."""
+        if not self.closings:
+            outputs = [self.tape.outputs[i] for i in closed]
+            reach = reach_of(self.driven, self.graph, outputs, self.near)
+            return None if reach is None else (reach, TrackedBranch())
+        solve = solver(self.graph, INPUT, self.closings, self.counting, self.near, size)
+        turning, start = self.driven.what == "turn", self.driven.start
+        return around(solve, start, window(self.driven), turning=turning)
+
+
+def closing_steps(trace: Trace) -> Iterator[tuple[int, Any]]:
+    """The steps that close groups of higher class, in order, each with what closes it."""
+    for number in sorted(trace.values):
+        action = trace.program.steps[number].action
+        if action is not None and action.key == "close":
+            yield number, action.value

@@ -1,0 +1,1 @@
+"""Pages as SVG and PDF, marks in axes of matplotlib, files written whole or not at all."""

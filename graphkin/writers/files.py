@@ -1,0 +1,153 @@
+"""Files written whole or not at all: checked first, written aside, then put in their places."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from zlib import crc32
+
+from graphkin.drawing.marks import Page
+from graphkin.drawing.style import Ink
+from graphkin.text.errors import FileError, PageError, Problem
+from graphkin.writers.lock import alive, locked
+
+RESERVED = frozenset(
+    ["CON", "PRN", "AUX", "NUL"] + [f"{port}{i}" for port in ("COM", "LPT") for i in range(10)]
+)
+"""Names that Windows keeps for devices, whatever follows their first dot."""
+LONGEST = 60
+"""Characters of one part of a file name."""
+MOST_BYTES = 180
+"""Bytes of the first part of a file name, so that the rest finds room in 255."""
+SHOWN = 3
+"""Files in the way that are named."""
+PATIENCE = 10.0
+"""Seconds to wait for another run that writes into the same folder."""
+ASIDE = re.compile(r"\.graphkin-([0-9]+)-[0-9]+\.part")
+"""A file that is written aside, with its process."""
+PDF_ONLY = "calculation"
+"""The sheet that comes as PDF only, for it is several pages of text."""
+
+
+def file_part(text: str) -> str:
+    """A name or value as part of a file name: what a file system may not like becomes _."""
+    part = re.sub(r"[^\w.+-]+", "_", text).strip("._")[:LONGEST].rstrip(".")
+    return f"_{part}" if part.partition(".")[0].upper() in RESERVED else part or "_"
+
+
+def file_stem(name: str, settings: Mapping[str, str]) -> str:
+    """The name of a scene, then what is set: pump-n7."""
+    stem = "-".join([file_part(name), *(file_part(f"{k}{v}") for k, v in settings.items())])
+    whole = stem.encode("utf-8")
+    if len(whole) <= MOST_BYTES:
+        return stem
+    return f"{whole[: MOST_BYTES - 9].decode('utf-8', 'ignore')}-{crc32(whole):08x}"
+
+
+def rendered(
+    stem: str,
+    kind: str,
+    pages: Sequence[Page],
+    formats: Sequence[str],
+    ink: Ink = "colour",
+) -> dict[str, bytes]:
+    """The files of one sheet by name: an SVG for each drawing, one PDF for all its pages."""
+    files: dict[str, bytes] = {}
+    if "svg" in formats and kind != PDF_ONLY:
+        from graphkin.writers.svg import write_svg
+
+        for number, page in enumerate(pages, 1):
+            tail = f"-{number}" if len(pages) > 1 else ""
+            files[f"{stem}{tail}.svg"] = write_svg(page, ink).encode("utf-8")
+    if "pdf" in formats:
+        from graphkin.writers.pdf import write_pdf
+
+        files[f"{stem}.pdf"] = write_pdf(pages, ink, title=pages[0].title)
+    return files
+
+
+def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Path]:
+    """Write all files into a folder, made if missing; raises PageError before any is touched.
+
+    Files that exist are replaced only by ``force``. Each is written aside first, so that a full
+    disk or a folder that cannot be written leaves what was there. Runs into one folder wait for
+    each other.
+    """
+    targets = {folder / name: data for name, data in files.items()}
+    folders = dict.fromkeys((folder, *(target.parent for target in targets)))
+    try:
+        refuse_existing(folder, list(targets), force)
+        for each in folders:
+            each.mkdir(parents=True, exist_ok=True)
+        with locked(folder, patience=PATIENCE):
+            refuse_existing(folder, list(targets), force)
+            sweep(folders)
+            put_in_place(targets)
+    except OSError as error:
+        raise cannot_write(str(folder), error) from error
+    return list(targets)
+
+
+def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
+    """Raise PageError with every target that is in the way."""
+    if folder.exists() and not folder.is_dir():
+        hint = "name another folder with -o"
+        raise FileError(Problem(str(folder), "is a file", "a folder", hint))
+    folders = [target for target in targets if target.is_dir()]
+    there = [t for t in targets if not force and os.path.lexists(t) and t not in folders]
+    problems = [in_the_way(there)] if there else []
+    problems += [Problem(str(t), "is a folder", "a place for a file") for t in folders]
+    if problems:
+        raise FileError(problems)
+
+
+def in_the_way(there: Sequence[Path]) -> Problem:
+    """The problem of files that exist: all of them in one line, the first by name."""
+    if len(there) == 1:
+        hint = "--force replaces it, -o names another folder"
+        return Problem(str(there[0]), "exists already", "a new file", hint)
+    more = len(there) - SHOWN
+    rest = f" and {more} more" if more > 0 else ""
+    names = ", ".join(map(str, there[:SHOWN])) + rest
+    hint = "--force replaces them, -o names another folder"
+    return Problem(names, "each exists already", "new files", hint)
+
+
+def sweep(folders: Iterable[Path]) -> None:
+    """Remove what runs that were killed left aside; that of another process that lives stays."""
+    for folder in folders:
+        for path in folder.glob(".graphkin-*.part"):
+            found = ASIDE.fullmatch(path.name)
+            if found and (int(found[1]) == os.getpid() or not alive(int(found[1]))):
+                path.unlink(missing_ok=True)
+
+
+def put_in_place(targets: Mapping[Path, bytes]) -> None:
+    """Write every file aside, then rename them one after the other; after a failure none is new."""
+    aside = {
+        target: target.with_name(f".graphkin-{os.getpid()}-{i}.part")
+        for i, target in enumerate(targets)
+    }
+    new: list[Path] = []
+    try:
+        for target, data in targets.items():
+            aside[target].write_bytes(data)
+        for target, written in aside.items():
+            if not target.exists():
+                new.append(target)
+            written.replace(target)
+    except BaseException:
+        for path in (*aside.values(), *new):
+            with suppress(OSError):
+                path.unlink()
+        raise
+
+
+def cannot_write(place: str, error: OSError) -> PageError:
+    """The error for a file or folder that the system does not let us write."""
+    reason = error.strerror or str(error)
+    found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
+    return FileError(Problem(place, found, "a folder that can be written", "name one with -o"))

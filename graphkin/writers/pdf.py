@@ -1,0 +1,196 @@
+"""Write pages as one PDF file: true size, embedded font, text that can be searched."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from io import BytesIO
+from math import ceil, cos, radians, sin, tan
+
+from reportlab import rl_config
+from reportlab.pdfbase import pdfmetrics
+from reportlab.pdfbase.ttfonts import TTFont
+from reportlab.pdfgen.canvas import Canvas
+
+from graphkin.drawing.glyphs import FILES, font_file
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Point, Polyline, Text
+from graphkin.drawing.richtext import TextRun, spaced_runs
+from graphkin.drawing.style import Ink, Style, style_of
+
+MM = 72 / 25.4  # points to the millimetre
+rl_config.useA85 = 0  # compressed streams need not be spelled in letters: smaller, quicker
+
+
+def number(value: float) -> str:
+    """Write points with four decimals at most (0.00004 mm)."""
+    text = f"{value:.4f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+@lru_cache(maxsize=64)
+def colour(code: str) -> str:
+    """Write ``#rrggbb`` as three parts of one."""
+    return " ".join(number(int(code[i : i + 2], 16) / 255) for i in (1, 3, 5))
+
+
+@lru_cache(maxsize=128)
+def line_setting(style: Style) -> str:
+    """Write the width, colour, dashes, ends and corners of a line."""
+    dash = " ".join(number(length * MM) for length in style.dash)
+    ends = "1 J 1 j" if style.round else "0 J 0 j"
+    return f"{number(style.width * MM)} w {colour(style.colour)} RG [{dash}] 0 d {ends}"
+
+
+@lru_cache(maxsize=2)
+def face(italic: bool) -> TTFont:
+    """Read one face and make it known to reportlab, once."""
+    font = TTFont(FILES[italic], str(font_file(italic)), asciiReadable=False, shapable=False)
+    pdfmetrics.registerFont(font)
+    return font
+
+
+def at(x: float, y: float, top: float) -> str:
+    """Write a place on a page ``top`` mm high in points, y up."""
+    return f"{number(x * MM)} {number((top - y) * MM)}"
+
+
+@lru_cache(maxsize=4096)
+def outline(mark: LineMark | Polyline | CircleMark | Arc, top: float) -> str:
+    """Write the path of a mark; much of a sheet is the same on the next one."""
+    if isinstance(mark, LineMark):
+        return path([(mark.x1, mark.y1), (mark.x2, mark.y2)], top)
+    if isinstance(mark, Polyline):
+        return path(mark.points, top)
+    if isinstance(mark, CircleMark):
+        mark = Arc(mark.cx, mark.cy, mark.r, 0.0, 360.0, mark.cls)
+    return curve(mark, top)
+
+
+def path(points: Iterable[Point], top: float) -> str:
+    """Write a broken line."""
+    first, *rest = (at(x, y, top) for x, y in points)
+    return "\n".join([first, "m", *(f"{place}\nl" for place in rest)])
+
+
+def curve(arc: Arc, top: float) -> str:
+    """Write an arc in Bézier pieces so short that they leave the circle by no 0.001 mm."""
+    most = 45.0 if arc.r <= 100 else 22.5
+    count = max(1, ceil(abs(arc.end - arc.start) / most))
+    turn = radians(arc.end - arc.start) / count
+    reach = 4 / 3 * tan(turn / 4) * arc.r  # length of the handles
+    words = [at(*arc.at(arc.start), top), "m"]
+    for i in range(count):
+        a, b = radians(arc.start) + i * turn, radians(arc.start) + (i + 1) * turn
+        ca, sa, cb, sb = cos(a), sin(a), cos(b), sin(b)
+        x1, y1 = arc.cx + arc.r * ca - reach * sa, arc.cy - arc.r * sa - reach * ca
+        x3, y3 = arc.cx + arc.r * cb, arc.cy - arc.r * sb
+        words += (at(x1, y1, top), at(x3 + reach * sb, y3 + reach * cb, top))
+        words += (at(x3, y3, top), "c")
+    return "\n".join(words)
+
+
+@lru_cache(maxsize=4096)
+def lettering(text: Text, top: float) -> tuple[tuple[str, TextRun], ...]:
+    """Write where each run of a text stands, turned with the text."""
+    c, s = cos(radians(text.rotate)), sin(radians(text.rotate))
+    turned = f"{number(c)} {number(s)} {number(-s)} {number(c)}" if text.rotate else "1 0 0 1"
+    left, found = text.left(), []
+    for run in spaced_runs(text.markup, text.height):
+        u, v = left + run.x, run.y
+        place = at(text.x + u * c + v * s, text.y - u * s + v * c, top)
+        found.append((f"{turned} {place} Tm", run))
+    return tuple(found)
+
+
+class PdfPen:
+    """Writes the marks of one page as PDF operators; sets line and fill only where they change."""
+
+    def __init__(self, canvas: Canvas, page: Page, ink: Ink) -> None:
+        self.document = canvas._doc  # type: ignore[attr-defined]
+        self.ink = ink
+        self.top = page.height
+        self.line = self.filling = ""
+        self.code: list[str] = []
+        self.shown: dict[tuple[str, float, bool], list[str]] = {}
+
+    def draw(self, mark: Mark) -> None:
+        """Write one mark."""
+        style = style_of(mark.cls, self.ink)
+        if isinstance(mark, Text):
+            self.text(mark, style)
+        else:
+            closed = isinstance(mark, CircleMark) or (isinstance(mark, Polyline) and mark.closed)
+            self.paint(outline(mark, self.top), style, closed)
+
+    def paint(self, path: str, style: Style, closed: bool) -> None:
+        """Stroke and fill a path as its style says; open paths are never filled."""
+        filled, stroked = bool(closed and style.fill), bool(style.width)
+        if stroked:
+            self.set_line(line_setting(style))
+        if filled:
+            self.set_fill(style.fill)
+        if stroked or filled:
+            ends = {(True, True): "b", (True, False): "s", (False, True): "f"}
+            self.code += (path, ends[stroked, filled] if closed else "S")
+
+    def set_line(self, setting: str) -> None:
+        """Change how lines are drawn, if that differs from the last line."""
+        if setting != self.line:
+            self.line = setting
+            self.code.append(setting)
+
+    def set_fill(self, code: str) -> None:
+        """Change the colour of fills and lettering, if it differs from the last one."""
+        if code != self.filling:
+            self.filling = code
+            self.code.append(f"{colour(code)} rg")
+
+    def text(self, text: Text, style: Style) -> None:
+        """Write the runs of a text, each at its own place."""
+        self.set_fill(style.colour)
+        self.code.append("BT")
+        for place, run in lettering(text, self.top):
+            self.code.append(place)
+            self.code += self.show(run.text, run.size * MM, run.italic)
+        self.code.append("ET")
+
+    def show(self, words: str, size: float, italic: bool) -> list[str]:
+        """Write one run in the codes of the embedded part of its face."""
+        key = words, size, italic
+        if key not in self.shown:
+            font = face(italic)
+            self.shown[key] = [
+                f"{font.getSubsetInternalName(part, self.document)} {number(size)} Tf"
+                f" <{codes.hex()}> Tj"
+                for part, codes in font.splitString(words, self.document)
+            ]
+        return self.shown[key]
+
+
+def write_pdf(
+    pages: Sequence[Page], ink: Ink = "colour", title: str = "", author: str = ""
+) -> bytes:
+    """Write pages as PDF, each of its own true size; the same pages give the same bytes."""
+    target = BytesIO()
+    canvas = Canvas(
+        target,
+        invariant=1,
+        pageCompression=1,
+        initialFontName=face(False).fontName,  # type: ignore[arg-type]  # the stub is wrong
+        lang=pages[0].lang if pages else None,
+    )
+    canvas.setTitle(title or (pages[0].title if pages else ""))
+    canvas.setAuthor(author)
+    canvas.setCreator("graphkin")
+    canvas.setSubject("")
+    canvas.setViewerPreference("PrintScaling", "None")
+    for page in pages:
+        page.check()
+        canvas.setPageSize((page.width * MM, page.height * MM))
+        pen = PdfPen(canvas, page, ink)
+        for mark in page.marks:
+            pen.draw(mark)
+        canvas.addLiteral("\n".join(pen.code))
+        canvas.showPage()
+    canvas.save()
+    return target.getvalue()

@@ -1,0 +1,170 @@
+"""Write a page as an SVG file: true millimetres, real text, its font inside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import lru_cache
+from html import escape
+
+from svgwrite import Drawing
+
+from graphkin.drawing.glyphs import FAMILY, font_face
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Point, Polyline, Text
+from graphkin.drawing.richtext import TextRun, spaced_runs
+from graphkin.drawing.style import Ink, Style, style_of
+
+FONTS = f'"{FAMILY}","DejaVu Sans",sans-serif'
+TAGS = {LineMark: "line", CircleMark: "circle", Arc: "path", Text: "text"}
+LETTERING = f"text{{font-family:{FONTS};font-kerning:none;white-space:pre}}"
+
+
+def number(value: float) -> str:
+    """Write millimetres with four decimals at most, without needless zeros."""
+    text = f"{value:.4f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def pairs(points: Iterable[Point]) -> str:
+    """Write points as ``x,y x,y``."""
+    return " ".join(f"{number(x)},{number(y)}" for x, y in points)
+
+
+@lru_cache(maxsize=4096)
+def called(cls: str, name: str) -> str:
+    """Write a mark's class and its name, if it has one."""
+    return f'class="{escape(cls)}"' + (f' data-name="{escape(name)}"' if name else "")
+
+
+def about(mark: Mark) -> str:
+    """Write the attributes that tell what a mark is: class, name and step."""
+    step = f' data-step="{mark.step}"' if mark.step is not None else ""
+    return called(mark.cls, mark.name) + step
+
+
+def arc_path(arc: Arc) -> str:
+    """Write an arc as a path; SVG counts its sweep the other way round, for y runs down."""
+    (x1, y1), (x2, y2) = arc.at(arc.start), arc.at(arc.end)
+    turn, r = arc.end - arc.start, number(arc.r)
+    flags = f"{int(abs(turn) > 180)} {int(turn < 0)}"
+    return f"M{number(x1)} {number(y1)}A{r} {r} 0 {flags} {number(x2)} {number(y2)}"
+
+
+@lru_cache(maxsize=4096)
+def said(markup: str, height: float) -> tuple[tuple[float, float, str, str], ...]:
+    """Give the offsets of a markup's runs in mm, how each is lettered and what it says."""
+    return tuple(
+        (run.x, run.y, lettering(run), escape(run.text, quote=False))
+        for run in spaced_runs(markup, height)
+    )
+
+
+def lettering(run: TextRun) -> str:
+    """Write how large one run is, and that it is slanted where it is."""
+    slant = ' font-style="italic"' if run.italic else ""
+    return f'font-size="{number(run.size)}"{slant}'
+
+
+def text_element(text: Text) -> str:
+    """Write a text: each run at its own place, in a tspan when there are several."""
+    head = about(text)
+    if text.rotate:
+        turn = f"{number(-text.rotate)} {number(text.x)} {number(text.y)}"
+        head += f' transform="rotate({turn})"'
+    left, base = text.x + text.left(), text.y
+    parts = [
+        (f'x="{number(left + x)}" y="{number(base + y)}" {letters}', words)
+        for x, y, letters, words in said(text.markup, text.height)
+    ]
+    if len(parts) == 1:
+        return f"<text {head} {parts[0][0]}>{parts[0][1]}</text>"
+    spans = "".join(f"<tspan {place}>{words}</tspan>" for place, words in parts)
+    return f"<text {head}>{spans}</text>"
+
+
+@lru_cache(maxsize=4096)
+def element(mark: Mark) -> str:
+    """Write one mark as an SVG element."""
+    if isinstance(mark, Text):
+        return text_element(mark)
+    if isinstance(mark, LineMark):
+        start = f'x1="{number(mark.x1)}" y1="{number(mark.y1)}"'
+        return f'<line {about(mark)} {start} x2="{number(mark.x2)}" y2="{number(mark.y2)}"/>'
+    if isinstance(mark, CircleMark):
+        centre = f'cx="{number(mark.cx)}" cy="{number(mark.cy)}"'
+        return f'<circle {about(mark)} {centre} r="{number(mark.r)}"/>'
+    if isinstance(mark, Polyline):
+        return f'<{tag(mark)} {about(mark)} points="{pairs(mark.points)}"/>'
+    return f'<path {about(mark)} d="{arc_path(mark)}"/>'
+
+
+def selector(cls: str) -> str:
+    """Select the marks of all these classes."""
+    return "".join(f".{name}" for name in cls.split())
+
+
+def line_rule(style: Style, open_only: bool) -> str:
+    """Write how lines of a style are drawn; open lines and arcs are never filled."""
+    fill = "none" if open_only or not style.fill else style.fill
+    if not style.width:
+        return f"fill:{fill};stroke:none"
+    ends = "round" if style.round else "butt"
+    corners = "round" if style.round else "miter"
+    dash = " ".join(map(number, style.dash)) or "none"
+    return (
+        f"fill:{fill};stroke:{style.colour};stroke-width:{number(style.width)};"
+        f"stroke-dasharray:{dash};stroke-linecap:{ends};stroke-linejoin:{corners}"
+    )
+
+
+def tag(mark: Mark) -> str:
+    """Name the element that a mark is written as."""
+    if isinstance(mark, Polyline):
+        return "polygon" if mark.closed else "polyline"
+    return TAGS[type(mark)]
+
+
+def rules(marks: Iterable[Mark], ink: Ink) -> list[str]:
+    """Write one rule for each kind and class used, in order of first use."""
+    return [rule(*kind, ink) for kind in dict.fromkeys((tag(mark), mark.cls) for mark in marks)]
+
+
+@lru_cache(maxsize=1024)
+def rule(name: str, cls: str, ink: Ink) -> str:
+    """Write how elements of a name and class are drawn; circles and polygons have an inside."""
+    style = style_of(cls, ink)
+    open_only = name not in ("circle", "polygon")
+    body = f"fill:{style.colour}" if name == "text" else line_rule(style, open_only)
+    return f"{name}{selector(cls)}{{{body}}}"
+
+
+def style_sheet(pages: Iterable[Page], ink: Ink = "colour", embed_fonts: bool = True) -> str:
+    """Write the style sheet of one page or several, with the faces they use."""
+    marks = [mark for page in pages for mark in page.marks]
+    lines = [LETTERING, *rules(marks, ink)]
+    if embed_fonts:
+        markups = {(mark.markup, mark.height) for mark in marks if isinstance(mark, Text)}
+        slants = {run.italic for markup in markups for run in spaced_runs(*markup)}
+        lines = [font_face(slant) for slant in sorted(slants)] + lines
+    return "\n".join(lines)
+
+
+def write_svg(page: Page, ink: Ink = "colour", embed_fonts: bool = True) -> str:
+    """Write a page as SVG, its width and height in mm, one user unit to the millimetre."""
+    page.check()
+    size, sheet = (number(page.width), number(page.height)), style_sheet([page], ink, embed_fonts)
+    marks = "\n".join(map(element, page.marks))  # written here: the library takes twice as long
+    return f"{head(size, page.title, page.lang, sheet)}\n{marks}\n</svg>\n"
+
+
+@lru_cache(maxsize=8)
+def head(size: tuple[str, str], title: str, lang: str, sheet: str) -> str:
+    """Write what stands before the marks, which is alike for the variants of a class."""
+    width, height = size
+    drawing = Drawing(
+        size=(f"{width}mm", f"{height}mm"), viewBox=f"0 0 {width} {height}", debug=False
+    )
+    drawing.attribs |= {"lang": lang, "xml:lang": lang, "role": "img"}
+    drawing.set_desc(title=title)
+    drawing.embed_stylesheet(sheet)
+    opening: str = drawing.tostring().removesuffix("</svg>")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{opening}'

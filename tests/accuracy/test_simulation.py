@@ -1,0 +1,168 @@
+"""Drawings by the thousand: exact without errors, always the same, and larger paper helps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from graphkin.accuracy.pencil import Pencil, drawn, simulated
+from graphkin.accuracy.pencil.drawn_closing import followed
+from graphkin.accuracy.pencil.pencil import RADIAL
+from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark
+from graphkin.accuracy.pencil.redrawing import closer_of, read_off, redrawn
+from graphkin.construction.core.program import Plane
+from graphkin.documents.sheet_documents import scales
+from graphkin.mechanism import load
+from tests.accuracy.originals import D_AWAY, EVERY_SCENE, pump, scene
+
+COUNT = 2000
+
+
+def enlarged(exact, times: float):
+    """The same drawing on paper so many times larger."""
+    paper = exact.paper
+    return replace(
+        exact,
+        paper=Paper(paper.mechanism / times, paper.velocities / times, paper.accelerations / times),
+    )
+
+
+@pytest.mark.parametrize("name", EVERY_SCENE)
+def test_a_perfect_pencil_gives_the_exact_answers_of_every_scene(name):
+    many = simulated(scene(name), Pencil(0.0), 2)
+    for answer in many.answers:
+        size = max(abs(answer.value), 1e-6 * answer.millimetre, 1e-9)
+        assert many[answer.target] == pytest.approx(answer.value, abs=1e-9 * size + 1e-12)
+
+
+@pytest.mark.parametrize("n", [1, 7, 20, 30])
+def test_a_perfect_pencil_gives_the_pump_to_rounding(n):
+    many = simulated(pump(n), Pencil(0.0), 3)
+    for answer in many.answers:
+        assert many[answer.target] == pytest.approx(answer.value, rel=1e-12)
+
+
+def test_the_same_seed_gives_the_same_drawings_and_another_others():
+    one, two = (simulated(pump(), Pencil(), 100, seed) for seed in (3, 3))
+    other = simulated(pump(), Pencil(), 100, 4)
+    for answer in one.answers:
+        assert (one[answer.target] == two[answer.target]).all()
+        assert (one[answer.target] != other[answer.target]).all()
+
+
+def test_the_first_of_more_drawings_are_those_of_fewer():
+    few, many = (simulated(pump(), Pencil(), count) for count in (70, 9000))
+    for answer in few.answers:
+        assert (few[answer.target] == many[answer.target][:70]).all()
+
+
+def test_fewer_answers_leave_the_others_as_they_were():
+    mechanism = load("pump", n=7)
+    chosen = scales(mechanism)
+    whole = drawn(mechanism, chosen, Pencil(), 50)
+    alone = drawn(mechanism, chosen, Pencil(), 50, targets=[("velocity", "D")])
+    assert (alone["velocity", "D"] == whole["velocity", "D"]).all()
+
+
+def test_errors_grow_in_proportion_to_a_small_pencil():
+    small, double = (simulated(pump(), Pencil(p), COUNT) for p in (0.02, 0.04))
+    for answer in small.answers:
+        grown = double.error(answer.target) / small.error(answer.target)
+        assert grown == pytest.approx(2, rel=0.02)
+
+
+def test_paper_twice_as_large_halves_what_marks_do():
+    exact, marks_only = pump(), Pencil(0.04, line=0.0)
+    small, large = (simulated(each, marks_only, COUNT) for each in (exact, enlarged(exact, 2)))
+    for answer in small.answers:
+        shrunk = small.error(answer.target) / large.error(answer.target)
+        assert shrunk == pytest.approx(2, rel=0.02)
+
+
+def test_larger_paper_does_not_help_against_lines_that_point_wrongly():
+    exact, lines_only = pump(), Pencil(0.0, line=0.5)
+    small, large = (simulated(each, lines_only, COUNT) for each in (exact, enlarged(exact, 2)))
+    for answer in small.answers:
+        assert small.error(answer.target) == pytest.approx(large.error(answer.target), rel=1e-9)
+
+
+def test_marks_on_a_fine_grid_err_less_than_on_a_coarse_one():
+    errors = [simulated(pump(), Pencil(0.0, grid=g), 1).error(D_AWAY) for g in (1e-4, 0.01, 2.0)]
+    assert errors == sorted(errors)
+    assert errors[0] < 1e-3 * errors[2]
+
+
+def test_a_drawing_that_cannot_close_is_told_as_one():
+    hopeless = simulated(scene("eight-link-2"), Pencil(5.0), 500)
+    assert np.isnan(hopeless["acceleration", "E"]).mean() > 0.05
+    assert hopeless.error(("acceleration", "E")) == np.inf
+
+
+def test_velocities_hang_on_no_mark_of_the_acceleration_plan():
+    exact = pump()
+    coarse = replace(exact, paper=replace(exact.paper, accelerations=1e3))
+    one, two = (simulated(each, Pencil(), 50) for each in (exact, coarse))
+    for quantity, of in exact.targets:
+        same = (one[quantity, of] == two[quantity, of]).all()
+        assert same == (quantity in ("velocity", "omega", "centre"))
+
+
+def test_a_drawn_bar_tells_its_direction_alone_for_its_length_is_given():
+    """A rate is a length read off a plan over the length of the bar, not over how it came out."""
+    exact = pump()
+    number = exact.program.targets["omega", "3"]
+    p, q = exact.program.steps[number].args[:2]
+    longer = dict(exact.trace.values)
+    longer[q] += 0.02 * (longer[q] - longer[p])
+    assert read_off(exact, number, longer) == pytest.approx(longer[number], rel=1e-12)
+
+
+def test_a_slip_along_the_perpendicular_is_read_as_tangential_component():
+    """The perpendicular stays where it is, so that the image does; its arrow alone is longer."""
+    exact = pump()
+    number = exact.program.targets["epsilon", "3"]
+    p, q, _, tip = exact.program.steps[number].args
+    tail, values = exact.tails[number], exact.trace.values
+    bar = values[q] - values[p]
+    across = 1j * bar / abs(bar)
+    slip = 1.0 * exact.paper.millimetre(Plane.ACCELERATIONS)
+
+    def slipped(step: int, mark: PencilMark):
+        rows = np.zeros((1, mark.errors))
+        if step == tail:
+            rows[0, :2] = across.real, across.imag
+        return rows
+
+    pencil = Pencil(RADIAL, line=0.0)
+    found = redrawn(exact, pencil, slipped)
+    assert found[tail] - values[tail] == pytest.approx(slip * across, rel=1e-9)
+    assert found[tip] == pytest.approx(values[tip], rel=1e-9)
+    assert found[number] - values[number] == pytest.approx(-slip / abs(bar), rel=1e-9)
+
+
+def test_an_angular_acceleration_is_read_from_its_tangential_component():
+    exact = pump()
+    steps = exact.program.steps
+    for link in "234":
+        number = exact.program.targets["epsilon", link]
+        tail = exact.tails[number]
+        arrows = [s for s in steps if s.arrow and s.args == (tail, steps[number].args[3])]
+        assert [arrow.says["kind"] for arrow in arrows] == ["τ"]
+
+
+@pytest.mark.parametrize("name", ["rapid-return", "stephenson-2-binary", "rod-and-wheel"])
+def test_a_higher_group_closes_on_its_drawn_pins_as_it_would_by_trying_all_round(name):
+    exact = scene(name)
+    (number,) = [n for n, mark in exact.marks.items() if mark is PencilMark.CLOSING]
+    step = exact.program.steps[number]
+    rng = np.random.default_rng(5)
+    pins = [exact.trace.values[arg] for arg in step.args]
+    for i, arg in enumerate(step.args):
+        if exact.program.steps[arg].plane is Plane.MECHANISM:
+            pins[i] += 1e-4 * complex(*rng.standard_normal(2))
+    here = followed(closer_of(step), exact.trace.values[number], pins, np.zeros(1))
+    there = closer_of(step)(*pins)
+    assert complex(here[0][0]) == pytest.approx(complex(there[0]), abs=1e-9)
+    assert here[1:-1] == there[1:-1]

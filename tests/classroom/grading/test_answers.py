@@ -1,0 +1,270 @@
+"""Answer tables: strict numbers, units, senses in three languages, all mistakes told at once."""
+
+from __future__ import annotations
+
+import unicodedata
+
+import openpyxl
+import pytest
+
+from graphkin.classroom.grading.answer_numbers import read_answer, rounding
+from graphkin.classroom.grading.answers import Unread, read_answers
+from graphkin.classroom.grading.feedback_rows import unread
+from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.text import words
+
+LENGTH = Item("v_D_mm", "segment", "v", "mm", "velocity", "D")
+SPEED = Item("v_D", "value", "v", "m/s", "velocity", "D")
+RATE = Item("omega_3", "value", "ω", "rad/s", "omega", "3")
+HARD = Item("a_D", "value", "a", "m/s²", "acceleration", "D")
+SENSE = Item("omega_3_sense", "sense", "ω", "", "omega", "3")
+SLIDING = Item("v_slide_2_sense", "sense", "v", "", "slide speed", "2")
+FORM = (LENGTH, SPEED, RATE, SENSE)
+IDS = ("001", "002", "ĂÎ-3")
+
+
+@pytest.mark.parametrize(
+    ("text", "item", "value"),
+    [
+        ("19.75", LENGTH, 19.75),
+        ("19,75", LENGTH, 19.75),
+        (" 19,75 mm ", LENGTH, 19.75),
+        ("1,975cm", LENGTH, 19.75),
+        ("-5", LENGTH, -5.0),
+        ("−5", LENGTH, -5.0),
+        ("+.5", LENGTH, 0.5),
+        ("3.8 m/s", SPEED, 3.8),
+        ("380 cm/s", SPEED, 3.8),
+        ("3,8e2", SPEED, 380.0),
+        ("4,7·10^2 m/s^2", HARD, 470.0),
+        ("4.7 x 10^2 m/s2", HARD, 470.0),
+        ("473 m/s²", HARD, 473.0),
+        ("27,6 1/s", RATE, 27.6),
+        ("27,6 s^-1", RATE, 27.6),
+        ("27.6 (rad/s)", RATE, 27.6),
+    ],
+)
+def test_numbers_are_read_with_point_or_comma_and_unit(text, item, value):
+    answer = read_answer(text, item)
+    assert answer.value == pytest.approx(value, rel=1e-15)
+    assert not answer.problem
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "１２.５",
+        "1_000",
+        "nan",
+        "inf",
+        "1e400",
+        "12,3,4",
+        "1.234,5",
+        "0x1F",
+        "twelve",
+        "12 kg",
+        "--5",
+        "5..",
+        "=5",
+        "٣",
+        "1" * 400,
+    ],
+)
+def test_what_is_no_number_is_unreadable_and_says_why(text):
+    answer = read_answer(text, SPEED)
+    assert answer.value is None
+    assert answer.problem
+    assert not answer.is_blank
+
+
+@pytest.mark.parametrize("text", ["", " ", "\t"])
+def test_nothing_is_not_answered(text):
+    assert read_answer(text, SPEED).is_blank
+    assert read_answer(text, SENSE).is_blank
+
+
+def written(folder, name, text):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_table_with_semicolons_a_mark_and_strange_columns(tmp_path):
+    text = (
+        "\ufeffMatricol;V_D_MM;v_D;omega_3_sense;comment\n001;19,75;3,8;orar;=1+1\nĂÎ-3;;abc;+;\n"
+    )
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    assert found.of["001"]["v_D_mm"].value == 19.75
+    assert found.of["001"]["omega_3_sense"].value == -1
+    assert found.of["ĂÎ-3"]["v_D_mm"].is_blank
+    assert found.unread == [Unread("a.csv", 3, "ĂÎ-3", "v_D", "abc", "number", "m/s")]
+    assert found.missing == ["omega_3"]
+    assert [(each.file, each.name) for each in found.strangers] == [("a.csv", "comment")]
+
+
+def test_columns_of_a_class_list_are_passed_over(tmp_path):
+    text = "Nr.;Matricol;Nume și prenume;Grupa;Limba;v_D;v_DD\n1;001;Popa Ion;A;ro;3,8;1\n"
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    assert found.of["001"]["v_D"].value == 3.8
+    assert [(each.name, each.near) for each in found.strangers] == [("v_DD", "v_D")]
+    form = "field;value\nname;Popa Ion\ngrupa;A\nv_D;3,8\n"
+    found = read_answers(written(tmp_path, "002.csv", form), FORM, IDS)
+    assert found.of["002"]["v_D"].value == 3.8
+    assert not found.strangers
+
+
+def test_a_student_may_sign_with_the_code_on_the_sheets(tmp_path):
+    text = "id,v_D\nQWERTYUIOP,3.8\n002,1\n"
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS, {"QWERTYUIOP": "001"})
+    assert found.of["001"]["v_D"].value == 3.8
+    with pytest.raises(RosterError, match="has answers already"):
+        read_answers(written(tmp_path, "a.csv", text + "001,2\n"), FORM, IDS, {"QWERTYUIOP": "001"})
+
+
+def test_an_id_in_loose_letters_is_the_same_id(tmp_path):
+    text = "id,v_D\n" + unicodedata.normalize("NFD", "ĂÎ-3") + ",1\n"
+    assert "ĂÎ-3" in read_answers(written(tmp_path, "a.csv", text), FORM, IDS).of
+
+
+@pytest.mark.parametrize(
+    ("text", "item", "problem"),
+    [
+        ("twelve", SPEED, "number"),
+        ("12,3,4", SPEED, "number"),
+        ("12 kg", SPEED, "unit"),
+        ("3 mm", RATE, "unit"),
+        ("1e400", SPEED, "large"),
+        ("sus", SENSE, "turning"),
+        ("orar", SLIDING, "sliding"),
+    ],
+)
+def test_what_cannot_be_read_says_why(text, item, problem):
+    assert read_answer(text, item).problem == problem
+
+
+def test_every_broken_file_of_a_folder_is_told(tmp_path):
+    written(tmp_path, "001.csv", 'field,value\nv_D,"1\n')
+    written(tmp_path, "003.csv", "field,value\nv_D,1\n")
+    (tmp_path / "002.csv").write_bytes(b"field,value\nv_D,\xff\n")
+    with pytest.raises(RosterError) as error:
+        read_answers(tmp_path, FORM, IDS)
+    told = "\n".join(str(problem) for problem in error.value.problems)
+    assert all(f"00{n}" in told for n in (1, 2, 3))
+
+
+SVG = """<?xml version="1.0"?>
+<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>
+<svg xmlns="http://www.w3.org/2000/svg"><script>alert(1)</script><text>&b;</text></svg>
+"""
+
+
+def test_a_drawing_is_no_table_of_answers(tmp_path):
+    """Nothing of an SVG is ever read, expanded or shown again."""
+    with pytest.raises(RosterError, match=r"no column id|cannot be read|quote"):
+        read_answers(written(tmp_path, "001.svg", SVG), FORM, IDS)
+    with pytest.raises(RosterError, match="without any table"):
+        read_answers(tmp_path, FORM, IDS)
+
+
+@pytest.mark.parametrize(
+    ("text", "share"), [("2,1", 0.05 / 2.1), ("27", 0.5 / 27), ("4,10", 0.005 / 4.1), ("", 0.0)]
+)
+def test_a_number_is_rounded_by_half_a_unit_of_its_last_digit(text, share):
+    assert rounding(Answer(text)) == pytest.approx(share)
+
+
+def test_everything_wrong_with_the_rows_is_told_at_once(tmp_path):
+    text = "id,v_D\n001,1\n1,2\n001,3\n,4\n"
+    with pytest.raises(RosterError) as error:
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    places = [problem.place for problem in error.value.problems]
+    assert places == [f'a.csv, row {row}, column "id"' for row in (3, 4, 5)]
+    assert "answers already, in a.csv, row 2" in str(error.value)
+
+
+def test_leading_zeros_count(tmp_path):
+    with pytest.raises(RosterError, match="no student of this class; did you mean 001"):
+        read_answers(written(tmp_path, "a.csv", "id,v_D\n01,1\n"), FORM, IDS)
+
+
+@pytest.mark.parametrize("text", ["name,v_D\nA,1\n", "id,colour\n001,red\n"])
+def test_a_table_without_ids_or_fields_is_refused(tmp_path, text):
+    with pytest.raises(RosterError, match="no column"):
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+
+
+def test_a_folder_with_a_file_for_each_student(tmp_path):
+    written(tmp_path, "001.csv", "field;value\nv_D_mm;19,75\nomega_3_sense;ccw\n")
+    written(tmp_path, "x.csv", "câmp,valoare\nmatricol,002\nv_D,3.8 m/s\nv_DD,1\n")
+    written(tmp_path, "notes.md", "nothing")
+    found = read_answers(tmp_path, FORM, IDS)
+    assert found.of["001"]["v_D_mm"].value == 19.75
+    assert found.of["002"]["v_D"].value == 3.8
+    assert [each.name for each in found.strangers] == ["v_DD"]
+    assert found.missing == ["omega_3"]
+
+
+def test_a_folder_without_tables_is_refused(tmp_path):
+    with pytest.raises(RosterError, match="without any table"):
+        read_answers(tmp_path, FORM, IDS)
+
+
+def test_answers_in_a_spreadsheet(tmp_path):
+    book = openpyxl.Workbook()
+    for line in (("id", "v_D_mm", "omega_3_sense"), ("001", 19.75, "cw")):
+        book.active.append(line)
+    book.save(tmp_path / "a.xlsx")
+    found = read_answers(tmp_path / "a.xlsx", FORM, IDS)
+    assert found.of["001"]["v_D_mm"].value == 19.75
+    assert found.of["001"]["omega_3_sense"].value == -1
+
+
+def test_what_a_row_breaks_is_told_with_all_else(tmp_path):
+    text = "id,v_D\n001,1,2\n009,1\n,4\n"
+    with pytest.raises(RosterError) as error:
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    rows = [problem.place.partition(", row ")[2][0] for problem in error.value.problems]
+    assert rows == ["2", "3", "4"]
+
+
+def test_the_answers_to_another_lab_are_refused_with_their_columns(tmp_path):
+    text = "id,v_D,v_Q,a_Q,omega_9\n001,3.8,1,2,3\n"
+    with pytest.raises(RosterError, match="only 1 of the form's 4 fields") as refused:
+        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    assert "v_Q, a_Q, omega_9" in str(refused.value)
+    with pytest.raises(RosterError, match=r"no column is a field of the form.*v_Q"):
+        read_answers(written(tmp_path, "b.csv", "id,v_Q,a_Q\n001,1,2\n"), FORM, IDS)
+
+
+def test_a_part_of_the_form_is_no_other_lab(tmp_path):
+    found = read_answers(written(tmp_path, "a.csv", "id,v_D\n001,3.8\n"), FORM, IDS)
+    assert found.missing == ["v_D_mm", "omega_3", "omega_3_sense"]
+
+
+def test_who_is_not_in_the_class_is_told_what_to_do(tmp_path):
+    with pytest.raises(RosterError, match="leave that row out; or put the student into"):
+        read_answers(written(tmp_path, "a.csv", "id,v_D\n9999,3.8\n"), FORM, IDS)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["1o,5", "3.8.2", "1O", "2l", "5o0", "5O0 m/s", "1o m/s", "47b3,2", "4b7", "3x12", "1/2"],
+)
+def test_a_mistyped_number_is_no_matter_of_units(text):
+    assert read_answer(text, SPEED).problem == "number"
+
+
+@pytest.mark.parametrize("text", ["12 kg", "3 kg/m3", "3 m³", "4 N/m2", "5 mm^2", "2 l", "7 oz"])
+def test_a_unit_of_something_else_is_no_mistyped_number(text):
+    assert read_answer(text, SPEED).problem == "unit"
+
+
+@pytest.mark.parametrize(
+    ("language", "said"),
+    [("en", "is not a number"), ("ro", "nu este un număr"), ("it", "non è un numero")],
+)
+def test_letters_among_the_digits_are_told_as_no_number(language, said):
+    answer = read_answer("5o0", HARD)
+    assert unread(answer.problem, HARD.unit, words(language)) == said

@@ -1,0 +1,206 @@
+"""Slips named alike in every field that they touch, and seldom where chance alone is at work."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import pi
+
+import numpy as np
+import pytest
+
+from graphkin.classroom.grading.graded import Answer, EarnedMark, Status
+from graphkin.classroom.grading.marking import Marker
+from graphkin.classroom.grading.slip_diagnosis import judged
+from graphkin.classroom.grading.standard import Standard
+from tests.classroom.grading.students import LABS, drawn, given, marker_of, row, taker
+
+RPM = 30 / pi
+PENCIL = 0.3
+VARIANTS = (3, 12, 24)
+
+
+def right_set(name: str, n: int) -> dict[str, Answer]:
+    """The first answers of a careful drawing that are all right."""
+    tried = (handed_in(name, n, seed) for seed in range(1, 50))
+    return next(each for each in tried if is_all_right(marker_of(name, n), each))
+
+
+def is_all_right(marker: Marker, answers: Mapping[str, Answer]) -> bool:
+    """Whether every value is right by the key, by some way."""
+    graded = marker.mark(taker(), answers)
+    marks = [graded.mark(field) for field in values(marker.standard)]
+    return all(abs(m.off or 0.0) <= 0.8 * m.tolerance for m in marks)
+
+
+def handed_in(name: str, n: int, seed: int = 1) -> dict[str, Answer]:
+    """The answers of one careful drawing; values reckoned from the segments that were measured."""
+    standard = marker_of(name, n).standard
+    answers = row(drawn(standard, PENCIL, 1, seed), 0)
+    for field in values(standard):
+        answers |= given({field: three(own_value(standard, field, answers))})
+    return answers
+
+
+def three(value: float) -> float:
+    """A number to three digits."""
+    return float(f"{value:.3g}")
+
+
+def values(standard: Standard, vectors: bool = False) -> list[str]:
+    """The fields that are values which the drawing tells; of vectors with a segment only."""
+    fields = [probe.item.field for probe in standard.probes if probe.item.what == "value"]
+    fields = [field for field in fields if not standard.tolerance[field].unsure]
+    return [field for field in fields if not vectors or f"{field}_mm" in standard.key]
+
+
+def own_value(standard: Standard, field: str, answers: Mapping[str, Answer]) -> float:
+    """A value from the own segment where there is one."""
+    if f"{field}_mm" not in answers:
+        return float(answers[field].value or 0.0)
+    plane = standard.by_field[field].plane
+    return float(answers[f"{field}_mm"].value or 0.0) * standard.paper.millimetre(plane)
+
+
+def off_by(
+    standard: Standard,
+    answers: Mapping[str, Answer],
+    fields: Sequence[str],
+    velocities: float,
+    accelerations: float,
+) -> dict[str, Answer]:
+    """The answers with some values as many times too large."""
+    changed = {}
+    for field in fields:
+        fast = standard.by_field[field].item.unit in ("m/s", "rad/s")
+        own = own_value(standard, field, answers)
+        changed[field] = three(own * (velocities if fast else accelerations))
+    return {**answers, **given(changed)}
+
+
+def names(marker: Marker, answers: Mapping[str, Answer], fields: Sequence[str]) -> set[str]:
+    """The names that the wrong ones of some fields are given."""
+    graded = marker.mark(taker(), answers)
+    marks = [graded.mark(field) for field in fields]
+    return {mark.slip for mark in marks if mark.status is not Status.RIGHT}
+
+
+CASES = {
+    "rev/min for rad/s": (RPM, RPM**2, False, "rpm_as_rad"),
+    "rev/min for rad/s, only in values with a segment": (RPM, RPM**2, True, "rpm_as_rad"),
+    "rev/min for rad/s, the square forgotten": (RPM, RPM, False, "rpm_as_rad"),
+    "rev/s for rad/s": (1 / (2 * pi), 1 / (2 * pi) ** 2, False, "turns_as_rad"),
+    "a power of ten": (10.0, 10.0, False, "power_of_ten"),
+    "a power of ten, only in values with a segment": (10.0, 10.0, True, "power_of_ten"),
+    "metres for millimetres": (1e-3, 1e-3, True, "power_of_ten"),
+    "a scale of one's own": (0.7, 0.7, False, "wrong_scale"),
+    "a scale of one's own, squared in accelerations": (1.6, 2.56, False, "wrong_scale"),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("name", LABS)
+def test_a_factor_has_one_name_in_all_the_values_that_it_spoils(name, case):
+    velocities, accelerations, vectors, slip = CASES[case]
+    for n in VARIANTS:
+        marker = marker_of(name, n)
+        fields = values(marker.standard, vectors)
+        answers = right_set(name, n)
+        answers = off_by(marker.standard, answers, fields, velocities, accelerations)
+        assert names(marker, answers, fields) == {slip}, (n, fields)
+
+
+@pytest.mark.parametrize("vectors", [True, False])
+@pytest.mark.parametrize("name", ["pump", "pump-collinear", "slotted-lever"])
+def test_a_forgotten_scale_of_lengths_is_named_for_velocities_and_accelerations(name, vectors):
+    for n in VARIANTS:
+        marker = marker_of(name, n)
+        factor = 1 / marker.standard.paper.mechanism
+        assert factor != 1
+        fields = values(marker.standard, vectors)
+        answers = off_by(marker.standard, right_set(name, n), fields, factor, factor)
+        assert names(marker, answers, fields) == {"wrong_scale"}, n
+
+
+def test_ten_times_and_thirty_over_pi_times_are_told_apart_by_the_own_segment():
+    """They differ by 5 %, and the drawing alone by more: what was measured tells them apart."""
+    for n in VARIANTS:
+        marker = marker_of("pump", n)
+        answers = right_set("pump", n)
+        for factor, slip in ((10.0, "power_of_ten"), (RPM, "rpm_as_rad")):
+            found = off_by(marker.standard, answers, ["v_D"], factor, factor)
+            assert names(marker, found, ["v_D"]) == {slip}
+
+
+def test_a_scale_of_ones_own_is_named_only_beside_segments_that_are_right():
+    """A set drawn for other data, at the scale of those, earns nothing for its values."""
+    marker = marker_of("slotted-lever", 5)
+    fields = values(marker.standard, vectors=True)
+    for other in (14, 20, 26):
+        assert names(marker, handed_in("slotted-lever", other), fields) == {""}
+
+
+def spoiled(answers: Mapping[str, Answer], random: np.random.Generator) -> dict[str, Answer]:
+    """Answers of which each number is wrong by any factor from a third to three."""
+    wrong = {
+        field: float(f"{answer.value * 3 ** random.uniform(-1, 1):.4g}")
+        for field, answer in answers.items()
+        if not field.endswith("_sense") and answer.value is not None
+    }
+    return {**answers, **given(wrong)}
+
+
+def lost(name: str, n: int, answers: Mapping[str, Answer]) -> list[EarnedMark]:
+    """The marks of the numbers that are wrong."""
+    graded = marker_of(name, n).mark(taker(n), answers)
+    return [mark for mark in graded.marks if mark.status is not Status.RIGHT and mark.tolerance]
+
+
+def share_named(marks: Sequence[EarnedMark]) -> float:
+    """How many of some marks have the name of a slip."""
+    assert len(marks) > 300
+    return sum(bool(mark.slip) for mark in marks) / len(marks)
+
+
+def test_chance_gives_hardly_any_name_to_numbers_at_random():
+    """Sets all of whose numbers are wrong by chance, as in a set that was copied and changed."""
+    marks = []
+    for name in LABS:
+        for n in range(1, 31, 3):
+            random = np.random.Generator(np.random.PCG64([n, 5]))
+            for seed in (1, 2):
+                marks += lost(name, n, spoiled(handed_in(name, n, seed), random))
+    assert share_named(marks) < 0.01
+
+
+def test_answers_to_other_data_are_hardly_taken_for_slips():
+    marks = []
+    for name in LABS:
+        for n in range(1, 31, 3):
+            marks += lost(name, n, handed_in(name, (n + 9) % 30 + 1))
+    assert share_named(marks) < 0.015
+
+
+def test_a_value_that_just_follows_from_its_own_segment_is_no_further_evidence():
+    marker = marker_of("pump", 7)
+    slip = next(each for each in marker.slips if each.whole and each.name == "normal_missing")
+    own = slip.values["a_D_mm"]
+    value = own * marker.standard.paper.accelerations / 1000
+    answers = given({"a_D_mm": own, "a_D": value})
+    alone = judged(marker.standard, slip, answers, ("a_D_mm",), ())
+    both = judged(marker.standard, slip, answers, ("a_D_mm", "a_D"), ())
+    assert both.fields == ("a_D_mm", "a_D")
+    assert both.odds == pytest.approx(alone.odds)
+
+
+def test_one_wrong_number_among_right_ones_seldom_has_a_name():
+    """Of wrong numbers spread over two decades; more where the tolerance is wide."""
+    marker = marker_of("pump", 7)
+    answers = handed_in("pump", 7)
+    shares = []
+    for field in ("v_D", "omega_3", "epsilon_2"):
+        right = marker.standard.key[field]
+        tried = [right * 10 ** (-1 + 2 * (i + 0.5) / 200) for i in range(200)]
+        found = [names(marker, {**answers, **given({field: value})}, [field]) for value in tried]
+        shares.append(sum(bool(each - {""}) for each in found) / len(tried))
+    assert max(shares) < 0.3
+    assert np.mean(shares) < 0.2, shares

@@ -1,0 +1,184 @@
+"""Senses in words, as students of three languages write them, and nothing taken for one that is
+none."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.senses import sense_of
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.text import LANGUAGES, words
+
+LEFT_ABOUT = """+
++1
+(+)
+↺
+ccw
+CCW
+c.c.w.
+acw
+counter-clockwise
+counter clockwise
+counterclockwise
+anticlockwise
+anti-clockwise
+in the counter-clockwise sense
+positive
+trigonometric
+Trigonometric
+trigonometric (+)
++ trig
+trig.
+sens trigonometric
+sensul trigonometric
+în sens trigonometric
+antiorar
+anti-orar
+sens antiorar
+invers acelor de ceasornic
+în sens invers acelor de ceasornic
+invers sensului acelor de ceasornic
+contrar acelor de ceasornic
+contra acelor de ceas
+antiorario
+in senso antiorario
+antior.
+contrario alle lancette dell'orologio
+levogiro"""
+RIGHT_ABOUT = """-
+−
+–
+-1
+↻
+cw
+c.w.
+clockwise
+negative
+orar
+or.
+orar (−)
+- orar
+sens orar
+în sens orar
+sensul orar
+acelor de ceasornic
+în sensul acelor de ceasornic
+invers trigonometric
+sens invers trigonometric
+antitrigonometric
+contrar sensului trigonometric
+orario
+in senso orario
+senso delle lancette dell’orologio
+destrogiro"""
+ALONG = """+
+forward
+along the guide
+away
+înainte
+în sensul ghidajului
+după ghidaj
+avanti
+nel verso della guida
+lungo la guida"""
+AGAINST = """-
+backward
+against the guide
+towards
+înapoi
+contra ghidajului
+contra sensului ghidajului
+în sens invers ghidajului
+indietro
+contro il verso della guida"""
+NO_TURNING = """left
+right
+dreapta
+left-handed
+sus
+0
+?
+2
+--
+sens
+anti
+ccww
+maybe clockwise
+not clockwise
+trigonometric orar
+counter counter clockwise
+- trig
+orar (+)
+forward
+înainte"""
+NO_SLIDING = "left\nstânga\norar\ncw\nclockwise\ntrigonometric\nînainte înapoi\nforward (−)"
+
+
+def each(text: str) -> list[str]:
+    """The lines of a text."""
+    return text.splitlines()
+
+
+@pytest.mark.parametrize("text", each(LEFT_ABOUT))
+def test_counter_clockwise_is_positive(text):
+    assert sense_of(text, turning=True) == 1
+
+
+@pytest.mark.parametrize("text", each(RIGHT_ABOUT))
+def test_clockwise_is_negative(text):
+    assert sense_of(text, turning=True) == -1
+
+
+@pytest.mark.parametrize("text", each(ALONG))
+def test_along_the_guide_is_positive(text):
+    assert sense_of(text, turning=False) == 1
+
+
+@pytest.mark.parametrize("text", each(AGAINST))
+def test_against_the_guide_is_negative(text):
+    assert sense_of(text, turning=False) == -1
+
+
+@pytest.mark.parametrize("text", each(NO_TURNING))
+def test_what_says_no_turning_is_none(text):
+    assert sense_of(text, turning=True) is None
+
+
+@pytest.mark.parametrize("text", each(NO_SLIDING))
+def test_what_says_no_sliding_is_none(text):
+    assert sense_of(text, turning=False) is None
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_words_of_the_feedback_may_be_written_on_the_form(language):
+    spoken = words(language)
+    for key, turning, sign in (
+        ("feedback.anticlockwise", True, 1),
+        ("feedback.clockwise", True, -1),
+        ("feedback.forward", False, 1),
+        ("feedback.backward", False, -1),
+    ):
+        assert sense_of(spoken(key), turning=turning) == sign, key
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_words_that_a_refusal_names_are_understood(language):
+    spoken = words(language)
+    for key, turning in (("unread.turning", True), ("unread.sliding", False)):
+        named = spoken(key).partition(":")[2]
+        for mark in (" sau ", " or ", " oppure ", ","):
+            named = named.replace(mark, "|")
+        found = [sense_of(part, turning=turning) for part in named.split("|") if part.strip()]
+        assert len(found) >= 4, named
+        assert None not in found, named
+        assert {1, -1} == set(found)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "text", "value"),
+    [("omega", "orar", -1), ("epsilon", "orar", -1), ("slide speed", "avanti", 1)],
+)
+def test_a_field_is_read_by_what_it_is_the_sense_of(quantity, text, value):
+    item = Item("x_sense", "sense", "x", "", quantity, "2")
+    assert read_answer(text, item).value == value

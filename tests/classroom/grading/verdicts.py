@@ -1,0 +1,104 @@
+"""How many verdicts of the marking are those of the rules, over sets of every kind.
+
+``python -m tests.classroom.grading.verdicts`` tries every variant of three labs, twice each set of
+answers at random, on all cores, also with forms of which half the fields earn nothing; numbers
+after it are the only variants. It prints the share of each kind, and every verdict that is another.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.marking import Marker
+from tests.classroom.grading import hand
+from tests.classroom.grading.independent import MORE, Set, Task, sets
+from tests.classroom.grading.students import marker_with, taker
+
+SEEDS = 2
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What one field of a set was found to be, and what it earns by the rules."""
+
+    kind: str
+    where: str
+    answer: str
+    earns: float
+    found: float
+    reason: str
+
+    @property
+    def is_right(self) -> bool:
+        """Whether the marking says the same."""
+        return abs(self.earns - self.found) < 1e-9
+
+
+def form(lab: str, n: int, half: bool = False) -> tuple[Marker, Task]:
+    """A marker of a wider form of a lab, and what its student has; without ``half`` the points."""
+    marker = marker_with(lab, MORE[lab], n)
+    if half:
+        rng = np.random.default_rng(n)
+        none = [f for f in marker.standard.rubric.points if rng.random() < 0.5]
+        marker = marker_with(lab, MORE[lab], n, points=dict.fromkeys(none, Fraction()))
+    standard = marker.standard
+    sheet = standard.scales.kL, standard.scales.kv
+    points = {field: float(standard.rubric.points.get(field, 0)) for field in standard.key}
+    tolerance = {field: allowed.value for field, allowed in standard.tolerance.items()}
+    return marker, Task(lab, hand.data(lab, n), sheet, points, tolerance)
+
+
+def verdicts(lab: str, n: int, seed: int, half: bool = False) -> Iterator[Verdict]:
+    """The verdicts of each field with points, over a set of each kind."""
+    marker, task = form(lab, n, half)
+    for kind, found in sets(task, 1000 * n + seed):
+        yield from of_set(marker, task, kind, found, f"{lab} {n} {seed}")
+
+
+def of_set(marker: Marker, task: Task, kind: str, found: Set, where: str) -> Iterator[Verdict]:
+    """The verdicts of one set."""
+    items = marker.standard.by_field
+    answers = {field: read_answer(text, items[field].item) for field, text in found.texts.items()}
+    graded = marker.mark(taker(), answers)
+    for field, earns in found.earns.items():
+        mark = graded.mark(field)
+        if task.points[field]:
+            share = float(mark.earned / mark.points)
+            reason = f"{mark.status.value} {mark.source} {mark.slip}".strip()
+            yield Verdict(kind, f"{where} {field}", found.texts[field], earns, share, reason)
+
+
+def tried(case: tuple[str, int, int, bool]) -> list[Verdict]:
+    """The verdicts of one form, for a process."""
+    return list(verdicts(*case))
+
+
+def main() -> None:
+    """Print the share of verdicts that are right, and every other."""
+    numbers = [int(each) for each in sys.argv[1:]] or range(1, 31)
+    with ProcessPoolExecutor() as pool:
+        cases = product(hand.DRAW, numbers, range(SEEDS), (False, True))
+        every = [each for many in pool.map(tried, cases) for each in many]
+    for each in every:
+        if not each.is_right:
+            print(each.kind, each.where, each.answer, each.earns, each.found, each.reason, sep="\t")
+    right, count = Counter(e.kind for e in every if e.is_right), Counter(e.kind for e in every)
+    for kind in count:
+        print(
+            f"{kind:28} {right[kind]:6} of {count[kind]:6}  {100 * right[kind] / count[kind]:.2f} %"
+        )
+    share = 100 * right.total() / count.total()
+    print(f"all {right.total()} of {count.total()}  {share:.2f} %")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,42 @@
+"""The sheets of one variant at a time, against which the arrays are held."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from graphkin import load
+from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, Rubric
+from graphkin.classroom.lab.rules import Settings
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.solution import Verdict
+from graphkin.documents.scaling import WANTED, drawing, scales, targets_of
+from graphkin.mechanism import Mechanism
+from graphkin.text import words
+
+ROOT = Path(__file__).resolve().parents[3]
+SCENES = ROOT / "examples" / "scenes"
+LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
+NOBODY = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+
+
+def mechanism_of(name: str | Path, given: Settings) -> Mechanism:
+    """One variant of a lab or a scene."""
+    return load(name, **given)
+
+
+def sheets_of(mechanism: Mechanism) -> list[Drawing]:
+    """The drawings of one variant's sheets, at its own scales."""
+    chosen = scales(mechanism)
+    return [
+        drawing(mechanism, kind, found, chosen, NOBODY, words("en"))
+        for kind in WANTED
+        if (found := targets_of(mechanism, kind))
+    ]
+
+
+def lab_of(scene: Path, fair: Fair = Fair(), **draws: Range) -> Lab:  # noqa: B008
+    """A lab that draws from ranges, beside any scene."""
+    return Lab(scene.stem, scene.parent, scene, Ranges("a course", draws), fair, Rubric())
+
+
+__all__ = ["LABS", "NOBODY", "ROOT", "SCENES", "Formula", "lab_of", "mechanism_of", "sheets_of"]

@@ -1,0 +1,210 @@
+"""Fairness is judged in arrays by what each variant's own sheets draw."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from math import asin, degrees
+
+import numpy as np
+import pytest
+
+from graphkin import load
+from graphkin.classroom.lab.fairness import judged
+from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.lab_model import Fair, Range
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.results import smallest_margin
+from graphkin.construction.result_tables import vectors
+from tests.classroom.lab.singles import LABS, ROOT, SCENES, lab_of, mechanism_of, sheets_of
+
+NUMBERS = [{"n": Fraction(n)} for n in range(1, 31)]
+PLACES = {"velocity": "centre", "acceleration": "pole"}
+
+
+@pytest.fixture(scope="module", params=LABS)
+def judgement(request):
+    lab = read_lab(request.param)
+    mechanism = load(request.param)
+    singles = [sheets_of(mechanism_of(request.param, given)) for given in NUMBERS]
+    return lab, mechanism, judged(mechanism, lab, NUMBERS), singles
+
+
+def test_segments_are_as_long_as_the_tables_of_the_sheets_say(judgement):
+    _, _, found, singles = judgement
+    seen = 0
+    for i, sheets in enumerate(singles):
+        tables = {name: mm for sheet in sheets for name, _, mm, _ in vectors(sheet)}
+        for field, lengths in found.lengths.items():
+            name = field.removesuffix("_mm").replace("_nu", "^ν")
+            if name in tables:
+                assert lengths[i] == pytest.approx(tables[name], abs=1e-9)
+                seen += 1
+    assert seen >= 2 * len(singles)
+
+
+def test_a_rate_is_as_long_as_its_relative_vector_on_paper(judgement):
+    """The segment by which omega is read, over the bar's length on paper, is omega/(kv/kL)."""
+    _, _, found, singles = judgement
+    for i, sheets in enumerate(singles):
+        for sheet in sheets:
+            quantity = "omega" if sheet.kind == "velocity" else "epsilon"
+            scale = sheet.scales.kv if sheet.kind == "velocity" else sheet.scales.ka
+            for link in sheet.scene.links:
+                name, value = f"{quantity}_{link}", sheet.trace.value(quantity, link)
+                if value is None or name not in found.lengths:
+                    continue
+                p, q, *_ = sheet.trace.program.steps[
+                    sheet.trace.program.targets[(quantity, link)]
+                ].args
+                bar = abs(sheet.trace.values[q] - sheet.trace.values[p])
+                assert found.lengths[name][i] == pytest.approx(1000 * abs(value) * bar / scale)
+
+
+def test_the_flattest_crossing_is_that_of_the_construction(judgement):
+    """The smallest sine of the scalar route; what the hand's way of a plate adds stands apart."""
+    _, _, found, singles = judgement
+    for i, sheets in enumerate(singles):
+        sine = min(smallest_margin(sheet.trace) for sheet in sheets)
+        assert found.flattest[i] == pytest.approx(degrees(asin(sine)), abs=1e-6)
+
+
+def test_triangles_are_relative_velocity_over_bar_as_drawn(judgement):
+    _, _, found, singles = judgement
+    for i, sheets in enumerate(singles):
+        sheet = sheets[-1]
+        for step, value in [(s, v) for _, s, v in sheet.mechanism_steps() if "″" in s.name]:
+            name = step.of.speed
+            if name in found.triangles and step.role == "tip":
+                pin, pivot = sheet.standing.spot(step.of.q), sheet.standing.spot(step.of.p)
+                ratio = abs(value - pin) / abs(pin - pivot)
+                assert found.triangles[name][i] == pytest.approx(ratio)
+                break
+        else:
+            pytest.fail("no right triangle was found")
+
+
+def test_places_are_on_the_page_where_the_layout_has_them(judgement):
+    lab, mechanism, found, singles = judgement
+    for i, sheets in enumerate(singles):
+        for sheet in sheets:
+            field = lay_out(sheet).mechanism
+            for item in items(mechanism, lab):
+                if item.quantity != PLACES[sheet.kind]:
+                    continue
+                point = sheet.place(sheet.trace.value(item.quantity, item.of))
+                on_page = point is not None and field.holds(point, 2.0)
+                assert found.on_page[item.field][i] == on_page
+
+
+@pytest.fixture(scope="module")
+def turning(tmp_path_factory):
+    """A slider-crank over a whole turn, whose centre and pole come and go; a tall one as well."""
+    found = {}
+    for name, offset in (("long", 30), ("tall", 105)):
+        text = (ROOT / "sheets" / "offset-slider-crank" / "scene.toml").read_text(encoding="utf-8")
+        text = text.replace("n = { value = 7, min = 1, max = 30, step = 1 }", "n = 0")
+        text = text.replace('"128 + 6*n/5"', '"n"').replace('"100 + 5*n"', "120")
+        text = text.replace("[0, 30]", f"[0, {offset}]")
+        text = text.replace("epsilon = [2]", "epsilon = [2]\ncentres = [2]\npoles = [2]")
+        path = tmp_path_factory.mktemp(name) / "turning.toml"
+        path.write_text(text, encoding="utf-8")
+        found[name] = path
+    return found
+
+
+@pytest.mark.parametrize("name", ["long", "tall"])
+def test_centres_that_come_and_go_are_where_the_layout_has_them(turning, name):
+    path = turning[name]
+    mechanism, lab = load(path), lab_of(path)
+    many = [{"n": Fraction(angle)} for angle in range(0, 360, 3)]
+    found = judged(mechanism, lab, many)
+    seen = set()
+    for i, given in enumerate(many):
+        for sheet in sheets_of(mechanism_of(path, given)):
+            quantity = PLACES[sheet.kind]
+            point = sheet.place(sheet.trace.value(quantity, "2"))
+            field = f"{'I' if quantity == 'centre' else 'J'}_2_x_mm"
+            on_page = point is not None and lay_out(sheet).mechanism.holds(point, 2.0)
+            assert found.on_page[field][i] == on_page
+            seen.add((quantity, on_page))
+            if not on_page:
+                assert {field, field.replace("_x_", "_y_")} <= set(found.computed(i))
+            flat = found.rays[field][i] < lab.fair.crossing
+            assert (field in found.computed(i)) == (flat or not on_page)
+    assert len(seen) == 4
+
+
+def test_the_new_labs_are_fair_for_every_number(judgement):
+    lab, _, found, _ = judgement
+    if lab.name in ("offset-slider-crank", "slotted-lever"):
+        assert found.fair.all()
+
+
+def test_the_pump_is_unfair_where_its_piston_hardly_accelerates():
+    found = judged(load("pump"), read_lab("pump"), NUMBERS)
+    unfair = [n for n, good in enumerate(found.fair, 1) if not good]
+    assert unfair == [25, 26, 30]
+    fault = found.faults(24)[0]
+    assert (fault.limit, fault.where, fault.bound) == ("segment", "a_D_mm", 3)
+    assert found.computed(24) == ("a_D_mm", "a_D")
+    assert not found.faults(0)
+
+
+def test_faults_are_told_exactly_where_a_variant_is_unfair(judgement):
+    _, _, found, _ = judgement
+    for i, good in enumerate(found.fair):
+        assert bool(found.faults(i)) != good
+
+
+@pytest.mark.parametrize(
+    "stricter",
+    [{"crossing": 70.0}, {"segment": 12.0}, {"triangle": (0.2, 4.0)}, {"triangle": (0.05, 0.5)}],
+)
+def test_a_stricter_limit_makes_nobody_fair(judgement, stricter):
+    lab, mechanism, found, _ = judgement
+    strict = replace(lab, fair=replace(lab.fair, **stricter))
+    now = judged(mechanism, strict, NUMBERS)
+    assert not (now.fair & ~found.fair).any()
+
+
+def test_what_does_not_close_is_unfair_and_has_no_other_fault(tmp_path):
+    text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
+    path = tmp_path / "open.toml"
+    path.write_text(
+        text.replace("[parameters]", "[parameters]\ncoupler = 90", 1).replace(
+            next(line for line in text.splitlines() if line.startswith("A-B")), 'A-B = "coupler"'
+        ),
+        encoding="utf-8",
+    )
+    many = [{"coupler": Fraction(length)} for length in (1, 90, 10_000)]
+    lab = lab_of(path, Fair(0, 0, (0, 1e9)), coupler=Range(Fraction(1), Fraction(9), Fraction(1)))
+    found = judged(load(path), lab, many)
+    assert not found.closes[0] and not found.closes[2]
+    assert [str(fault) for fault in found.faults(0)] == ["does not close"]
+    assert found.computed(0) == ()
+
+
+def test_blocks_of_a_large_batch_are_one():
+    many = [{"n": Fraction(1 + i % 30)} for i in range(5000)]
+    lab, mechanism = read_lab("pump"), load("pump")
+    whole, part = judged(mechanism, lab, many), judged(mechanism, lab, NUMBERS)
+    assert len(whole) == 5000
+    assert whole.shortest == pytest.approx(np.resize(part.shortest, 5000))
+    assert (whole.fair == np.resize(part.fair, 5000)).all()
+
+
+@pytest.mark.parametrize("name", ["gears-planet.toml", "centrodes-four-bar.toml"])
+def test_scenes_that_go_one_by_one_are_judged_all_the_same(name):
+    mechanism = load(SCENES / name)
+    parameter = next(iter(mechanism.scene.parameters.values()))
+    value = Fraction(mechanism.scene.values[parameter.name])
+    found = judged(mechanism, lab_of(SCENES / name), [{parameter.name: value}])
+    assert found.closes.all() and found.fits.all()
+    for sheet in sheets_of(mechanism):
+        tables = {name: mm for name, _, mm, _ in vectors(sheet)}
+        for field, lengths in found.lengths.items():
+            name = field.removesuffix("_mm")
+            if name in tables:
+                assert lengths[0] == pytest.approx(tables[name], abs=1e-9)

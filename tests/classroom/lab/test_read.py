@@ -1,0 +1,263 @@
+"""lab.toml is read whole: every mistake is told at once, with its place and the way out."""
+
+from __future__ import annotations
+
+import shutil
+from fractions import Fraction
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.classroom.lab.items import all_fields, asked_fields, items
+from graphkin.classroom.lab.lab_model import Fair, Formula, Range, Ranges, Rubric
+from graphkin.classroom.lab.read_lab import find, read_lab, with_rules
+from graphkin.cli.main import app
+from graphkin.mechanism import load
+from graphkin.text.errors import SceneError
+from tests.classroom.lab.singles import LABS, ROOT
+
+RULE = 'graphkin = 1\n[variants]\nset = { n = "number" }\n'
+
+
+@pytest.fixture
+def mine(tmp_path):
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    shutil.copy(ROOT / "sheets" / "pump" / "scene.toml", folder)
+
+    def written(text, encoding="utf-8"):
+        (folder / "lab.toml").write_text(text, encoding=encoding)
+        return folder
+
+    return written
+
+
+def problems(folder):
+    with pytest.raises(SceneError) as caught:
+        read_lab(folder)
+    return [str(problem) for problem in caught.value.problems]
+
+
+def test_the_shipped_labs_are_read():
+    assert with_rules() == sorted(LABS)
+    for name in LABS:
+        lab = read_lab(name)
+        assert lab.name == name
+        assert lab.scene.is_file()
+        assert isinstance(lab.rule, Formula)
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_a_shipped_lab_is_complete_in_three_languages(name):
+    scene = load(name).scene
+    assert set(scene.titles) == {"en", "ro", "it"}
+    assert len(set(scene.titles.values())) == 3
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_every_asked_field_of_a_shipped_lab_earns_marks(name):
+    assert set(asked_fields(load(name))) <= set(read_lab(name).rubric.points)
+
+
+def test_a_lab_has_its_defaults(mine):
+    lab = read_lab(mine(RULE))
+    assert (lab.fair, lab.rubric, lab.name) == (Fair(), Rubric(), "mine")
+    assert lab.text == RULE
+
+
+def test_a_lab_may_be_called_otherwise(mine):
+    assert read_lab(mine(RULE), "pump").name == "pump"
+
+
+def test_a_byte_order_mark_does_not_matter(mine):
+    assert read_lab(mine(RULE, "utf-8-sig")).text == RULE
+
+
+def test_folder_and_file_are_the_same_lab(mine):
+    folder = mine(RULE)
+    assert read_lab(folder / "lab.toml") == read_lab(folder)
+
+
+def test_everything_that_is_stated_is_read(mine):
+    lab = read_lab(
+        mine(
+            'graphkin = 1\n[variants]\ncourse = "M 26"\ntries = 7\n'
+            "draw = { n = { min = 3, max = 21, step = 2 } }\n"
+            "[fair]\ncrossing = 10\nsegment = 2.5\ntriangle = [0.1, 3]\n"
+            "[marks]\nv_D_mm = 2\nv_BA = 0.5\n"
+            "[marking]\nfollow = 0.7\npoint = 0.6\nline = 0.4\nruler = 0.3\nfloor = 0.02\n"
+            "cap = 0.3\nhold = true\n[marking.slips]\nrpm_as_rad = 0.5\n"
+        )
+    )
+    assert lab.rule == Ranges("M 26", {"n": Range(Fraction(3), Fraction(21), Fraction(2))}, 7)
+    assert lab.fair == Fair(10, 2.5, (0.1, 3))
+    points = {"v_D_mm": Fraction(2), "v_BA": Fraction(1, 2)}
+    slips = {"rpm_as_rad": 0.5}
+    assert lab.rubric == Rubric(points, 0.7, slips, 0.6, 0.4, 0.3, 0.02, 0.3, hold=True)
+
+
+WRONG = {
+    "": "the file is empty",
+    "graphkin = 1\n": "variants: no rule; expected set",
+    "graphkin = 2\n" + RULE[13:]: "written for a newer graphkin",
+    RULE[13:]: "the version of the format is missing",
+    "graphkin = 1\nvariants = 3": "variants: 3; expected a table",
+    RULE + "draw = {}\n": "variants: set and draw; expected one of them",
+    RULE + "tries = 3\n": "variants.tries: belongs to ranges",
+    RULE.replace(" n ", " m "): "variants.set.m: is no parameter; expected n",
+    RULE.replace("number", "numbr"): "did you mean number?",
+    RULE.replace('"number"', "7"): "no formula uses number",
+    RULE.replace('"number"', "true"): "variants.set.n: true; expected an expression",
+    RULE.replace('"number"', '"__import__(1)"'): "variants.set.n",
+    RULE.replace('"number"', "nan"): "variants.set.n",
+    RULE + "[fair]\ncrossing = 90\n": "fair.crossing: 90; expected a number from 0 to 89",
+    RULE + "[fair]\ncrossing = inf\n": "fair.crossing",
+    RULE + "[fair]\nsegmnt = 3\n": "did you mean segment?",
+    RULE + "[fair]\ntriangle = 3\n": "two numbers [least, most]",
+    RULE + "[fair]\ntriangle = [4, 1]\n": "0 ≤ least < most",
+    RULE + '[fair]\ntriangle = ["a", 1]\n': "fair.triangle[0]",
+    RULE + "[marks]\nv_d_mm = 1\n": "did you mean v_D_mm?",
+    RULE + "[marks]\nv_D = -1\n": "marks.v_D: -1; expected points",
+    RULE + "[marks]\nv_D = true\n": "marks.v_D: true; expected a number",
+    RULE + "[marking]\nfloor = 0.3\n": "marking.floor: 0.3 is above cap",
+    RULE + "[marking]\nhold = 1\n": "marking.hold: 1; expected true or false",
+    RULE + "[marking]\ncap = 2.5\n": "marking.cap: 2.5; expected a number from 0 to 1",
+    RULE
+    + "[marking]\nslips = { opposite = 2 }\n": "slips.opposite: 2; expected a number from 0 to 1",
+    RULE + "[marking]\nslips = { 'a b' = 1 }\n": "no slip has this name",
+    RULE + "[text]\n": "text: unknown key",
+}
+
+
+@pytest.mark.parametrize(("text", "expected"), WRONG.items())
+def test_what_is_wrong_is_told_with_its_place(mine, text, expected):
+    found = problems(mine(text))
+    assert any(expected in problem for problem in found), found
+    assert all(problem.startswith("lab.toml") for problem in found)
+
+
+RANGES = 'graphkin = 1\n[variants]\ncourse = "c"\ndraw = { n = { min = 1, max = 30, step = 1 } }\n'
+WRONG_RANGES = {
+    RANGES.replace('course = "c"\n', ""): "variants.course: is missing",
+    RANGES.replace('"c"', '""'): "variants.course: is missing",
+    RANGES.replace('"c"', '"c\\u202e"'): "control character",
+    RANGES.replace("min = 1", "min = 0"): "n = 0 is out of range",
+    RANGES.replace("max = 30", "max = 31"): "n = 31 is out of range",
+    RANGES.replace("step = 1", "step = 0.5"): "off the step",
+    RANGES.replace("step = 1", "step = 0"): "a number above 0",
+    RANGES.replace("step = 1", "step = 1e-12"): "too many values",
+    RANGES.replace("min = 1", "min = 31"): "is above max",
+    RANGES.replace(", step = 1", ""): "variants.draw.n.step: is missing",
+    RANGES.replace("{ n =", "{ m ="): "variants.draw.m: is no parameter",
+    RANGES + "tries = 0\n": "variants.tries: 0",
+    RANGES + "tries = 1.5\n": "a whole number",
+}
+
+
+@pytest.mark.parametrize(("text", "expected"), WRONG_RANGES.items())
+def test_what_is_wrong_with_a_range_is_told(mine, text, expected):
+    found = problems(mine(text))
+    assert any(expected in problem for problem in found), found
+
+
+def test_all_mistakes_are_told_at_once(mine):
+    text = (
+        RULE.replace("number", "numbr")
+        + "[fair]\nsegmnt = 3\n[marks]\nv_x = 1\n[marking]\ncap = -1"
+    )
+    assert len(problems(mine(text))) == 4
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("pumpp", "did you mean pump?"),
+        (ROOT / "README.md", "is no lab"),
+        (ROOT / "examples" / "scenes" / "pump.toml", "shipped lab"),
+        (ROOT / "examples" / "scenes" / "slider-crank.toml", "graphkin new lab NAME"),
+    ],
+)
+def test_what_is_no_lab_is_told(name, expected):
+    with pytest.raises(SceneError, match=expected.replace("?", r"\?")):
+        find(name)
+
+
+def test_a_scene_beside_no_rule_is_told(mine):
+    folder = mine(RULE)
+    (folder / "lab.toml").unlink()
+    with pytest.raises(SceneError, match=r"is a scene without lab\.toml"):
+        read_lab(folder)
+
+
+# ------------------------------------------------------------------------------------ items
+
+
+def test_the_form_has_what_is_asked_then_what_the_rubric_names(mine):
+    lab = read_lab(mine(RULE + "[marks]\na_BA_tau_mm = 1\nomega_2 = 1\nv_BA = 1\n"))
+    form = items(load("pump"), lab)
+    fields = [item.field for item in form]
+    assert fields[:4] == ["v_D_mm", "v_D", "a_D_mm", "a_D"]
+    assert fields[-2:] == ["v_BA", "a_BA_tau_mm"]
+    assert len(set(fields)) == len(fields)
+    by = {item.field: item for item in form}
+    assert (by["v_D_mm"].what, by["v_D_mm"].unit) == ("segment", "mm")
+    assert (by["omega_3"].unit, by["omega_3_sense"].what) == ("rad/s", "sense")
+    assert (by["J_3_x_mm"].quantity, by["J_3_x_mm"].of) == ("pole", "3")
+    assert (by["a_BA_tau_mm"].quantity, by["a_BA_tau_mm"].of) == ("arrow", "a_BA^τ")
+
+
+def test_every_field_of_every_scene_is_plain_ascii_and_unique():
+    for path in sorted((ROOT / "examples" / "scenes").glob("*.toml")):
+        fields = all_fields(load(path))
+        assert fields
+        for name, item in fields.items():
+            assert name == item.field
+            assert name.isascii() and name.isidentifier()
+
+
+def test_points_under_points_and_slides_have_fields():
+    fields = asked_fields(load("slotted-lever"))
+    assert {"v_A3_mm", "a_A3", "v_slide_2", "v_slide_2_sense", "a_slide_2"} <= set(fields)
+    assert fields["v_A3"].of == "A@3"
+    assert "a_AA3_cor_mm" in all_fields(load("slotted-lever"))
+
+
+def test_names_that_look_alike_get_fields_of_their_own(tmp_path):
+    """A point A3 and the point of link 3 under A are two fields."""
+    text = (ROOT / "sheets" / "slotted-lever" / "scene.toml").read_text(encoding="utf-8")
+    text = text.replace("O2-B = 620\n", 'O2-B = 620\nO2-A3 = 100\nA3 = "on O2-B"\n')
+    path = tmp_path / "alike.toml"
+    text = text.replace('velocity = ["C", "A@3"]', 'velocity = ["A3", "A@3"]')
+    path.write_text(text, encoding="utf-8")
+    fields = asked_fields(load(path))
+    assert (fields["v_A3"].of, fields["v_A3_2"].of) == ("A3", "A@3")
+
+
+@pytest.mark.parametrize("formula", ["n", "nubmer", "2*nr", "x + y"])
+def test_a_formula_of_anything_else_is_asked_whether_the_number_is_meant(mine, formula):
+    found = problems(mine(RULE.replace('"number"', f'"{formula}"')))
+    assert found
+    assert all(line.endswith("did you mean number?") for line in found)
+
+
+def test_mistakes_of_the_rule_name_its_file_and_no_other(mine):
+    """Also after check has read the scene, whose name stands before the scene's own mistakes."""
+    folder = mine(RULE.replace('"number"', '"n"'))
+    said = CliRunner().invoke(app, ["check", str(folder)])
+    (line,) = said.stderr.splitlines()
+    assert line.startswith("graphkin: lab.toml: variants.set.n: ")
+
+
+def test_mistakes_of_the_scene_name_the_scene(mine):
+    folder = mine(RULE)
+    scene = folder / "scene.toml"
+    text = scene.read_text(encoding="utf-8").replace("O1-A = 30", "O1-A = -30")
+    scene.write_text(text, encoding="utf-8")
+    (line,) = problems(folder)
+    assert line.startswith("scene.toml: links.1.O1-A: ")
+
+
+def test_a_slip_that_nobody_knows_earns_no_silent_nothing(mine):
+    (line,) = problems(mine(RULE + "[marking.slips]\nrpm_as_rads = 0.5\nnormal_missing = 0.3\n"))
+    assert line.startswith("lab.toml: marking.slips.rpm_as_rads: no slip has this name")
+    assert line.endswith("did you mean rpm_as_rad?")

@@ -1,0 +1,126 @@
+"""The data of a student can be derived again by anyone, and hang on nobody else's."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import subprocess
+from collections import Counter
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as some
+
+from graphkin.classroom.lab import rules
+from graphkin.classroom.lab.lab_model import Formula, Lab, Range, Ranges
+from graphkin.classroom.lab.rules import drawn, exact_text, picked, settings
+from graphkin.classroom.roster.student import Student
+from graphkin.scene.quantity import expression
+from graphkin.text.errors import SceneError
+
+PHI = Range(Fraction(20), Fraction(160), Fraction(5))
+TENTHS = Range(Fraction(1, 10), Fraction(3), Fraction(1, 10))
+
+
+def lab(rule: Formula | Ranges, name: str = "pump") -> Lab:
+    """A lab of which only its name and rule matter."""
+    return Lab(name, Path(), Path(), rule)
+
+
+def ranges(**draws: Range) -> Lab:
+    """A lab that draws from ranges."""
+    return lab(Ranges("mechanics 2026", draws))
+
+
+def by_hand(course: str, name: str, student: str, attempt: int, parameter: str) -> int:
+    """The documented hash, written out without the json module."""
+
+    def quoted(text: str) -> str:
+        return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+    words = ",".join([quoted(course), quoted(name), quoted(student), str(attempt)])
+    return int(hashlib.sha256(f"[{words},{quoted(parameter)}]".encode()).hexdigest(), 16)
+
+
+@pytest.mark.parametrize("student", ["0042", "șțăîâ", 'a "b"', "a\\b", "x, y"])
+def test_the_hash_is_the_documented_one(student):
+    found = picked("mechanics 2026", "pump", student, 3, "phi")
+    assert found == by_hand("mechanics 2026", "pump", student, 3, "phi")
+
+
+def test_the_command_in_the_documentation_gives_the_same_hash():
+    line = re.search(r"printf '%s' '(.+)' \| sha256sum", rules.__doc__)
+    assert line
+    shell = f"printf '%s' '{line[1]}' | sha256sum"
+    result = subprocess.run(["sh", "-c", shell], capture_output=True, text=True, check=True)
+    assert int(result.stdout.split()[0], 16) == picked("mechanics 2026", "pump", "0042", 0, "n")
+
+
+def test_a_hash_of_this_year_is_that_of_any_year():
+    """Reckoned with sha256sum by hand: what was handed out is never another in a later version."""
+    found = settings(ranges(phi=PHI, a=TENTHS), Student(2, "0042"))
+    assert found == {"phi": Fraction(125), "a": Fraction(9, 10)}
+
+
+def test_another_parameter_changes_none_of_the_others():
+    few, many = ranges(phi=PHI), ranges(a=TENTHS, phi=PHI, b=TENTHS)
+    for name in map(str, range(50)):
+        student = Student(2, name)
+        assert settings(few, student)["phi"] == settings(many, student)["phi"]
+
+
+def test_course_lab_student_attempt_and_parameter_all_matter():
+    same = ("course", "lab", "id", 0, "phi")
+    others = [("c", *same[1:]), ("course", "l", *same[2:]), ("course", "lab", "i", 0, "phi")]
+    others += [("course", "lab", "id", 1, "phi"), ("course", "lab", "id", 0, "psi")]
+    hashes = {picked(*which) for which in [same, *others]}
+    assert len(hashes) == 6
+
+
+def test_parts_of_the_hash_cannot_be_shifted_into_one_another():
+    assert picked("a", "b", "c", 0, "d") != picked("a,b", "c", "", 0, "d")
+    assert picked("a\nb", "c", "d", 0, "e") != picked("a", "b\nc", "d", 0, "e")
+
+
+def test_row_number_name_and_group_do_not_matter():
+    one, other = Student(2, "7", 1, "Ann", "A"), Student(99, "7", 30, "Bob", "B", {"x": "y"})
+    assert settings(ranges(phi=PHI), one) == settings(ranges(phi=PHI), other)
+
+
+def test_every_value_of_a_range_is_drawn_about_as_often():
+    counts = Counter(drawn(PHI, "c", "l", str(i), 0, "phi") for i in range(29_00))
+    assert set(counts) == {PHI.value(i) for i in range(29)}
+    chi = sum((count - 100) ** 2 / 100 for count in counts.values())
+    assert chi < 62.4  # 28 degrees of freedom, one in 5000 by chance; the ids are fixed
+
+
+def test_a_formula_is_exact():
+    rule = Formula({"n": expression("number/3 + 0.1"), "m": expression("30")})
+    assert settings(lab(rule), Student(2, "x", 7)) == {
+        "n": Fraction(7, 3) + Fraction(1, 10),
+        "m": Fraction(30),
+    }
+
+
+def test_a_formula_without_a_number_or_without_a_rational_value_is_told():
+    rule = Formula({"n": expression("sqrt(number)")})
+    with pytest.raises(SceneError, match="has no number"):
+        settings(lab(rule), Student(2, "x"))
+    with pytest.raises(SceneError, match="not rational"):
+        settings(lab(rule), Student(2, "x", 2))
+    with pytest.raises(SceneError, match="division"):
+        settings(lab(Formula({"n": expression("1/(number - 2)")})), Student(2, "x", 2))
+
+
+@given(some.fractions())
+def test_exact_text_reads_back_as_the_same_number(value):
+    assert Fraction(exact_text(value)) == value
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [("44", "44"), ("0.25", "0.25"), ("1/3", "1/3"), ("-5", "-5"), ("0", "0")]
+)
+def test_exact_text_is_as_one_would_write_it(value, text):
+    assert exact_text(Fraction(value)) == text

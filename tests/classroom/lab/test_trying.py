@@ -1,0 +1,122 @@
+"""A lab is tried on a thousand variants, and a new one stands at once."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+
+from graphkin.classroom.lab.fairness_words import trial_lines
+from graphkin.classroom.lab.lab_trial import quantiles, tried
+from graphkin.classroom.lab.new_lab import new_lab
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.text.errors import PageError, SceneError
+from tests.classroom.lab.singles import LABS, ROOT
+
+RANGES = (
+    'graphkin = 1\n[variants]\ncourse = "c"\ndraw = {{ n = {{ min = {}, max = {}, step = 1 }} }}\n'
+)
+
+
+@pytest.fixture
+def mine(tmp_path):
+    def written(text, scene="pump"):
+        folder = tmp_path / "mine"
+        folder.mkdir(exist_ok=True)
+        shutil.copy(ROOT / "sheets" / scene / "scene.toml", folder)
+        (folder / "lab.toml").write_text(text, encoding="utf-8")
+        return read_lab(folder)
+
+    return written
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_a_formula_is_tried_on_every_number_that_the_scene_allows(name):
+    trial = tried(read_lab(name))
+    assert trial.names == tuple(map(str, range(1, 31)))
+    assert trial.different == 30
+    assert not trial.unasked and not trial.unmarked
+
+
+def test_the_report_names_limit_and_numbers():
+    lines = "\n".join(trial_lines(tried(read_lab("pump"))))
+    assert "27 of 30 variants" in lines
+    assert "segment a_D_mm   2      number 25, 26  1.79 mm against 3 mm" in lines
+    assert "20.5 points for 22 fields" in lines
+    assert "flattest crossing, °" in lines
+    assert "flattest rays to a centre or pole, °" in lines
+
+
+def test_ranges_are_tried_on_a_thousand_draws(mine):
+    trial = tried(mine(RANGES.format(1, 30)))
+    assert len(trial.many) == 1000
+    assert trial.different == 30
+    assert 0 < trial.unfair < 1000
+    assert not trial.spoilt  # what is unfair is drawn again
+
+
+def test_ranges_that_are_never_fair_spoil_a_lab(mine):
+    assert tried(mine(RANGES.format(25, 26))).spoilt
+
+
+def test_a_formula_that_suits_nobody_is_told(mine):
+    text = 'graphkin = 1\n[variants]\nset = { n = "number + 30" }\n'
+    with pytest.raises(SceneError, match=r"variants\.set: number 1 gives n = 31"):
+        tried(mine(text))
+
+
+def test_fields_that_no_sheet_draws_are_told(mine):
+    """A scene that asks no acceleration has no acceleration plan to be measured."""
+    text = 'graphkin = 1\n[variants]\nset = { n = "number" }\n[marks]\na_D_mm = 1\n'
+    lab = mine(text)
+    scene = lab.scene.read_text(encoding="utf-8")
+    wishes = scene.index("[ask]"), scene.index("[sheet]")
+    lab.scene.write_text(
+        scene[: wishes[0]] + '[ask]\nvelocity = ["D"]\n\n' + scene[wishes[1] :], encoding="utf-8"
+    )
+    trial = tried(read_lab(lab.folder))
+    assert trial.unasked == ("a_D_mm",)
+    assert trial.unmarked == ("v_D_mm", "v_D")
+    assert trial.spoilt
+    assert any("drawn on no sheet: a_D_mm" in line for line in trial_lines(trial))
+
+
+def test_the_quantiles_of_a_spread():
+    assert quantiles([5.0, 1.0, 3.0, 2.0, 4.0, float("inf")]) == [1, 2, 3, 4, 5]
+    assert quantiles([]) == []
+
+
+# --------------------------------------------------------------------------------------- new
+
+
+def test_a_new_lab_passes_as_it_is(tmp_path):
+    written = new_lab("crank-lab", tmp_path)
+    assert [path.name for path in written] == ["scene.toml", "lab.toml"]
+    trial = tried(read_lab(tmp_path / "crank-lab"))
+    assert not trial.unfair and not trial.spoilt and not trial.unmarked
+    assert len(trial.many) == 30
+
+
+def test_a_new_lab_passes_with_ranges_too(tmp_path):
+    new_lab("crank-lab", tmp_path)
+    path = tmp_path / "crank-lab" / "lab.toml"
+    text = path.read_text(encoding="utf-8")
+    commented = [line for line in text.splitlines() if line.startswith("#     ")]
+    block = "\n".join(line.removeprefix("#     ") for line in commented)
+    text = text.replace('[variants]\nset = { n = "number" }\n', block + "\n")
+    path.write_text(text, encoding="utf-8")
+    assert len(tried(read_lab(path)).many) == 1000
+
+
+def test_a_new_lab_is_in_nobodys_way(tmp_path):
+    new_lab("crank-lab", tmp_path)
+    with pytest.raises(PageError, match="exists already"):
+        new_lab("crank-lab", tmp_path)
+    new_lab("crank-lab", tmp_path, force=True)
+
+
+@pytest.mark.parametrize("name", ["../x", "/etc/x", "", ".", "a/b", "CON", "ș", "a b", "x" * 61])
+def test_a_name_that_makes_no_folder_everywhere_is_refused(tmp_path, name):
+    with pytest.raises(SceneError, match="is no name for a lab"):
+        new_lab(name, tmp_path)
+    assert not list(tmp_path.iterdir())

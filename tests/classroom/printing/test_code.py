@@ -1,0 +1,121 @@
+"""The QR square: what stands on the page is the symbol, white around it, and it can be read."""
+
+from __future__ import annotations
+
+import pypdfium2 as pdfium
+import pytest
+import zxingcpp as reader
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from graphkin.classroom.printing.qr_code import (
+    SIDE,
+    boxes,
+    modules,
+    overlap,
+    rectangles,
+    square,
+    stamped,
+)
+from graphkin.drawing.areas import A3_AREA, A4_AREA
+from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
+from graphkin.drawing.marks import LineMark, Page, Text, reach
+from graphkin.writers.pdf import write_pdf
+from graphkin.writers.svg import write_svg
+
+CODE = "TZHG6MXPZY"
+GRID = st.lists(st.lists(st.booleans(), min_size=7, max_size=7), min_size=1, max_size=9)
+A3 = Page(420, 297, sheet_frame(TitleBlock(title="Task")))
+A4 = Page(210, 297, page_frame(("a", "b"), ("c", "d")))
+
+
+def cells(rows):
+    return {(x, y) for y, row in enumerate(rows) for x, dark in enumerate(row) if dark}
+
+
+@given(GRID)
+def test_rectangles_cover_each_dark_module_once_and_nothing_else(rows):
+    covered = [
+        (x, y)
+        for left, top, width, height in rectangles(rows)
+        for x in range(left, left + width)
+        for y in range(top, top + height)
+    ]
+    assert len(covered) == len(set(covered))
+    assert set(covered) == cells(rows)
+
+
+def test_ten_signs_of_base_32_take_the_smallest_symbol_at_its_best_correction():
+    import segno
+
+    rows = modules(CODE)
+    assert len(rows) == 21
+    again = segno.make(CODE, version=1, error="h", micro=False)
+    assert tuple(tuple(map(bool, row)) for row in again.matrix) == rows
+
+
+def test_the_marks_are_the_modules():
+    marks, rows = square(CODE, 30, 40), modules(CODE)
+    size = SIDE / len(rows)
+    found = set()
+    for mark in marks:
+        left, top, right, bottom = reach(mark)
+        for y in range(len(rows)):
+            for x in range(len(rows)):
+                u, v = 30 + (x + 0.5) * size, 40 + (y + 0.5) * size
+                if left < u < right and top < v < bottom:
+                    found.add((x, y))
+    assert found == cells(rows)
+    edges = [reach(mark) for mark in marks]
+    assert min(e[0] for e in edges) == pytest.approx(30)
+    assert max(e[2] for e in edges) == pytest.approx(30 + SIDE)
+    assert max(e[3] for e in edges) == pytest.approx(40 + SIDE)
+
+
+def stamp(page):
+    """The box that what stamping added takes up."""
+    added = stamped(page, CODE).marks[len(page.marks) :]
+    lefts, tops, rights, bottoms = zip(*(reach(mark) for mark in added), strict=True)
+    return min(lefts), min(tops), max(rights), max(bottoms)
+
+
+@pytest.mark.parametrize(("page", "area"), [(A3, A3_AREA), (A4, A4_AREA)])
+def test_four_modules_around_the_square_stay_white(page, area):
+    left, top, right, bottom = stamp(page)
+    margin = SIDE / 21 * 4  # ISO/IEC 18004, 6.3.8
+    quiet = (left - margin, top - margin, right + margin, bottom + margin)
+    assert not [m for m in page.marks for box in boxes(m) if overlap(quiet, box)]
+    assert area[0] < quiet[0] and area[1] < quiet[1] and quiet[2] < area[2] and quiet[3] < area[3]
+    assert (right - left, bottom - top) == (pytest.approx(SIDE), pytest.approx(SIDE))
+
+
+@settings(max_examples=20)
+@given(st.lists(st.tuples(st.floats(25, 195), st.floats(25, 270)), max_size=40))
+def test_the_square_gives_way_to_what_stands_there_or_stays_away(places):
+    texts = tuple(Text(x, y, "ab", "caption") for x, y in places if x < 185)
+    page = Page(210, 297, (*A4.marks, *texts))
+    added = stamped(page, CODE).marks[len(page.marks) :]
+    for mark in added:
+        assert not [m for m in texts if overlap(reach(mark), reach(m))]
+
+
+def test_a_full_page_stays_as_it_is():
+    lines = tuple(LineMark(21, y, 199, y, "panel") for y in range(19, 279, 10))
+    page = Page(210, 297, (*A4.marks, *lines))
+    assert stamped(page, CODE) is page
+
+
+def test_svg_and_pdf_hold_the_same_black_rectangles():
+    page = Page(210, 297, square(CODE, 30, 40))
+    assert write_svg(page).count("<polygon") == len(page.marks)
+    assert b"%PDF" in write_pdf([page])
+
+
+def test_the_square_on_a_printed_page_can_be_read():
+    data = write_pdf([stamped(A3, CODE)])
+    document = pdfium.PdfDocument(data)
+    picture = document[0].render(scale=150 / 72).to_numpy()
+    document.close()
+    (read,) = reader.read_barcodes(picture)
+    assert read.text == CODE
+    assert read.format == reader.BarcodeFormat.QRCode

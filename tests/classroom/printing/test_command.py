@@ -1,0 +1,98 @@
+"""The command: what it says, what it refuses, and its exit status."""
+
+from __future__ import annotations
+
+import pytest
+from click.testing import CliRunner, Result
+
+from graphkin.cli import print_command
+from graphkin.cli.main import app
+from tests.classroom.printing.conftest import LEVER, LEVER_LAB, tree
+
+
+def ran(*args: object) -> Result:
+    return CliRunner().invoke(app, ["print", *map(str, args)])
+
+
+def test_it_tells_how_far_it_is_and_names_the_files(make):
+    folder = make("a", ["1", "2"])
+    result = ran(folder, "--jobs", 1)
+    assert result.exit_code == 0
+    assert result.stderr.splitlines() == [f"{i} of 2 students" for i in range(3)]
+    assert result.stdout.splitlines() == [
+        "2 students printed",
+        str(folder / "print" / "class-task.pdf"),
+        str(folder / "print" / "class-key.pdf"),
+    ]
+    again = ran(folder, "--jobs", 1)
+    assert again.stdout.splitlines()[0] == "0 students printed, 2 stood already"
+    assert again.stderr.splitlines() == ["2 of 2 students"]
+
+
+def test_a_large_class_is_told_in_tenths(capsys):
+    with print_command.progress() as tell:
+        for done in range(1001):
+            tell(done, 1000)
+    lines = capsys.readouterr().err.splitlines()
+    assert lines == [f"{done} of 1000 students" for done in range(0, 1001, 100)]
+
+
+def test_a_terminal_gets_a_bar(monkeypatch, capsys):
+    import sys
+
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    with print_command.progress() as tell:
+        for done in range(0, 31, 10):
+            tell(done, 30)
+    said = capsys.readouterr()
+    assert "30/30" in said.err
+    assert said.out == ""
+
+
+def test_who_gets_nothing_is_told_and_the_status_is_1(make):
+    ids, names = ["7", "8"], ["Ana, Maria", "Bob"]
+    folder = make("a", ids, names=names, numbers=[180, 60], scene=LEVER, lab=LEVER_LAB)
+    result = ran(folder, "--jobs", 1)
+    assert result.exit_code == 1
+    assert "graphkin: 7 Ana, Maria: " in result.stderr
+    assert "1 student printed" in result.stdout
+
+
+def test_a_name_with_signs_that_the_font_lacks_is_told(make):
+    result = ran(make("a", ["7"], names=["王"]), "--jobs", 1)
+    assert result.exit_code == 0
+    assert '7: "王"' in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--view", "task,keys"], "keys is none of task, key, overlay, steps"),
+        (["--view", ","], "nothing is none of"),
+        (["--format", "png"], "png is none of pdf, svg"),
+        (["--engine", "ray://x:1"], "dask://HOST:PORT"),
+        (["--jobs", "0"], "--jobs"),
+        (["--lang", "de"], "--lang"),
+    ],
+)
+def test_words_that_are_not_understood_change_nothing(make, words, said):
+    folder = make("a", ["1"])
+    before = tree(folder)
+    result = ran(folder, *words)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert tree(folder) == before
+
+
+def test_a_folder_that_is_no_class_is_refused(tmp_path):
+    result = ran(tmp_path)
+    assert result.exit_code == 2
+    assert "graphkin variants" in result.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_views_and_formats_come_in_one_order_however_they_are_written(make):
+    one, other = make("a", ["1"]), make("b", ["1"])
+    assert ran(one, "--view", "key, TASK", "--format", "svg,pdf", "--jobs", 1).exit_code == 0
+    assert ran(other, "--view", "task,key", "--format", "pdf,svg", "--jobs", 1).exit_code == 0
+    assert tree(one / "print") == tree(other / "print")

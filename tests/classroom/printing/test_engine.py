@@ -1,0 +1,57 @@
+"""Who does the work: every chunk is done once, no more wait than needed, failures are told."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future, ThreadPoolExecutor
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphkin.classroom.printing.workers import AHEAD, CHUNK, SHARES, chunks, engine, results
+from graphkin.text.errors import PageError
+
+
+@given(st.integers(0, 2000), st.integers(1, 64))
+def test_chunks_hold_every_student_once_and_feed_all_workers(count, workers):
+    found = chunks(range(count), workers)
+    assert [i for chunk in found for i in chunk] == list(range(count))
+    assert all(1 <= len(chunk) <= CHUNK for chunk in found)
+    if count >= SHARES * workers:
+        assert len(found) >= SHARES * workers
+
+
+@pytest.mark.parametrize("workers", [1, 2, 5])
+def test_every_part_is_done_once(workers):
+    parts = [(i,) for i in range(60)]
+    with ThreadPoolExecutor(workers) as pool:
+        assert sorted(results(pool, workers, sum, parts)) == list(range(60))
+    assert list(results(None, 1, sum, parts)) == list(range(60))
+
+
+def test_no_more_parts_wait_than_the_workers_need():
+    """Parts are taken from their source only as fast as results are fetched."""
+    taken = []
+    source = ((taken.append(i) or i,) for i in range(1000))
+    with ThreadPoolExecutor(2) as pool:
+        found = results(pool, 2, sum, source)
+        next(found)
+        assert len(taken) <= (1 + AHEAD) * 2
+        found.close()
+
+
+def test_a_broken_way_to_the_workers_is_told():
+    class Cut(ThreadPoolExecutor):
+        def submit(self, *_args, **_more):
+            broken: Future[int] = Future()
+            broken.set_exception(OSError("connection closed"))
+            return broken
+
+    with Cut(1) as pool, pytest.raises(PageError, match="a worker ended suddenly"):
+        list(results(pool, 1, sum, [(1,)]))
+
+
+def test_one_job_needs_no_process():
+    with engine(1) as (executor, workers):
+        assert executor is None
+        assert workers == 1

@@ -1,0 +1,85 @@
+"""Each student's sheets in the language that the class list names; the others in the class's."""
+
+from __future__ import annotations
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.cli.main import app
+from graphkin.text.errors import PageError
+from tests.classroom.printing.conftest import tree
+
+IDS = ["1", "2", "3", "=5"]
+LISTED = "id,Limba\n1,it\n2,\n3,Română\n'=5,klingon\n"
+SPOKEN = ["it", None, "ro", None]
+
+
+def listed(make, name, text=LISTED):
+    """A class whose list has a column for the language."""
+    folder = make(name, IDS)
+    (folder / "variants.csv").write_text(text, encoding="utf-8")
+    return folder
+
+
+def printed(folder, language=None, **more) -> Outcome:
+    wishes = PrintRequest(("task", "key"), ("pdf", "html"), language, **more)
+    return print_class(read_edition(folder), wishes, Means(1), lambda done, total: None)
+
+
+def own(files, stem):
+    """The files of one student."""
+    return {name: data for name, data in files.items() if name.split("/")[-1].startswith(stem)}
+
+
+def test_the_column_is_read_by_code_and_by_name(make):
+    variants = read_edition(listed(make, "a")).variants
+    assert [variant.spoken for variant in variants] == SPOKEN
+    assert [variant.language for variant in variants] == ["it", "", "Română", "klingon"]
+    assert {variant.spoken for variant in read_edition(make("b", IDS)).variants} == {None}
+
+
+@pytest.mark.parametrize("wished", [None, "it"])
+def test_sheets_forms_and_pages_are_those_of_a_whole_class_in_that_language(make, wished):
+    """Byte for byte; who names none, or one that no page has, gets that of the class."""
+    folder = listed(make, "a")
+    printed(folder, wished)
+    found = tree(folder / "print")
+    for number, (id_, language) in enumerate(zip(IDS, SPOKEN, strict=True)):
+        plain = make(f"plain-{number}", IDS)
+        printed(plain, language or wished)
+        stem = f"{id_[-1]}-"
+        wanted = own(tree(plain / "print"), stem)
+        assert len(wanted) == 5
+        assert own(found, stem) == wanted
+
+
+def test_another_language_of_one_student_is_that_students_alone(make):
+    folder = listed(make, "a")
+    printed(folder)
+    before = tree(folder / "print")
+    (folder / "variants.csv").write_text(LISTED.replace("2,\n", "2,it\n"), encoding="utf-8")
+    with pytest.raises(PageError, match=r"task/2-task\.pdf, task/2-form\.pdf"):
+        printed(folder)
+    assert printed(folder, force=True).made == 1
+    after = tree(folder / "print")
+    changed = {name for name in after if after[name] != before[name] and "/" in name}
+    assert changed == set(own(after, "2-"))
+
+
+def test_a_table_that_cannot_be_read_is_told_before_anything_is_printed(make):
+    folder = listed(make, "a", 'id,Limba\n1,"it\n')
+    with pytest.raises(RosterError, match=r"variants\.csv, row 2"):
+        read_edition(folder)
+    result = CliRunner().invoke(app, ["print", str(folder)])
+    assert result.exit_code == 2
+    assert "variants.csv, row 2" in result.stderr
+    assert not (folder / "print").exists()
+
+
+def test_a_language_that_no_page_has_is_told(make):
+    result = CliRunner().invoke(app, ["print", str(listed(make, "a")), "--jobs", "1"])
+    assert result.exit_code == 0
+    assert '1 student: "klingon" is no language of the pages' in result.stderr

@@ -1,0 +1,106 @@
+"""The manifest of a class folder: read whole, held against its lab, every mistake told."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from graphkin.classroom.printing.edition import read_edition
+from graphkin.text.errors import SceneError
+
+
+def change(folder, **changes):
+    """Write the manifest with some of its tables otherwise."""
+    path = folder / "manifest.json"
+    raw = json.loads(path.read_text(encoding="utf-8")) | changes
+    path.write_text(json.dumps(raw), encoding="utf-8")
+
+
+def told(folder):
+    """What is wrong with a folder, one line each."""
+    with pytest.raises(SceneError) as refused:
+        read_edition(folder)
+    return [str(problem) for problem in refused.value.problems]
+
+
+def test_students_come_in_roster_order_with_their_data_as_text(make):
+    edition = read_edition(make("a", ["0002", "0001"]))
+    assert [variant.id for variant in edition.variants] == ["0002", "0001"]
+    assert edition.variants[0].settings == {"n": "1"}
+    assert edition.variants[0].group == "331 A"
+    assert edition.variants[1].compute == ("v_B_mm", "v_B")
+    assert edition.lab.name == "slider"
+    assert edition.lab.rubric.points["v_B_mm"] == 2
+
+
+@pytest.mark.parametrize("name", ["scene.toml", "lab.toml"])
+def test_a_lab_that_was_changed_since_is_refused(make, name):
+    folder = make("a", ["1"])
+    with (folder / "lab" / name).open("a", encoding="utf-8") as stream:
+        stream.write("# a remark\n")
+    (line,) = told(folder)
+    assert name in line
+    assert "changed since" in line
+
+
+def test_a_lab_that_is_missing_is_told_file_by_file(make):
+    folder = make("a", ["1"])
+    for name in ("scene.toml", "lab.toml"):
+        (folder / "lab" / name).unlink()
+    assert len(told(folder)) == 2
+
+
+def test_a_folder_without_a_manifest_says_how_to_make_one(tmp_path):
+    (line,) = told(tmp_path)
+    assert "graphkin variants" in line
+    assert "manifest.json" in line
+
+
+@pytest.mark.parametrize("text", ["", "{", "[1]", '{"students": 3}', "\x00", "[" * 100_000])
+def test_what_is_no_manifest_is_refused(make, text):
+    folder = make("a", ["1"])
+    (folder / "manifest.json").write_text(text, encoding="utf-8")
+    assert len(told(folder)) == 1
+
+
+def test_a_newer_format_is_refused(make):
+    folder = make("a", ["1"])
+    change(folder, format=2)
+    assert "update graphkin" in told(folder)[0]
+
+
+def test_no_student_is_no_class(make):
+    folder = make("a", ["1"])
+    change(folder, students=[])
+    assert "no student" in told(folder)[0]
+
+
+def test_every_student_who_is_wrong_is_told(make):
+    folder = make("a", ["1"])
+    right = {"id": "1", "code": "AAAA", "parameters": {"n": "1"}}
+    wrong = [
+        3,
+        right | {"id": 7},
+        right | {"code": ""},
+        right | {"parameters": {"n": 1}},
+        right | {"compute": "v_B"},
+        right | {"name": None},
+    ]
+    change(folder, students=[*wrong, right])
+    lines = told(folder)
+    assert len(lines) == len(wrong)
+    for place, (line, key) in enumerate(
+        zip(lines, ("table", "id", "code", "parameters", "compute", "name"), strict=True), 1
+    ):
+        assert f"student {place}:" in line
+        assert key in line
+
+
+def test_students_with_the_same_id_or_code_are_refused(make):
+    folder = make("a", ["1"])
+    right = {"id": "1", "code": "AAAA", "parameters": {"n": "1"}}
+    change(folder, students=[right, right, right | {"id": "2"}])
+    lines = told(folder)
+    assert any('2 students have the id "1"' in line for line in lines)
+    assert any('3 students have the code "AAAA"' in line for line in lines)

@@ -1,0 +1,273 @@
+"""What a student gets: the name and the code on every page, the id nowhere in the square."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from time import sleep
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphkin.classroom.grading.standard import standard
+from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.printing.answer_form import advice, form, quantity_of
+from graphkin.classroom.printing.edition import Variant, read_edition
+from graphkin.classroom.printing.personal import fits, lost, owner, shortened, writable
+from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
+from graphkin.classroom.printing.print_work import make as made
+from graphkin.classroom.printing.qr_code import modules
+from graphkin.drawing.glyphs import measures
+from graphkin.drawing.marks import Page, Text, reach
+from graphkin.drawing.richtext import plain
+from graphkin.text import LANGUAGES, words
+from graphkin.writers import pdf
+from tests.classroom.printing.conftest import LAB, SCENE, write_class
+
+KINDS = {"senses", "slides"}
+"""What a form may tell of senses: of what turns, and of what slides."""
+
+
+@pytest.fixture(scope="module")
+def edition(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("class") / "a"
+    names = ['Țăran, Ștefan-Ioan "O\'Neil"', "*Bob*_{x}^2\\"]
+    return read_edition(write_class(folder, ["0012", "secret-id"], names=names))
+
+
+def order(edition, language="ro"):
+    return PrintOrder(edition.lab, edition.scene, language, "colour")
+
+
+def texts(page: Page) -> list[str]:
+    return [plain(mark.markup) for mark in page.marks if isinstance(mark, Text)]
+
+
+def pages(sheets: Sheets, view: str) -> list[Page]:
+    return [page for sheet in sheets.of(view) for page in sheet.pages]
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_name_group_and_code_stand_on_every_page(edition, view):
+    for variant in edition.variants:
+        found = pages(Sheets(order(edition), variant), view)
+        assert found
+        for page in found:
+            page.check()
+            said = " ".join(texts(page))
+            assert variant.code in said
+            for word in (*variant.name.split(), "331"):
+                assert word in said, (view, word)
+            assert variant.id not in said
+
+
+def test_the_code_stands_beside_a_drawing_number_of_the_scene(edition):
+    text = edition.scene + '[sheet]\nnumber = "M-12"\n'
+    numbered = replace(order(edition), scene=text)
+    variant = edition.variants[0]
+    (page,) = pages(Sheets(numbered, variant), "overlay")
+    assert variant.code in " ".join(texts(page))
+    (page, *_) = pages(Sheets(numbered, variant), "task")
+    assert f"M-12 / {variant.code}" in texts(page)
+
+
+def test_an_overlay_says_whose_it_is_below_its_caption(edition):
+    (page,) = pages(Sheets(order(edition), edition.variants[0]), "overlay")
+    caption, owned = (next(m for m in page.marks if m.name == n) for n in ("title", "owner"))
+    assert reach(owned)[1] - reach(caption)[3] > 0.5
+
+
+def test_files_are_made_by_one_thread_at_a_time(edition, monkeypatch):
+    """The fonts of reportlab are shared by all documents of a process."""
+    active, most = 0, 0
+
+    def slow(*_args, **_more):
+        nonlocal active, most
+        active += 1
+        most = max(most, active)
+        sleep(0.02)
+        active -= 1
+        return b""
+
+    monkeypatch.setattr(pdf, "write_pdf", slow)
+    wanted = [StudentSheets(edition.variants[0], "a", (("overlay", "pdf"),))]
+    with ThreadPoolExecutor(3) as threads:
+        list(threads.map(lambda _: made(order(edition), wanted), range(6)))
+    assert most == 1
+
+
+def test_the_square_holds_the_code_alone(edition, monkeypatch):
+    import segno
+
+    seen: list[str] = []
+    make_qr = segno.make_qr
+
+    def noted(text, **more):
+        seen.append(text)
+        return make_qr(text, **more)
+
+    monkeypatch.setattr(segno, "make_qr", noted)
+    modules.cache_clear()
+    variant = edition.variants[1]
+    pages(Sheets(order(edition), variant), "task")
+    assert set(seen) == {variant.code}
+
+
+def test_every_task_sheet_and_form_of_this_lab_has_its_square(edition):
+    sheets = Sheets(order(edition), edition.variants[0])
+    for page in pages(sheets, "task"):
+        assert [mark for mark in page.marks if mark.cls == "qr"]
+    for page in pages(sheets, "key"):
+        assert not [mark for mark in page.marks if mark.cls == "qr"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_form_has_every_field_once_with_its_points(edition, language):
+    sheets = Sheets(order(edition, language), edition.variants[0])
+    (page,) = sheets.answers()
+    said = texts(page)
+    fields = items(sheets.mechanism, edition.lab)
+    assert {item.field for item in fields} == {"v_B_mm", "v_B", "omega_2", "omega_2_sense"}
+    for item in fields:
+        assert said.count(item.field) == 1
+    assert said.count("0.5" if language == "en" else "0,5") == 1
+    assert not hints(page)
+
+
+def hints(page: Page) -> list[str]:
+    return [plain(m.markup) for m in page.marks if isinstance(m, Text) and m.name == "hint"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_segment_too_short_to_be_measured_leaves_one_row_with_all_the_points(edition, language):
+    """Form, blank calculation and key say alike that the velocity of B is computed."""
+    sheets = Sheets(order(edition, language), edition.variants[1])
+    (page,) = sheets.answers()
+    said = texts(page)
+    assert "v_B_mm" not in said
+    assert said.count("v_B") == 1
+    assert said.count("3") == 1
+    why = words(language)("form.compute")
+    assert hints(page) == [why]
+    for view in ("task", "key"):
+        lines = [line for page in pages(sheets, view) for line in texts(page) if why in line]
+        assert sum(line.startswith("vB = ") for line in lines) == 1
+
+
+def table_of(page: Page, name: str) -> list[str]:
+    """The cells of a row of the tables."""
+    found = (m for m in page.marks if isinstance(m, Text) and (m.cls, m.name) == ("table", name))
+    return [plain(mark.markup) for mark in found]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_tables_of_the_sheets_tell_which_lengths_are_computed(edition, language):
+    """In brackets on the key, with the form's own words below the tables; never else."""
+    spoken = words(language)
+    why, said = spoken("form.compute"), []
+    for variant in edition.variants:
+        sheets = Sheets(order(edition, language), variant)
+        for view in ("task", "key"):
+            page = sheets.of(view)[0].pages[0]
+            said.append(
+                [plain(m.markup) for m in page.marks if getattr(m, "name", "") == "computed"]
+            )
+        measured = [table_of(page, name)[-2] for name in ("v_A", "v_B")]
+        exact = standard(sheets.mechanism, items(sheets.mechanism, edition.lab), edition.lab.rubric)
+        length = spoken.fixed(exact.key["v_B_mm"], 2)
+        wanted = f"({length})" if "v_B" in variant.compute else length
+        assert measured == [spoken.fixed(60, 2), wanted]
+    assert said == [[], [], [f"vB: {why}"], [f"vB: {why}"]]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
+    """In mm on paper from the first fixed pivot, to the right and up, which the form says."""
+    scene = SCENE.replace("O = [0, 0]", "O = [35, -20]") + "centres = [2]\n"
+    lab = LAB + "I_2_x_mm = 1\nI_2_y_mm = 1\n"
+    lifted = scene.replace("[0, 30]", "[35, 10]")
+    edition = read_edition(write_class(tmp_path / "a", ["1"], scene=lifted, lab=lab))
+    sheets = Sheets(order(edition, language), edition.variants[0])
+    found = standard(sheets.mechanism, items(sheets.mechanism, edition.lab), edition.lab.rubric)
+    decimal = words(language).fixed
+    place = "; ".join(decimal(found.key[f"I_2_{axis}_mm"], 2) for axis in "xy")
+    key = [line for page in pages(sheets, "key") for line in texts(page)]
+    (line,) = [line for line in key if line.startswith("I2 = ")]
+    assert line.startswith(f"I2 = ({place}) mm (")
+    (page,) = sheets.answers()
+    assert plain(words(language)("form.places", pivot="*O*")) in texts(page)
+
+
+def test_a_place_that_cannot_be_drawn_says_so_and_not_that_it_is_small(edition):
+    place = Item("J_3_x_mm", "place", "*x*(*J*_3)", "mm", "pole", "3")
+    (page,) = form([place], {}, ("J_3_x_mm",), words("en"), ("Title", "Answers"), ("A", "A"), "O1")
+    assert hints(page) == [words("en")("form.compute_place")]
+    assert quantity_of(place) == "*J*_3"
+    assert plain(words("en")("form.senses")) not in texts(page)
+
+
+def test_a_form_tells_the_senses_that_it_asks_for():
+    turns = Item("omega_3_sense", "sense", "*ω*_3", "", "omega", "3")
+    slides = Item("v_slide_2_sense", "sense", "*v*_{2/3}", "", "slide speed", "2")
+    spoken = words("en")
+    for asked, keys in (([turns], {"senses"}), ([slides], {"slides"}), ([turns, slides], KINDS)):
+        told = advice(asked, spoken, "")
+        assert {key for key in KINDS if spoken(f"form.{key}") in told} == keys
+
+
+def test_a_long_form_goes_on_on_further_pages(edition):
+    sheets = Sheets(order(edition), edition.variants[0])
+    fields = items(sheets.mechanism, edition.lab)[:1] * 70
+    found = form(fields, {}, (), words("en"), ("Title", "Answers"), ("Ana", "AAAA"))
+    assert len(found) == 3
+    assert sum(texts(page).count("v_B_mm") for page in found) == 70
+    assert texts(found[2]).count("3/3") == 1
+
+
+def test_without_fields_there_is_no_form(edition):
+    assert form([], {}, (), words("en"), ("", ""), ("Ana", "AAAA")) == ()
+
+
+@given(st.text(max_size=60))
+def test_any_name_can_be_written_and_fits(text):
+    whose = owner(Variant(text or "id", "CODE", {}, name=text, group=text))
+    assert fits(whose.name)
+    assert set(whose.name) <= measures(italic=False).keys()
+
+
+def test_names_keep_their_letters_and_lose_only_what_the_font_lacks():
+    assert writable("Ștefan Țăran-Łukasz Müller") == "Ștefan Țăran-Łukasz Müller"
+    assert writable("S\u0327tefan") == "Ştefan"
+    assert writable("a\u202eb\x00c\nd") == "abc d"
+    assert writable("王 Wang") == "? Wang"
+    assert lost("王")
+    assert not lost("Ștefan?")
+
+
+def test_a_name_too_long_ends_with_dots():
+    name = "Maria-Magdalena " * 20
+    short = shortened(name.strip())
+    assert short.endswith("…")
+    assert name.startswith(short[:-1])
+    assert fits(short)
+    assert shortened("W" * 500).startswith("WWWWWW")
+
+
+def test_who_has_no_name_is_called_by_the_id():
+    assert owner(Variant("0012", "CODE", {})).name == "0012"
+    assert owner(Variant("0012", "CODE", {}, group="331")).name == "0012, 331"
+
+
+def test_a_student_who_cannot_be_drawn_keeps_nobody_else_back(edition):
+    good = edition.variants[0]
+    bad = Variant("9", "BAD", {"n": "9999"})
+    parts = (("task", "pdf"),)
+    found = made(
+        order(edition), [StudentSheets(bad, "9", parts), StudentSheets(good, "0012", parts)]
+    )
+    assert found[0].problems
+    assert not found[0].files
+    assert not found[1].problems
+    assert list(found[1].files["task", "pdf"]) == ["task/0012-task.pdf", "task/0012-form.pdf"]

@@ -1,0 +1,362 @@
+"""Runs: the same bytes whoever does them and however often they were cut short."""
+
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pypdf
+import pytest
+
+from graphkin.classroom.printing import print_run as running
+from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.printing.journal import JOURNAL
+from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
+from graphkin.text.errors import PageError
+from graphkin.writers import files
+from graphkin.writers.lock import LOCK, locked
+from tests.classroom.printing.conftest import LEVER, LEVER_LAB, code_of, tree, write_class
+
+ROOT = Path(__file__).resolve().parents[3]
+IDS = [f"{i:04d}" for i in range(1, 9)]
+USUAL = PrintRequest()
+HOSTILE = ["../../x", "/etc/passwd", "CON", "Ab", "aB", "ștefan", "a\x00b"]
+
+
+def printed(
+    folder: Path, wishes: PrintRequest = USUAL, jobs: int = 1, cluster: str = ""
+) -> Outcome:
+    means = Means(jobs, cluster)
+    return print_class(read_edition(folder), wishes, means, lambda done, total: None)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory) -> dict[str, bytes]:
+    """What a run in one go gives, one process."""
+    folder = write_class(tmp_path_factory.mktemp("whole") / "a", IDS)
+    outcome = printed(folder)
+    assert (outcome.made, outcome.stood, outcome.refused) == (8, 0, [])
+    return tree(folder / "print")
+
+
+def test_every_student_has_sheet_form_and_key_and_the_printer_one_file_of_each(whole):
+    names = {f"task/{i}-task.pdf" for i in IDS} | {f"task/{i}-form.pdf" for i in IDS}
+    names |= {f"key/{i}-key.pdf" for i in IDS}
+    assert set(whole) == names | {"class-task.pdf", "class-key.pdf", JOURNAL}
+
+
+def test_the_file_for_the_printer_follows_the_roster(make):
+    folder = make("a", ["3", "1", "2"], names=["C", "A", "B"])
+    printed(folder)
+    reader = pypdf.PdfReader(folder / "print" / "class-task.pdf")
+    assert [mark.title for mark in reader.outline] == ["C, 331 A", "A, 331 A", "B, 331 A"]
+    pages = [page.extract_text() for page in reader.pages]
+    assert len(pages) == 9  # a sheet, a page of calculations and a form of each
+    for place in range(3):
+        assert all(code_of(place) in text for text in pages[3 * place : 3 * place + 3])
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_the_same_again_gives_the_same_bytes(whole, make, jobs):
+    folder = make("again", IDS)
+    printed(folder, jobs=jobs)
+    assert tree(folder / "print") == whole
+    outcome = printed(folder, jobs=jobs)
+    assert (outcome.made, outcome.stood) == (0, 8)
+    assert tree(folder / "print") == whole
+
+
+@pytest.mark.parametrize("name", ["task/0003-form.pdf", "key/0008-key.pdf", "class-key.pdf"])
+@pytest.mark.parametrize("harm", ["gone", "cut", "other"])
+def test_what_is_lost_or_spoilt_is_made_again(whole, tmp_path, name, harm):
+    folder = copied(whole, tmp_path)
+    path = folder / "print" / name
+    data = path.read_bytes()
+    path.unlink()
+    if harm != "gone":
+        path.write_bytes(data[: len(data) // 2] if harm == "cut" else data + b" ")
+    outcome = printed(folder)
+    assert outcome.made == (0 if name.startswith("class") else 1)
+    assert tree(folder / "print") == whole
+
+
+def copied(whole: dict[str, bytes], tmp_path: Path) -> Path:
+    """A class folder that was printed already."""
+    folder = write_class(tmp_path / "copy", IDS)
+    for name, data in whole.items():
+        path = folder / "print" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+    return folder
+
+
+def test_a_lost_journal_is_no_loss(whole, tmp_path):
+    folder = copied(whole, tmp_path)
+    (folder / "print" / JOURNAL).unlink()
+    (folder / "print" / "class-task.pdf").unlink()
+    (folder / "print" / "class-key.pdf").unlink()
+    printed(folder)
+    assert tree(folder / "print") == whole
+
+
+class Killed(BaseException):
+    """The end of a process in the middle of its work."""
+
+
+@pytest.mark.parametrize("when", [0, 1, 3])
+@pytest.mark.parametrize("how", ["before", "half", "half a file"])
+def test_a_run_that_ends_at_any_moment_is_resumed_exactly(whole, make, monkeypatch, when, how):
+    """Between the line in the journal and the files, within them, within one of them."""
+    folder = make("cut", IDS)
+    done = 0
+
+    def dying(targets):
+        nonlocal done
+        done += 1
+        if done <= when:
+            files.put_in_place(targets)
+            return
+        names = list(targets)
+        if how == "half":
+            names[0].write_bytes(targets[names[0]])
+        elif how == "half a file":
+            aside = names[0].with_name(".graphkin-99999999-0.part")
+            aside.write_bytes(targets[names[0]][:100])
+        raise Killed
+
+    with monkeypatch.context() as patch:
+        patch.setattr(running, "put_in_place", dying)
+        with pytest.raises(Killed):
+            printed(folder)
+    outcome = printed(folder)
+    assert outcome.stood == 2 * when  # a chunk of this class is two students
+    assert tree(folder / "print") == whole
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
+def test_kill_9_in_the_middle_and_the_next_run_ends_it(whole, make):
+    folder = make("killed", IDS)
+    command = [sys.executable, "-m", "graphkin", "print", str(folder), "--jobs", "2"]
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT)}
+    silent = subprocess.DEVNULL
+    with subprocess.Popen(command, env=surroundings, stdout=silent, stderr=silent) as process:
+        journal = folder / "print" / JOURNAL
+        until(lambda: process.poll() or (journal.exists() and journal.stat().st_size > 0))
+        assert process.poll() is None
+        with pytest.raises(PageError, match=f"process {process.pid} on"):
+            printed(folder)
+        process.send_signal(signal.SIGKILL)
+    cut = tree(folder / "print")
+    assert not set(cut) >= set(whole)
+    for name, data in cut.items():
+        if not Path(name).name.startswith("."):
+            assert data == whole[name]
+    outcome = printed(folder)
+    assert f"process {process.pid} on" in outcome.left
+    assert outcome.made < 8
+    assert tree(folder / "print") == whole
+
+
+def until(holds, seconds: float = 300.0) -> None:
+    """Wait until something holds."""
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def test_workers_die_with_the_run_that_began_them(tmp_path):
+    """They hold the pipe that they inherited; it closes when the last of them is gone."""
+    program = """
+import os, sys, time
+from graphkin.classroom.printing.workers import processes
+from time import sleep
+if __name__ == "__main__":
+    pool = processes(2)
+    print(*[pool.submit(os.getpid).result() for _ in range(4)], flush=True)
+    pool.submit(sleep, 600)
+    time.sleep(600)
+"""
+    path = tmp_path / "parent.py"
+    path.write_text(program, encoding="utf-8")
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, str(path)]
+    with subprocess.Popen(command, env=surroundings, stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline().split()
+        process.kill()
+        assert process.stdout.read() == b""  # returns when no process has the pipe any more
+
+
+def test_two_runs_into_one_folder_are_refused(make):
+    folder = make("twice", ["1"])
+    (folder / "print").mkdir()
+    with locked(folder / "print"), pytest.raises(PageError, match="another run is writing here"):
+        printed(folder)
+    assert not [name for name in tree(folder / "print") if name != LOCK]
+    assert printed(folder).made == 1
+
+
+@pytest.mark.parametrize("when", [0, 1, 4, 11, 23, 24, 25])
+def test_a_full_disk_is_told_and_nothing_is_half_written(whole, make, monkeypatch, when):
+    """Whichever file it is that finds no room: of a student, or one for the printer."""
+    folder = make("full", IDS)
+    written, opened = 0, Path.open
+
+    def with_little_room(path: Path, mode: str = "r", *args, **kwargs):
+        nonlocal written
+        stream = opened(path, mode, *args, **kwargs)
+        if mode == "wb" and path.suffix == ".part":
+            written += 1
+            if written > when:
+                with stream:
+                    stream.write(b"%PDF half a")
+                raise OSError(errno.ENOSPC, "No space left on device", str(path))
+        return stream
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "open", with_little_room)
+        with pytest.raises(PageError, match=r"no space left on device.*same command goes on"):
+            printed(folder)
+    left = tree(folder / "print")
+    assert not [name for name in left if name.endswith(".part")]
+    for name, data in left.items():
+        if not Path(name).name.startswith("."):
+            assert data == whole[name]
+    outcome = printed(folder)
+    assert outcome.stood == min(when // 6 * 2, 8)  # chunks of two students with three files each
+    assert tree(folder / "print") == whole
+
+
+@pytest.mark.parametrize(
+    "wishes",
+    [PrintRequest(language="ro"), PrintRequest(ink="black")],
+    ids=["another language", "another ink"],
+)
+def test_files_of_other_settings_are_not_replaced_without_force(whole, tmp_path, wishes):
+    folder = copied(whole, tmp_path)
+    with pytest.raises(PageError, match=r"0001-task\.pdf.* and 21 more.*--force"):
+        printed(folder, wishes)
+    assert tree(folder / "print") == whole
+    forced = PrintRequest(language=wishes.language, ink=wishes.ink, force=True)
+    assert printed(folder, forced).made == 8
+    assert tree(folder / "print") != whole
+    assert set(tree(folder / "print")) == set(whole)
+
+
+def test_a_file_of_somebody_else_is_not_replaced_without_force(make):
+    folder = make("foreign", ["0001"])
+    (folder / "print" / "task").mkdir(parents=True)
+    mine = folder / "print" / "task" / "0001-task.pdf"
+    mine.write_bytes(b"mine")
+    with pytest.raises(PageError, match=r"0001-task\.pdf"):
+        printed(folder)
+    assert mine.read_bytes() == b"mine"
+    assert printed(folder, PrintRequest(force=True)).made == 1
+    assert mine.read_bytes() != b"mine"
+
+
+def test_the_printers_file_of_somebody_else_is_not_replaced_without_force(make):
+    folder = make("foreign", ["0001"])
+    (folder / "print").mkdir()
+    mine = folder / "print" / "class-task.pdf"
+    mine.write_bytes(b"mine")
+    with pytest.raises(PageError, match=r"class-task\.pdf"):
+        printed(folder)
+    assert mine.read_bytes() == b"mine"
+    printed(folder, PrintRequest(force=True))
+    assert mine.read_bytes() != b"mine"
+
+
+def test_a_forced_run_that_was_cut_short_goes_on_without_force(make, monkeypatch):
+    """What it had begun to replace is known to be its own."""
+    folder, wishes = make("forced", ["0001"]), PrintRequest(language="ro")
+    printed(folder)
+
+    def dying(_targets):
+        raise Killed
+
+    with monkeypatch.context() as patch:
+        patch.setattr(running, "put_in_place", dying)
+        with pytest.raises(Killed):
+            printed(folder, PrintRequest(language="ro", force=True))
+    assert printed(folder, wishes).made == 1
+    assert printed(folder, wishes).stood == 1
+
+
+def test_further_views_join_what_stands(whole, tmp_path):
+    folder = copied(whole, tmp_path)
+    outcome = printed(folder, PrintRequest(views=("task", "overlay"), formats=("pdf", "svg")))
+    assert outcome.made == 8
+    found = tree(folder / "print")
+    assert {name: found[name] for name in whole if name != JOURNAL} == {
+        name: data for name, data in whole.items() if name != JOURNAL
+    }
+    new = {name.replace("0001", "") for name in found if name not in whole and "0001" in name}
+    assert new == {
+        "task/-task-velocity.svg",
+        "task/-task-form-01.svg",
+        "task/-task-form-02.svg",
+        "overlay/-overlay.pdf",
+        "overlay/-overlay-velocity.svg",
+    }
+
+
+def test_hostile_ids_write_nothing_outside(make, tmp_path):
+    folder = make("inner/class", HOSTILE)
+    before = set(tree(tmp_path))
+    outcome = printed(folder)
+    assert outcome.made == len(HOSTILE)
+    new = set(tree(tmp_path)) - before
+    assert all(name.startswith("inner/class/print/") for name in new)
+    sheets = [Path(name).name for name in new if name.endswith("-task.pdf") and "/task/" in name]
+    assert len({name.casefold() for name in sheets}) == len(HOSTILE)
+    assert all(name.isascii() for name in new)
+
+
+def test_who_cannot_be_drawn_is_told_and_the_others_printed(make):
+    numbers = [60, 180, 70]
+    folder = make("lever", ["1", "2", "3"], numbers=numbers, scene=LEVER, lab=LEVER_LAB)
+    outcome = printed(folder)
+    assert [variant.id for variant, _ in outcome.refused] == ["2"]
+    assert outcome.made == 2
+    assert len(pypdf.PdfReader(folder / "print" / "class-key.pdf").outline) == 2
+
+
+def test_a_worker_that_dies_is_told(make, monkeypatch):
+    folder = make("dead", [str(i) for i in range(8)])
+    monkeypatch.setattr(running, "make", dies)
+    with pytest.raises(PageError, match="a worker ended suddenly"):
+        printed(folder, jobs=2)
+    monkeypatch.undo()
+    assert printed(folder).made == 8
+
+
+def dies(_order, _wanted):
+    """A worker that the system ends."""
+    os._exit(9)
+
+
+def test_a_cluster_gives_the_same_bytes(whole, make):
+    import distributed
+
+    folder = make("cluster", IDS)
+    local = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=2, processes=False, protocol="tcp", dashboard_address=None
+    )
+    try:
+        printed(folder, cluster=local.scheduler_address.replace("tcp://", "dask://"))
+    finally:
+        local.close()
+    assert tree(folder / "print") == whole
+
+
+def test_without_dask_the_extra_is_named(make, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(PageError, match=r"graphkin\[cluster\]"):
+        printed(make("none", ["1"]), cluster="dask://127.0.0.1:9")

@@ -1,0 +1,496 @@
+"""A class list may be hostile, or just saved by a spreadsheet: nothing is lost, all is told."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import zipfile
+from pathlib import Path
+
+import openpyxl
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as some
+
+from graphkin.classroom.roster import spreadsheets, xlsx
+from graphkin.classroom.roster.csv_text import NUMBER, csv_text, safe
+from graphkin.classroom.roster.read_roster import NAMES, read_roster
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.spreadsheets import MOST_CELLS, SEPARATORS, folded, read_sheet
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.xlsx import xlsx_rows
+from graphkin.text.errors import Problem
+
+PLAIN = "number,id,name,group\n1,0042,Ann Lee,A\n2,0043,Bob Roe,B\n"
+READ = [
+    Student(2, "0042", 1, "Ann Lee", "A"),
+    Student(3, "0043", 2, "Bob Roe", "B"),
+]
+
+
+@pytest.fixture
+def saved(tmp_path):
+    def written(content, name="roster.csv"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
+        return path
+
+    return written
+
+
+def problems(path, numbered=True):
+    with pytest.raises(RosterError) as caught:
+        read_roster(path, numbered=numbered)
+    return [str(problem) for problem in caught.value.problems]
+
+
+# ------------------------------------------------------------------------------ what is read
+
+
+@pytest.mark.parametrize("separator", SEPARATORS)
+@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_separator_line_ends_and_byte_order_mark_do_not_matter(saved, separator, newline, encoding):
+    text = PLAIN.replace(",", separator).replace("\n", newline)
+    assert read_roster(saved(text.encode(encoding)), numbered=True) == READ
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "NUMBER,ID,NAME,GROUP",
+        " Number , Student ID,Full name,Section",
+        "Nr.,Nr. matricol,Nume și prenume,Grupă",
+        "nr crt,MATRICOL,Numele și prenumele,Grupa",
+        "N.,Matricola,Nome e cognome,Gruppo",
+        "Numero,Numero di matricola,Nominativo,CLASSE",
+        '"number","id","name","group"',
+    ],
+)
+def test_heads_are_known_in_three_languages_whatever_their_case(saved, head):
+    assert read_roster(saved(PLAIN.replace("number,id,name,group", head)), numbered=True) == READ
+
+
+def test_no_name_of_a_column_means_two_things():
+    meanings: dict[str, set[str]] = {}
+    for what, names in NAMES.items():
+        for name in (what, *names):
+            meanings.setdefault(folded(name), set()).add(what)
+    assert all(meanings)
+    assert not {name: what for name, what in meanings.items() if len(what) > 1}
+
+
+def test_names_in_two_columns_are_joined_in_their_order(saved):
+    assert read_roster(saved("id,First name,Surname\n1,Ann,Lee\n"))[0].name == "Ann Lee"
+    assert read_roster(saved("id;Nume;Prenume\n1;Popa;Ion\n"))[0].name == "Popa Ion"
+    assert read_roster(saved("id;Cognome;Nome\n1;Rossi;Mario\n"))[0].name == "Rossi Mario"
+    both = "id,name,first name,last name\n1,Ann Lee,Ann,Lee\n"
+    assert read_roster(saved(both))[0].name == "Ann Lee"
+
+
+def test_other_columns_are_kept_as_they_are(saved):
+    text = "id,e-mail,x,,x2\n07, a@b.c ,=1+1,first,-5\n"
+    assert read_roster(saved(text))[0].extra == {
+        "e-mail": "a@b.c",
+        "x": "=1+1",
+        "column 4": "first",
+        "x2": "-5",
+    }
+
+
+def test_leading_zeros_diacritics_commas_and_apostrophes_stay(saved):
+    text = 'number;id;name\n007;000123;"O\'Neil, Jr. ""Nan"" Ștefănescu-Țuțea"\n'
+    (one,) = read_roster(saved(text), numbered=True)
+    assert (one.id, one.number) == ("000123", 7)
+    assert one.name == 'O\'Neil, Jr. "Nan" Ștefănescu-Țuțea'
+
+
+def test_letters_are_composed(saved):
+    apart, whole = "Ann Le\u0301o", "Ann Léo"
+    assert read_roster(saved(f"id,name\n1,{apart}\n"))[0].name == whole
+
+
+def test_empty_lines_and_cells_at_the_end_do_not_matter(saved):
+    text = "\n,,\nid,number,,\n\n1,7,,,,\n,,,\n"
+    (one,) = read_roster(saved(text), numbered=True)
+    assert (one.id, one.number, one.row) == ("1", 7, 5)
+
+
+def test_a_number_that_a_spreadsheet_wrote_as_decimal_is_whole(saved):
+    assert [s.number for s in read_roster(saved("id;number\na;7,0\nb;8.00\n"), numbered=True)] == [
+        7,
+        8,
+    ]
+
+
+def test_without_a_formula_no_number_is_needed(saved):
+    found = read_roster(saved("id,number\n1,\n2,seven\n"))
+    assert [student.number for student in found] == [None, None]
+
+
+def test_a_moodle_and_a_canvas_export_are_class_lists(saved):
+    moodle = "First name,Surname,ID number,Email address\nAnn,Lee,0042,a@b.c\n"
+    canvas = 'Student,ID,SIS User ID,Section\n"Lee, Ann",9,0042,A\n'
+    assert read_roster(saved(moodle))[0] == Student(
+        2, "0042", None, "Ann Lee", "", {"Email address": "a@b.c"}
+    )
+    assert read_roster(saved(canvas))[0].name == "Lee, Ann"
+
+
+# --------------------------------------------------------------------------- what is refused
+
+HOSTILE = {
+    "": "the table is empty",
+    "\ufeff\n\n": "the table is empty",
+    "number,id,name,group\n": "no student below the head",
+    "number,name\n1,Ann\n": 'no column id; the head is "number", "name"',
+    "id,name\n1,Ann\n": "no column number; the lab's formula needs the student's number",
+    "nunber,id\n1,1\n": 'is it "nunber"? then call that column "number"',
+    "number,id\n1,7\n2,7\n": 'row 3, column "id": "7" stands in row 2 already',
+    "number,id\n1,ab\n2,AB\n": 'row 3, column "id": "AB", written "ab", stands in row 2 already',
+    "number,id\n,7\n": 'row 2, column "number": is missing',
+    "Nr.,id\nx,7\n": 'row 2, column "Nr.": "x" is no whole number',
+    "number,id\n-1,7\n": '"-1" is no whole number',
+    "number,id\n1e3,7\n": '"1e3" is no whole number',
+    "number,id\n１,7\n": '"１" is no whole number',
+    "number,id\n1_000,7\n": '"1_000" is no whole number',
+    "number,id\n12345678901,7\n": "is no whole number",
+    "number,id\n1,\n": 'row 2, column "id": is missing',
+    "number,id\n1,7\n2,8,9\n": "row 3: 3 cells, and the head has 2",
+    "number,id,number\n1,7,2\n": 'two columns are called "number"',
+    'number,id,name\n1,7,"Ann\n2,8,Bob\n': "row 2: a quote that is opened and never closed",
+    'number,id,name\n1,7,"Ann\n2,8,Bob"\n3,9,Cy\n': "row 2: a cell goes on to row 3",
+    'number,id,name\n1,7,"Ann" Lee\n': "row 2: a quote in the middle of a quoted cell",
+    "number,id\n1,7\0\n": "row 2: a NUL character",
+    "number,id\n1,7\u202e\n": "the control character",
+    "number,id\n1,a\x07b\n": "the control character",
+    "number,id\n1," + "7" * 101 + "\n": "101 characters",
+    "number,id,name\n1,7," + "x" * 5000 + "\n": "at most 4000",
+}
+
+
+@pytest.mark.parametrize(("text", "expected"), HOSTILE.items(), ids=lambda v: v[:40])
+def test_what_is_wrong_is_told_by_row_and_column(saved, text, expected):
+    found = problems(saved(text))
+    assert any(expected in problem for problem in found), found
+    assert all("roster.csv" in problem for problem in found)
+
+
+def test_all_rows_are_told_at_once_in_their_order(saved):
+    found = problems(saved("number,id\n1,7\nx,7\n,8\n4,\n"))
+    rows = [int(problem.partition("row ")[2].split(",")[0]) for problem in found]
+    assert rows == [3, 3, 4, 5]
+
+
+def test_what_is_not_utf_8_is_told_with_its_row_and_the_way_out(saved):
+    (found,) = problems(saved("number,id,name\n1,7,Ștefan\n".encode("utf-16-le")))
+    assert "NUL" in found
+    (found,) = problems(saved("number,id,name\n1,7,Ann\n2,8,é\n".encode("latin-1")))
+    assert "row 3" in found and "CSV UTF-8" in found
+
+
+def test_an_old_excel_file_a_folder_and_nothing_are_told(saved, tmp_path):
+    assert "old Excel file" in problems(saved(b"\xd0\xcf\x11\xe0" + bytes(600)))[0]
+    assert "cannot be read" in problems(tmp_path)[0]
+    assert "cannot be read" in problems(tmp_path / "none.csv")[0]
+
+
+def test_too_many_problems_stop_the_reading(saved):
+    rows = "".join(f"x,{i}\n" for i in range(1000))
+    found = problems(saved("number,id\n" + rows))
+    assert len(found) == 101
+    assert found[-1].endswith("and perhaps more problems")
+
+
+def test_a_formula_cell_is_read_as_text_and_never_run(saved):
+    (one,) = read_roster(saved('id,name\n1,"=HYPERLINK(""http://x"")"\n'))
+    assert one.name == '=HYPERLINK("http://x")'
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150)
+@given(
+    some.binary(max_size=300) | some.text(max_size=200).map(lambda t: ("id,number\n" + t).encode())
+)
+def test_no_bytes_are_more_than_told(saved, data):
+    try:
+        read_roster(saved(data), numbered=True)
+    except RosterError as error:
+        assert error.problems
+
+
+# --------------------------------------------------------------------------------- what is written
+
+
+@pytest.mark.parametrize(
+    ("cell", "written"),
+    [
+        ("=HYPERLINK(1)", "'=HYPERLINK(1)"),
+        ("+cmd", "'+cmd"),
+        ("@SUM(1)", "'@SUM(1)"),
+        ("-x", "'-x"),
+        ("\t=1", "'\t'=1"),
+        ("b;=1+1", "b;'=1+1"),
+        ("b; @SUM(1)", "b; '@SUM(1)"),
+        ("a\n+cmd", "a\n'+cmd"),
+        ("＝1", "'＝1"),
+        (" =1", "' =1"),
+        (";=1", ";'=1"),
+        ('a;"=1"', 'a;"\'=1"'),
+        ("B-2; C", "B-2; C"),
+        ("x, -y", "x, -y"),
+        ("-5", "-5"),
+        ("+5.5", "+5.5"),
+        ("-1,5", "-1,5"),
+        ("-5e3", "-5e3"),
+        (-5, "-5"),
+        ("Ann", "Ann"),
+        ("", ""),
+    ],
+)
+def test_formula_cells_are_escaped_and_numbers_stay(cell, written):
+    assert safe(cell) == written
+
+
+@given(
+    some.lists(
+        some.lists(some.text("ab,;\"' \n=é-5+@\t", min_size=1), min_size=2, max_size=3), min_size=1
+    )
+)
+def test_what_is_written_reads_back(rows):
+    """By any reader of CSV; and one that expects another separator finds no formula."""
+    found = list(csv.reader(io.StringIO(csv_text(rows), newline=""), strict=True))
+    assert found == [[safe(cell) for cell in row] for row in rows]
+    for separator in ",;\t":
+        for row in csv.reader(io.StringIO(csv_text(rows), newline=""), delimiter=separator):
+            runs = [cell for cell in row if cell.lstrip().startswith(("=", "+", "@", "-"))]
+            assert all(NUMBER.match(cell.lstrip()) for cell in runs), runs
+
+
+# --------------------------------------------------------------------------------------- XLSX
+
+
+@pytest.fixture
+def book(tmp_path):
+    def written(rows, formats=()):
+        workbook = openpyxl.Workbook()
+        for row in rows:
+            workbook.active.append(row)
+        for cell, form in formats:
+            workbook.active[cell].number_format = form
+        path = tmp_path / "roster.xlsx"
+        workbook.save(path)
+        return path
+
+    return written
+
+
+def test_a_workbook_is_a_class_list(book):
+    rows = [["Nr.", "Matricol", "Nume", "Grupa", "medie"], [1, "0042", "Ștefan", "A", 9.5]]
+    (one,) = read_roster(book(rows), numbered=True)
+    assert one == Student(2, "0042", 1, "Ștefan", "A", {"medie": "9.5"})
+
+
+def test_zeros_that_only_a_format_shows_are_kept(book):
+    path = book([["number", "id"], [7.0, 42]], [("B2", "0000")])
+    assert [(s.number, s.id) for s in read_roster(path, numbered=True)] == [(7, "0042")]
+
+
+def test_ids_that_are_numbers_of_a_workbook_may_have_lost_their_zeros(book):
+    """0041 typed into a spreadsheet is 41; as text, or with a format that shows zeros, it stays."""
+    said: list[str] = []
+    read_roster(book([["id", "name"], [41, "A"], ["0042", "B"]]), tell=said.append)
+    assert len(said) == 1
+    assert "1 ids are numbers in the file, such as 41: leading zeros would be lost" in said[0]
+    assert "0042" in said[0]
+    read_roster(book([["id"], [4100], [4101]]), tell=said.append)
+    assert "leading zeros would be lost; if" in said[1]
+    read_roster(book([["id", "nr"], ["0041", 1]]), tell=said.append)
+    read_roster(book([["id"], [41]], [("A2", "0000")]), tell=said.append)
+    assert len(said) == 2
+
+
+def test_problems_of_a_workbook_name_its_rows(book):
+    found = problems(book([["number", "id"], [1, 7], [None, None], ["x", 7]]))
+    assert 'roster.xlsx, row 4, column "number": "x" is no whole number' in found[0]
+    assert 'row 4, column "id": "7" stands in row 2 already' in found[1]
+
+
+def test_a_broken_workbook_and_a_bomb_are_told(saved):
+    assert "cannot be read as XLSX" in problems(saved(b"PK\x03\x04" + bytes(100), "r.xlsx"))[0]
+    room = io.BytesIO()
+    with zipfile.ZipFile(room, "w", zipfile.ZIP_DEFLATED) as packed:
+        packed.writestr("xl/workbook.xml", bytes(65 * 1024 * 1024))
+    assert "far larger unpacked" in problems(saved(room.getvalue(), "r.xlsx"))[0]
+
+
+SHEET = '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
+TITLES = "<row><c t='inlineStr'><is><t>nr</t></is></c><c t='inlineStr'><is><t>id</t></is></c></row>"
+
+
+@pytest.fixture
+def packed(book):
+    """A workbook whose rows are given as XML, below a head with nr and id."""
+
+    def written(rows):
+        path = book([["a"]])
+        with zipfile.ZipFile(path) as was:
+            parts = {name: was.read(name) for name in was.namelist()}
+        parts["xl/worksheets/sheet1.xml"] = (
+            f"{SHEET}{TITLES}{rows}</sheetData></worksheet>".encode()
+        )
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as now:
+            for name, data in parts.items():
+                now.writestr(name, data)
+        return path
+
+    return written
+
+
+def test_a_stray_cell_far_below_costs_no_cells_between(packed):
+    """The last row of a spreadsheet is the 1 048 576th; what is empty above it makes no rows."""
+    rows = '<row r="2"><c/><c s="0"/></row><row r="1048576"><c><v>1</v></c><c><v>7</v></c></row>'
+    found = list(xlsx_rows(packed(rows).read_bytes(), "roster.xlsx"))
+    assert [(row.line, row.cells) for row in found] == [(1, ("nr", "id")), (1048576, ("1", "7"))]
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ('<row r="1001"><c><v>1</v></c></row>', "1001 rows"),
+        ("<row><c><v>1</v></c><c r='XFD2'><v>1</v></c></row>" * 200, "124 rows, and 2015234 cells"),
+        ("<row/>" * 1_000_000, "XML elements"),
+        ("<row><c><v>1</v></c></row>" * 333_333, "XML elements"),
+    ],
+)
+def test_a_workbook_far_too_large_is_not_read_to_its_end(packed, monkeypatch, rows, words):
+    """No more than the cells that a table may have are looked at."""
+    seen = []
+    monkeypatch.setattr(spreadsheets, "LAST_ROW", 1000)
+    monkeypatch.setattr(xlsx, "cell_text", lambda cell: seen.append(cell) or "")
+    (found,) = problems(packed(rows))
+    assert words in found
+    assert len(seen) <= MOST_CELLS
+
+
+def test_a_cell_of_very_many_characters_is_told_once(packed):
+    found = problems(packed(f"<row><c><v>1</v></c><c t='str'><v>{'x' * 100_000}</v></c></row>"))
+    assert found[0].endswith('column "id": 100000 characters; expected at most 4000')
+
+
+# ------------------------------------------------------------------------------------- too much
+
+
+def count_tidied(monkeypatch):
+    """Counts the cells that are looked at."""
+    seen = []
+    tidy = spreadsheets.tidy
+    monkeypatch.setattr(spreadsheets, "tidy", lambda cell: seen.append(cell) or tidy(cell))
+    return seen
+
+
+@pytest.mark.parametrize("count", [10_000, 40_000])
+def test_empty_cells_at_the_end_of_a_row_are_looked_at_once(saved, monkeypatch, count):
+    seen = count_tidied(monkeypatch)
+    (one,) = read_roster(saved("nr;id\n1;7" + ";" * count + "\n"), numbered=True)
+    assert one.id == "7"
+    assert len(seen) == 4 + count
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("nr;id\n" + "1;7\n" * 60, "more than 50 rows of 2 columns"),
+        ("nr;id" + ";x;y" * 50 + "\n" + "1;7\n" * 20, "more than 9 rows of 102 columns"),
+        ("nr;id\n" + "\n" * 200, "more than 100 lines"),
+        ("nr;id" + ";x" * 2000 + "\n1;2\n", "2002 columns"),
+    ],
+)
+def test_limits_of_rows_columns_and_lines_hold_while_a_table_is_read(
+    saved, monkeypatch, text, words
+):
+    for name, most in (("MOST_ROWS", 50), ("MOST_CELLS", 1000), ("LAST_ROW", 100)):
+        monkeypatch.setattr(spreadsheets, name, most)
+    seen = count_tidied(monkeypatch)
+    (found,) = problems(saved(text))
+    assert words in found
+    assert len(seen) <= 2002
+
+
+def test_rows_that_are_empty_do_not_count_and_are_not_kept(saved, monkeypatch):
+    monkeypatch.setattr(spreadsheets, "MOST_ROWS", 2)
+    text = "nr;id\n" + ";\n" * 500 + "1;a\n" + "\n" * 500 + "2;b\n;;\n"
+    assert [(s.row, s.id) for s in read_roster(saved(text), numbered=True)] == [
+        (502, "a"),
+        (1003, "b"),
+    ]
+
+
+@pytest.mark.parametrize("quote", ["", '"'])
+def test_a_head_longer_than_any_cell_is_told(saved, quote):
+    (found,) = problems(saved(f"nr,id,{quote}{'x' * 200_000}{quote}\n1,2,3\n"))
+    assert "row 1: a cell that is too long" in found
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in folders there")
+def test_a_pipe_is_no_table_and_nobody_waits_for_it(tmp_path):
+    os.mkfifo(tmp_path / "roster.csv")
+    (found,) = problems(tmp_path / "roster.csv")
+    assert "a pipe or a device is no file" in found
+    assert "a pipe or a device is no file" in problems(Path(os.devnull))[0]
+
+
+def test_without_openpyxl_the_message_helps(saved, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "openpyxl", None)
+    (found,) = problems(saved(b"PK\x03\x04" + bytes(100), "r.xlsx"))
+    assert "graphkin[class]" in found and "CSV UTF-8" in found
+
+
+def test_a_table_keeps_its_head_rows_and_separator(saved):
+    sheet = read_sheet(saved("a;b\n1;2\n"), ["a"])
+    assert (sheet.head, sheet.rows[0].cells, sheet.separator) == (("a", "b"), ("1", "2"), ";")
+    assert sheet.place(sheet.rows[0], "b") == 'roster.csv, row 2, column "b"'
+
+
+def test_mistakes_of_all_sorts_are_told_at_once_in_the_order_of_the_rows(saved):
+    """A row too long, a number missing, none, an id twice, an id missing, a quote left open."""
+    rows = ["Nr;id;nume", "1;2;x;1", ";3;a", ",5;4;b", "5;6;c", "6;6;d", '7;;"e f"', '8;9;"open']
+    found = problems(saved("\n".join(rows)))
+    expected = [
+        "4 cells",
+        "is missing",
+        "is no whole number",
+        "stands in row 5",
+        "is missing",
+        "quote",
+    ]
+    assert all(f"row {row}" in line for row, line in zip((2, 3, 4, 6, 7, 8), found, strict=True))
+    assert all(word in line for word, line in zip(expected, found, strict=True)), found
+
+
+def test_a_column_that_is_missing_hides_no_other_mistake(saved):
+    found = problems(saved("Numer;id\n1;2;x\n3;\n4;5\n"))
+    assert "no column number" in found[0]
+    assert found[0].endswith('is it "Numer"? then call that column "number"')
+    assert [line.split(":")[0] for line in found[1:]] == [
+        "roster.csv, row 2",
+        'roster.csv, row 3, column "id"',
+    ]
+
+
+def test_a_list_without_ids_is_told_once_not_for_each_row(saved):
+    assert len(problems(saved("nr\n1\n2\n3\n"))) == 1
+
+
+def test_what_else_is_wrong_with_a_student_stands_among_the_rest(saved):
+    def odd(student):
+        return [Problem("", "is odd")] if student.number % 2 else []
+
+    with pytest.raises(RosterError) as caught:
+        read_roster(saved("nr;id\n1;a\n2;\n3;c\nx;d\n"), numbered=True, check=odd)
+    assert [problem.place for problem in caught.value.problems] == [
+        "roster.csv, row 2",
+        'roster.csv, row 3, column "id"',
+        "roster.csv, row 4",
+        'roster.csv, row 5, column "nr"',
+    ]

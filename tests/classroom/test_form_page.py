@@ -1,0 +1,201 @@
+"""The form of a lab as markup: every field labelled, nothing of the key, kept to a student."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from html.parser import HTMLParser
+from math import isnan
+from pathlib import Path
+
+import pytest
+
+from graphkin.classroom.form_page import ALONG, TURNING, Identity, form_fragment, lab_form
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.answers import read_answers
+from graphkin.classroom.grading.class_marking import Book
+from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.mechanism import load
+from graphkin.text import LANGUAGES, words
+from tests.classroom.grading.students import LABS
+from tests.cli.conftest import Run, run  # noqa: F401
+
+WHOSE = Identity("0042", "pump CODE", "0042", "Ștefănescu Ana")
+
+
+class Form(HTMLParser):
+    """What stands in a form: its fields by name with their attributes, labels, all ids, options."""
+
+    def __init__(self, markup: str) -> None:
+        super().__init__()
+        self.fields: dict[str, dict[str, str | None]] = {}
+        self.labelled: list[str] = []
+        self.ids: list[str] = []
+        self.told: dict = {}
+        self.options: dict[str, list[str]] = {}
+        self.feed(markup)
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        if "id" in given:
+            self.ids.append(given["id"])
+        if tag in ("input", "select") and "name" in given:
+            self.fields[given["name"]] = given
+        if tag == "label":
+            self.labelled.append(given["for"])
+        if tag == "form":
+            self.told = json.loads(given["data-form"])
+        if tag == "option":
+            self.options.setdefault(list(self.fields)[-1], []).append(given["value"])
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", LABS)
+def test_every_field_of_the_form_is_there_with_its_label(name, language):
+    mechanism, lab = load(name), read_lab(name)
+    form = Form(lab_form(mechanism, lab, words(language), WHOSE))
+    asked = items(mechanism, lab)
+    assert set(form.fields) == {item.field for item in asked}
+    assert set(form.labelled) == {field["id"] for field in form.fields.values()}
+    assert len(form.ids) == len(set(form.ids))
+    for field in form.fields.values():
+        assert set(field["aria-describedby"].split()) <= set(form.ids)
+    assert {unit for item in asked if (unit := item.unit)} <= set(form.told["units"])
+
+
+def test_senses_are_saved_in_words_that_grading_reads():
+    mechanism, lab = load("slotted-lever"), read_lab("slotted-lever")
+    form = Form(lab_form(mechanism, lab, words("it"), WHOSE))
+    senses = [item for item in items(mechanism, lab) if item.what == "sense"]
+    assert senses
+    for item in senses:
+        empty, *values = form.options[item.field]
+        assert empty == ""
+        assert [read_answer(value, item).value for value in values] == [1, -1]
+    assert {*TURNING, *ALONG} >= {v for each in form.options.values() for v in each if v}
+
+
+def test_what_is_too_small_to_be_measured_is_said_to_be_computed():
+    mechanism, lab = load("pump"), read_lab("pump")
+    made = [
+        form_fragment(items(mechanism, lab), lab.rubric.points, compute, words("en"), WHOSE)
+        for compute in ((), ("v_D_mm",))
+    ]
+    assert words("en")("form.compute") not in made[0]
+    assert made[1].count(words("en")("form.compute")) == 1
+
+
+def test_a_page_of_somebody_asks_for_no_id_and_one_of_nobody_does():
+    mechanism, lab = load("pump"), read_lab("pump")
+    own = lab_form(mechanism, lab, words("en"), WHOSE)
+    anybody = lab_form(mechanism, lab, words("en"), Identity("pump-n7", "pump-n7"))
+    assert "Ștefănescu Ana – 0042" in own
+    assert "answers-id" not in own
+    assert '<label for="answers-id">' in anybody
+
+
+def test_the_task_page_of_a_lab_holds_the_form_and_of_another_scene_none(run: Run, tmp_path: Path):  # noqa: F811
+    args = ("--view", "task", "--format", "html", "-o", tmp_path)
+    assert run("sheet", "pump", "--set", "n=7", *args).exit_code == 0
+    form = Form((tmp_path / "pump-n7-task.html").read_text(encoding="utf-8"))
+    assert {"v_D_mm", "omega_3_sense"} <= set(form.fields)
+    assert form.told["id"] == ""
+    scene = Path(__file__).resolve().parents[2] / "examples" / "scenes" / "crank-rocker.toml"
+    assert run("sheet", scene, *args).exit_code == 0
+    (other,) = tmp_path.glob("crank*.html")
+    assert not Form(other.read_text(encoding="utf-8")).fields
+
+
+@pytest.fixture(scope="module")
+def printed(tmp_path_factory) -> Path:
+    """The class folder of some students of every lab, with their task pages."""
+    from click.testing import CliRunner
+
+    from graphkin.cli.main import app
+
+    folder = tmp_path_factory.mktemp("classes")
+    (folder / "class.csv").write_text("number,id,name\n7,0042,Ana\n12,0043,Ion\n", encoding="utf-8")
+    for name in LABS:
+        for args in (
+            ("variants", name, folder / "class.csv", "-o", folder / name),
+            ("print", folder / name, "--view", "task", "--format", "html", "--jobs", "1"),
+        ):
+            result = CliRunner().invoke(app, [str(arg) for arg in args])
+            assert result.exit_code == 0, result.output
+    return folder
+
+
+def said(page: str) -> str:
+    """The text of a page and what its form is told, without drawings, styles and scripts."""
+    bare = re.sub(r"<(svg|style|script)\b.*?</\1>", " ", page, flags=re.DOTALL)
+    told = " ".join(re.findall(r'(?:data-\w+|value)="([^"]*)"', bare))
+    return html.unescape(re.sub(r"<[^>]*>", " ", bare) + " " + told)
+
+
+KEY_MARKS = ("link", "velocity", "acceleration", "construction", "normal", "centre", "arrowhead")
+"""Classes of marks that only a key draws."""
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_nothing_of_the_key_is_in_a_task_page(printed, name):
+    lab = read_lab(name)
+    book = Book(lab, lab.scene.read_text(encoding="utf-8"))
+    for who, n in (("0042", 7), ("0043", 12)):
+        page = (printed / name / "print" / "task" / f"{who}-task.html").read_text(encoding="utf-8")
+        text = said(page).replace(",", ".").replace("−", "-")
+        numbers = {abs(float(found)) for found in re.findall(r"\d+\.\d+", text)}
+        key = book.marker({"n": str(n)}).standard.key
+        for field, value in key.items():
+            if field.endswith("_sense") or isnan(value) or abs(value) < 1e-9:
+                continue
+            near = [x for x in numbers if abs(x - abs(value)) < 2e-3 * abs(value)]
+            assert not near, (field, value, near)
+        pictures = "".join(re.findall(r"<svg\b.*?</svg>", page, flags=re.DOTALL))
+        marks = {c for found in re.findall(r'class="([^"]*)"', pictures) for c in found.split()[:1]}
+        assert marks
+        assert not marks & set(KEY_MARKS), marks & set(KEY_MARKS)
+
+
+def test_forms_of_a_class_are_kept_apart_and_named_by_their_students(printed):
+    told = []
+    for name in LABS:
+        for who in ("0042", "0043"):
+            path = printed / name / "print" / "task" / f"{who}-task.html"
+            form = Form(path.read_text(encoding="utf-8"))
+            assert form.told["id"] == who
+            assert form.told["stem"] == who
+            told.append(form.told["memory"])
+    assert len(set(told)) == len(told)
+
+
+def test_pages_are_printed_again_with_the_same_bytes(printed, run: Run):  # noqa: F811
+    folder = printed / "pump"
+    before = {p.name: p.read_bytes() for p in (folder / "print" / "task").glob("*.html")}
+    again = ("print", folder, "--view", "task", "--format", "html", "--lang", "en", "--force")
+    assert run(*again, "--jobs", "1").exit_code == 0
+    changed = {p.name: p.read_bytes() for p in (folder / "print" / "task").glob("*.html")}
+    assert changed.keys() == before.keys()
+    back = ("print", folder, "--view", "task", "--format", "html", "--force", "--jobs", "1")
+    assert run(*back).exit_code == 0
+    assert {p.name: p.read_bytes() for p in (folder / "print" / "task").glob("*.html")} == before
+
+
+def test_an_overlay_is_no_page(printed, run: Run):  # noqa: F811
+    result = run("print", printed / "pump", "--view", "overlay", "--format", "html")
+    assert result.exit_code == 2
+    assert "overlay" in result.stderr
+
+
+def test_a_file_line_by_line_with_any_separator_is_an_answer(tmp_path):
+    """What the script writes, by hand: grading reads it whatever language the page has."""
+    mechanism, lab = load("pump"), read_lab("pump")
+    fields = items(mechanism, lab)
+    for sign, number in ((";", "12,5"), (",", '"12,5"'), (",", "12.5")):
+        text = f"field{sign}value\r\nid{sign}0042\r\nv_D_mm{sign}{number}\r\nv_D{sign}\r\n"
+        path = tmp_path / "0042-answers.csv"
+        path.write_text(text, encoding="utf-8", newline="")
+        found = read_answers(path, fields, ["0042"])
+        assert found.of["0042"]["v_D_mm"].value == 12.5
+        assert found.of["0042"]["v_D"].is_blank

@@ -1,0 +1,405 @@
+"""Each student gets data of their own, written so that every sheet can be derived again."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from base64 import b32encode
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin import load
+from graphkin.classroom.lab.fairness import judged
+from graphkin.classroom.lab.lab_model import Fair, Range, Ranges
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.classroom.lab.rules import settings
+from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.roster.read_roster import read_roster
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import assigned
+from graphkin.classroom.variants.class_files import write_class
+from graphkin.classroom.variants.class_words import class_lines
+from graphkin.classroom.variants.manifest import read_rule, rederived
+from graphkin.cli.main import app
+from graphkin.text.errors import PageError, SceneError
+
+NUMBERS = Range(Fraction(1), Fraction(30), Fraction(1))
+STUDENTS = [Student(n + 1, f"{n:04d}", n, f"Student {n}", "A") for n in range(1, 31)]
+
+
+def drawing_lab(fair: Fair | None = None, tries: int = 100):
+    """The pump with data drawn from its whole range."""
+    lab = read_lab("pump")
+    rule = Ranges("mechanics 2026", {"n": NUMBERS}, tries)
+    return replace(lab, rule=rule, fair=fair or lab.fair)
+
+
+@pytest.fixture
+def roster(tmp_path):
+    path = tmp_path / "class.csv"
+    rows = ["number;id;name;group;e-mail"]
+    rows += [f"{n};{n:04d};Student {n};A;=mail{n}" for n in range(1, 31)]
+    path.write_text("\n".join(rows), encoding="utf-8-sig")
+    return path
+
+
+def run(*args):
+    return CliRunner().invoke(app, [str(arg) for arg in args])
+
+
+# ----------------------------------------------------------------------------------- assigned
+
+
+def test_a_formula_is_never_drawn_again():
+    found = assigned(read_lab("pump"), STUDENTS)
+    assert [each.settings["n"] for each in found] == list(range(1, 31))
+    assert [each.student.number for each in found if not each.fair] == [25, 26, 30]
+    assert {each.attempt for each in found} == {0}
+    assert found[24].computed == ("a_D_mm", "a_D")
+    assert found[24].status == "unfair"
+
+
+def test_what_ranges_give_is_drawn_again_until_it_is_fair():
+    students = [Student(i, f"s{i}") for i in range(200)]
+    lab = drawing_lab()
+    found = assigned(lab, students)
+    assert all(each.fair for each in found)
+    again = [each for each in found if each.attempt]
+    assert again
+    for each in found:
+        assert each.settings == settings(lab, each.student, each.attempt)
+    for each in again:
+        earlier = [settings(lab, each.student, attempt) for attempt in range(each.attempt)]
+        assert not judged(load("pump"), lab, earlier).fair.any()
+
+
+def test_what_is_never_fair_is_given_up_and_told():
+    lab = drawing_lab(Fair(segment=1000.0), tries=3)
+    found = assigned(lab, STUDENTS[:4])
+    assert [each.attempt for each in found] == [2] * 4
+    assert {each.status for each in found} == {"unfair"}
+
+
+def test_the_data_of_a_student_do_not_hang_on_the_others_or_on_the_order():
+    lab = drawing_lab()
+    whole = {each.student.id: each for each in assigned(lab, STUDENTS)}
+    few = assigned(lab, list(reversed(STUDENTS))[:5])
+    for each in few:
+        assert each.settings == whole[each.student.id].settings
+        assert each.flattest == pytest.approx(whole[each.student.id].flattest)
+
+
+def test_numbers_that_the_scene_does_not_allow_are_all_told_with_their_rows():
+    students = [Student(2, "a", 30), Student(3, "b", 31), Student(4, "c", 0)]
+    with pytest.raises(RosterError) as caught:
+        assigned(read_lab("pump"), students, "class.csv")
+    found = [str(problem) for problem in caught.value.problems]
+    assert found == [
+        f"class.csv, row {row}: number {number} gives n = {number} is out of range; "
+        "expected n from 1 to 30 in steps of 1"
+        for row, number in ((3, 31), (4, 0))
+    ]
+
+
+# ----------------------------------------------------------------------------------- written
+
+
+@pytest.fixture(params=["formula", "ranges"])
+def written(request, tmp_path, roster):
+    lab = read_lab("pump") if request.param == "formula" else drawing_lab()
+    if request.param == "ranges":
+        text = 'graphkin = 1\n[variants]\ncourse = "mechanics 2026"\n'
+        text += "draw = { n = { min = 1, max = 30, step = 1 } }\n[fair]\ncrossing = 9\n"
+        folder = tmp_path / "drawn"
+        folder.mkdir()
+        shutil.copy(lab.scene, folder)
+        (folder / "lab.toml").write_text(text, encoding="utf-8")
+        lab = read_lab(folder)
+    students = read_roster(roster)
+    found = assigned(lab, students)
+    write_class(tmp_path / "out", lab, found, roster, force=False)
+    raw = json.loads((tmp_path / "out" / "manifest.json").read_text(encoding="utf-8"))
+    return lab, found, raw, tmp_path / "out"
+
+
+def test_every_variant_is_derived_again_from_the_manifest_alone(written):
+    lab, found, raw, _ = written
+    assert read_rule(raw) == lab.rule
+    assert rederived(raw) == [entry["parameters"] for entry in raw["students"]]
+    for each, entry in zip(found, raw["students"], strict=True):
+        assert {n: Fraction(v) for n, v in entry["parameters"].items()} == each.settings
+
+
+def test_every_variant_is_derived_again_by_a_few_lines_of_python(written):
+    """Without a line of graphkin: what the documentation says is enough."""
+    _, _, raw, _ = written
+    for entry in raw["students"]:
+        if "set" in raw["rule"]:
+            assert raw["rule"]["set"] == {"n": "number"}
+            assert entry["parameters"]["n"] == str(entry["number"])
+            continue
+        ends = raw["rule"]["draw"]["n"]
+        low, high, step = (Fraction(ends[key]) for key in ("min", "max", "step"))
+        words = json.dumps(
+            [raw["course"], raw["lab"], entry["id"], entry["attempt"], "n"],
+            ensure_ascii=False,
+            separators=(",", ":"),
+        )
+        index = int(hashlib.sha256(words.encode()).hexdigest(), 16) % int((high - low) / step + 1)
+        assert Fraction(entry["parameters"]["n"]) == low + index * step
+
+
+def test_the_copy_of_the_lab_gives_the_same_variants(written):
+    lab, found, raw, folder = written
+    copy = read_lab(folder / "lab", raw["lab"])
+    assert (copy.name, copy.rule, copy.fair, copy.rubric) == (
+        lab.name,
+        lab.rule,
+        lab.fair,
+        lab.rubric,
+    )
+    assert [each.settings for each in assigned(copy, [e.student for e in found])] == [
+        each.settings for each in found
+    ]
+
+
+def test_hashes_are_those_of_the_files(written, roster):
+    *_, raw, folder = written
+    for name in ("scene.toml", "lab.toml"):
+        data = (folder / "lab" / name).read_bytes()
+        assert raw["sha256"][name] == hashlib.sha256(data).hexdigest()
+    assert raw["sha256"]["roster"] == hashlib.sha256(roster.read_bytes()).hexdigest()
+
+
+def test_codes_are_opaque_and_each_students_own(written):
+    *_, raw, _ = written
+    codes = [entry["code"] for entry in raw["students"]]
+    assert len(set(codes)) == len(codes) == 30
+    entry = raw["students"][3]
+    digest = hashlib.sha256((raw["salt"] + entry["id"]).encode()).digest()
+    assert entry["code"] == b32encode(digest).decode()[:10]
+    assert len(bytes.fromhex(raw["salt"])) == 16
+
+
+def test_the_table_has_the_exact_data_and_the_rosters_other_columns(written):
+    _, found, raw, folder = written
+    text = (folder / "variants.csv").read_text(encoding="utf-8")
+    rows = list(csv.DictReader(io.StringIO(text)))
+    assert [row["id"] for row in rows] == [f"{n:04d}" for n in range(1, 31)]
+    for row, each, entry in zip(rows, found, raw["students"], strict=True):
+        assert Fraction(row["n"]) == each.settings["n"]
+        assert row["status"] == each.status
+        assert row["compute"].split() == list(each.computed) == entry["compute"]
+        assert float(row["flattest_deg"]) == pytest.approx(each.flattest, abs=0.005)
+        assert row["tries"] == str(each.attempt + 1)
+        assert row["code"] == entry["code"]
+        assert row["e-mail"] == f"'=mail{each.student.number}"
+
+
+def test_a_second_class_in_the_folder_is_refused_and_nothing_touched(written, roster):
+    lab, found, _, folder = written
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    with pytest.raises(PageError, match="exists already"):
+        write_class(folder, lab, found, roster, force=False)
+    assert {p: p.read_bytes() for p in folder.rglob("*") if p.is_file()} == before
+
+
+def test_a_class_that_is_written_again_keeps_its_codes_and_its_bytes(written, roster):
+    lab, found, _, folder = written
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    write_class(folder, lab, found, roster, force=True)
+    assert {p: p.read_bytes() for p in folder.rglob("*") if p.is_file()} == before
+
+
+DIES = """
+import os, pathlib, signal, sys
+rename, left = pathlib.Path.replace, [2]
+def dying(path, target):
+    left[0] -= 1
+    if not left[0]:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return rename(path, target)
+pathlib.Path.replace = dying
+from graphkin.cli.main import app
+app(sys.argv[1:])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
+def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp_path, roster):
+    """The table is new and the manifest old; print and grade take neither for the other."""
+    folder, other = tmp_path / "class", tmp_path / "other.csv"
+    other.write_text("number;id;limba\n3;0003;it\n", encoding="utf-8")
+    assert run("variants", "pump", roster, "-o", folder).exit_code == 1
+    args = ["variants", "pump", other, "-o", folder, "--force"]
+    command = [sys.executable, "-c", DIES, *map(str, args)]
+    around = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[3])}
+    killed = subprocess.run(command, env=around, capture_output=True, check=False)
+    assert killed.returncode == -signal.SIGKILL
+    assert list(folder.rglob("*.part"))
+    for command in (("print", folder), ("grade", folder, other)):
+        refused = run(*command)
+        assert refused.exit_code == 2
+        assert "variants.csv: is another one; expected the table that was written with" in (
+            refused.stderr
+        )
+    assert run(*args).exit_code == 0
+    assert not list(folder.rglob("*.part"))
+    (only,) = read_edition(folder).variants
+    assert (only.id, only.spoken) == ("0003", "it")
+
+
+@pytest.mark.parametrize("text", ["{", "[" * 100_000])
+def test_a_salt_that_cannot_be_read_is_made_anew(written, roster, text):
+    lab, found, raw, folder = written
+    (folder / "manifest.json").write_text(text, encoding="utf-8")
+    write_class(folder, lab, found, roster, force=True)
+    again = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    assert again["salt"] != raw["salt"]
+    assert again["students"][0]["parameters"] == raw["students"][0]["parameters"]
+
+
+def test_a_full_disk_leaves_nothing(tmp_path, roster, monkeypatch):
+    lab = read_lab("pump")
+    found = assigned(lab, read_roster(roster))
+
+    def full(self, data):
+        raise OSError(28, "No space left on device", str(self))
+
+    monkeypatch.setattr("pathlib.Path.write_bytes", full)
+    with pytest.raises(PageError, match="no space left"):
+        write_class(tmp_path / "out", lab, found, roster, force=False)
+    assert not [p for p in (tmp_path / "out").rglob("*") if p.is_file()]
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_that_cannot_be_written_is_told(tmp_path, roster):
+    (tmp_path / "out").mkdir(mode=0o500)
+    lab = read_lab("pump")
+    with pytest.raises(PageError, match="cannot be written"):
+        write_class(tmp_path / "out", lab, assigned(lab, STUDENTS), roster, force=False)
+
+
+def test_a_manifest_without_a_rule_is_told():
+    with pytest.raises(SceneError, match="the rule cannot be read"):
+        read_rule({"rule": {"draw": {"n": {"min": "1"}}}, "course": ""})
+
+
+# ---------------------------------------------------------------------------------- commands
+
+
+def test_the_command_writes_tells_and_leaves_with_1_for_unfair_data(tmp_path, roster):
+    result = run("variants", "pump", roster, "-o", tmp_path / "out")
+    assert result.exit_code == 1
+    assert "27 of 30 students" in result.stdout
+    assert "25      0025  Student 25  segment a_D_mm 1.8 mm, at least 3 mm" in result.stdout
+    assert "computed instead of measured" in result.stdout
+    assert "flattest crossing, °" in result.stdout
+    assert "3 students have unfair data" in result.stderr
+    assert (tmp_path / "out" / "manifest.json").is_file()
+
+
+def test_a_fair_class_leaves_with_0(tmp_path, roster):
+    result = run("variants", "slotted-lever", roster, "-o", tmp_path / "out")
+    assert (result.exit_code, result.stderr) == (0, "")
+
+
+def test_a_roster_with_mistakes_leaves_with_2_and_writes_nothing(tmp_path, roster):
+    text = roster.read_text(encoding="utf-8-sig")
+    text = text.replace("7;0007", "7;0006").replace("9;0009", ";0009")
+    roster.write_text(text, encoding="utf-8")
+    result = run("variants", "pump", roster, "-o", tmp_path / "out")
+    assert result.exit_code == 2
+    assert 'class.csv, row 8, column "id": "0006" stands in row 7 already' in result.stderr
+    assert 'class.csv, row 10, column "number": is missing' in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_drawing_again_is_said(tmp_path):
+    lab = drawing_lab()
+    lines = "\n".join(class_lines(lab, assigned(lab, STUDENTS)))
+    assert "30 of 30 students" in lines
+    assert "again      row" in lines and "draws" in lines
+
+
+def test_students_who_share_a_number_are_told():
+    twins = [Student(2, "a", 7), Student(3, "b", 7), Student(4, "c", 8)]
+    lab = read_lab("pump")
+    lines = "\n".join(class_lines(lab, assigned(lab, twins)))
+    assert "2 students have number 7: they get the same data" in lines
+
+
+def test_check_tries_a_lab_and_a_scene_stays_as_it_was(tmp_path):
+    made = run("new", "lab", "mine", "-o", tmp_path)
+    assert made.exit_code == 0
+    whole = run("check", tmp_path / "mine")
+    assert whole.exit_code == 0, whole.stderr
+    assert "30 of 30 variants" in whole.stdout
+    (tmp_path / "mine" / "lab.toml").unlink()
+    alone = run("check", tmp_path / "mine")
+    assert alone.exit_code == 0
+    assert whole.stdout.startswith(alone.stdout)
+    assert "variants" not in alone.stdout
+
+
+def test_check_of_an_unfair_formula_leaves_with_1():
+    result = run("check", "pump")
+    assert result.exit_code == 1
+    assert "3 of 30 variants are unfair" in result.stderr
+
+
+def test_check_with_a_parameter_set_looks_at_that_scene_alone():
+    result = run("check", "pump", "--set", "n=7")
+    assert result.exit_code == 0
+    assert "variants" not in result.stdout
+
+
+def test_mistakes_of_a_rule_are_told_by_check(tmp_path):
+    run("new", "lab", "mine", "-o", tmp_path)
+    path = tmp_path / "mine" / "lab.toml"
+    path.write_text(path.read_text(encoding="utf-8").replace("v_B_mm", "v_b_mm"), encoding="utf-8")
+    result = run("check", tmp_path / "mine")
+    assert result.exit_code == 2
+    assert "lab.toml: marks.v_b_mm: no field of this scene" in result.stderr
+    assert "did you mean v_B_mm?" in result.stderr
+
+
+def test_new_without_more_shows_how():
+    result = run("new")
+    assert result.exit_code == 0
+    assert "graphkin new lab crank-lab" in result.stdout
+
+
+def test_a_number_that_the_scene_does_not_allow_is_told_beside_the_other_mistakes(tmp_path):
+    path = tmp_path / "class.csv"
+    path.write_text("number;id\n31;a\nx;b\n7;a\n", encoding="utf-8")
+    said = run("variants", "pump", path, "-o", tmp_path / "class")
+    assert said.exit_code == 2
+    lines = said.stderr.splitlines()
+    for row, word in ((2, "n = 31 is out of range"), (3, "no whole number"), (4, "row 2 already")):
+        assert f"row {row}" in lines[row - 2]
+        assert word in lines[row - 2]
+    assert len(lines) == 3
+    assert not (tmp_path / "class").exists()
+
+
+def test_a_class_that_stands_already_is_told_in_one_line(tmp_path, roster):
+    folder = tmp_path / "class"
+    assert run("variants", "pump", roster, "-o", folder).exit_code == 1
+    said = run("variants", "pump", roster, "-o", folder)
+    (line,) = said.stderr.splitlines()
+    assert said.exit_code == 2
+    assert "variants.csv" in line
+    assert "--force" in line

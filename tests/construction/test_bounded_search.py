@@ -1,0 +1,90 @@
+"""A search for closures looks at no more places than its bound, and the bound is told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from graphkin.construction.higher_class.trial import Trial
+from graphkin.diagnosis.ranges import FEWEST, WORK, closing, where_it_closes
+from graphkin.mechanism import load
+from graphkin.motion.driving import GRID
+from graphkin.numbers.roots import roots
+from graphkin.scene.read_scene import read_text
+
+HERE = Path(__file__).resolve().parent / "scenes"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+
+
+@pytest.fixture
+def tried(monkeypatch) -> list[int]:
+    """How many steps each run of a trial has made."""
+    runs: list[int] = []
+    found = Trial.found
+
+    def counted(self, known, tried, signs):
+        runs.append(len(tried) * len(self.ready.moving))
+        return found(self, known, tried, signs)
+
+    monkeypatch.setattr(Trial, "found", counted)
+    return runs
+
+
+@pytest.mark.parametrize("height", [0.3, 1e18])
+def test_a_function_that_only_rounding_moves_is_not_searched_for_a_least_value(height):
+    """|e^ix| is 1 but for rounding: every third place of a grid looks like a turn."""
+    places = []
+
+    def misfit(_, x):
+        places.append(len(x))
+        return height * abs(np.exp(1j * x))
+
+    grid = np.linspace(0, 6, 361)[None, :]
+    assert roots(misfit, grid)[1].size == 0
+    assert sum(places) == grid.size
+
+
+def test_a_turn_far_from_zero_is_left_after_a_few_places():
+    places = []
+
+    def misfit(_, x):
+        places.append(len(x))
+        return 2 - np.cos(20 * x)
+
+    assert roots(misfit, np.linspace(0, 6, 361)[None, :])[1].size == 0
+    assert sum(places) < 361 + 20 * 12
+
+
+@pytest.mark.parametrize(
+    ("name", "most"), [("scissor-table", 10_000), ("scissor-table-two-stages", 20_000)]
+)
+def test_a_scissor_table_is_closed_with_few_trials(name, most, tried):
+    """Folded, its arms fall together, and what is left to fit is rounding on the whole round."""
+    mechanism = load(str(HERE / f"{name}.toml"))
+    assert mechanism.witness(mechanism.solve()).agrees
+    assert sum(tried) < 50 * most
+
+
+def test_the_range_of_a_scissor_table_is_searched_within_the_bound(tried):
+    """|KB|² = cos²θ/4 + 9/4 sin²θ, B at 2 cos θ: from 0.5 to 1.5 m, on either side of the tube."""
+    found = closing(load(str(HERE / "scissor-table.toml")).scene)
+    assert FEWEST <= found.searched < GRID
+    assert f"searched at {found.searched} positions of the driver" in found.bound
+    assert np.abs(found.ranges) == pytest.approx(np.array([[1.5, 0.5], [0.5, 1.5]]), abs=1e-6)
+    assert sum(tried) < 3 * WORK
+
+
+def test_a_length_beyond_all_others_is_searched_within_the_bound(tried):
+    text = (EXAMPLES / "stephenson-2-ternary.toml").read_text(encoding="utf-8")
+    scene = read_text(text.replace("O2-E = 94", "O2-E = 1e18"), "far", None, {})
+    words = where_it_closes(scene)
+    assert words.startswith("it closes for no angle of the driver: check the lengths (searched at ")
+    assert sum(tried) < 3 * WORK
+
+
+def test_a_range_that_is_searched_everywhere_says_nothing_of_it():
+    found = closing(load(str(EXAMPLES / "four-bar-triple-rocker.toml")).scene)
+    assert found.searched == 0
+    assert found.bound == ""

@@ -1,0 +1,172 @@
+"""The mechanism to scale: it stands where the scene says that it stands."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pytest
+from hypothesis import given, settings
+
+from graphkin.text.errors import StructureError
+from tests.mechanisms import LAW, mechanism_of, mechanisms
+
+SLIDER_CRANK = """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 3
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 60
+speed = 2
+[branches]
+3 = "forward"
+"""
+FOUR_BAR = """
+[frame]
+O = [0, 0]
+Q = [4, 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 4
+[links.3]
+Q-B = 2
+[[drivers]]
+turn = 1
+angle = 60
+speed = 2
+[branches]
+B = "left of A-Q"
+"""
+
+
+@settings(LAW, max_examples=200)
+@given(mechanisms(spread=1.5, cross_at=10, most=4))
+def test_every_point_stands_where_the_mechanism_was_closed(made):
+    """Lengths, angles and sides were taken from places: the construction finds the places."""
+    places = made.places.values()
+    extent = max(abs(p - q) for p, q in combinations(places, 2))
+    for name, point in made.mechanism().solve().points.items():
+        assert abs(point.position - made.places[name]) <= 1e-11 * extent
+
+
+@LAW
+@given(mechanisms())
+def test_the_loops_agree_on_mechanisms_made_at_random(made):
+    mechanism = made.mechanism()
+    verdict = mechanism.witness(mechanism.solve())
+    assert verdict.agrees, verdict
+    assert verdict.largest_difference <= 1e-9
+
+
+@LAW
+@given(mechanisms())
+def test_a_slide_counts_from_the_zero_of_its_guide_to_the_blocks_first_point(made):
+    slides = made.mechanism().solve().slides
+    extent = max(abs(p - q) for p, q in combinations(made.places.values(), 2))
+    assert set(slides) == {block.name for block in made.blocks}
+    for block in made.blocks:
+        assert abs(slides[block.name].position - block.zero) <= 1e-11 * extent
+
+
+@pytest.mark.parametrize("angle", [0, 17, 60, 90, 133, 180, 200, 270, 359])
+def test_the_other_branch_is_the_other_crossing(angle):
+    """Four-bar: mirrored in the line of the known pins. Slider-crank: about the foot of A."""
+    scene = FOUR_BAR.replace("angle = 60", f"angle = {angle}")
+    left, right = (
+        mechanism_of(text).solve().points for text in (scene, scene.replace("left", "right"))
+    )
+    axis = left["Q"].position - left["A"].position
+    ratios = [(p["B"].position - p["A"].position) / axis for p in (left, right)]
+    assert ratios[0].imag > 0
+    assert ratios[1] == pytest.approx(ratios[0].conjugate(), rel=1e-14)
+    scene = SLIDER_CRANK.replace("angle = 60", f"angle = {angle}")
+    forth, back = (
+        mechanism_of(text).solve().points for text in (scene, scene.replace("for", "back"))
+    )
+    assert forth["B"].position.real > back["B"].position.real
+    middle = (forth["B"].position + back["B"].position) / 2
+    assert middle == pytest.approx(complex(forth["A"].position.real), rel=1e-14, abs=1e-14)
+
+
+def test_whole_quarters_are_exact():
+    """An angle of 90° is 90°: no 6e-17 is left of its cosine."""
+    for angle, tip in ((0, 1), (90, 1j), (180, -1), (270, -1j), (-90, -1j), (450, 1j)):
+        scene = SLIDER_CRANK.replace("angle = 60", f"angle = {angle}")
+        assert mechanism_of(scene).solve().points["A"].position == tip
+
+
+def test_a_driver_may_give_the_angle_of_another_line_of_its_link():
+    text = FOUR_BAR.replace("O-A = 1", 'O-A = 1\nO-C = 2\nA-C = 2.5\nC = "left of O-A"')
+    by_axis = mechanism_of(text).solve().points
+    assert by_axis["A"].position == pytest.approx(complex(0.5, 3**0.5 / 2))
+    of_line = mechanism_of(text.replace("angle = 60", 'of = "A-C"\nangle = 60')).solve().points
+    line = of_line["C"].position - of_line["A"].position
+    assert line / abs(line) == pytest.approx(complex(0.5, 3**0.5 / 2))
+
+
+def test_a_link_in_coordinates_keeps_its_own_axes():
+    """The driver's angle is that of the link's x axis, not of its first two points."""
+    scene = FOUR_BAR.replace("O-A = 1", "O = [2, 2]\nA = [2, 3]").replace("angle = 60", "angle = 0")
+    assert mechanism_of(scene).solve().points["A"].position == 1j
+
+
+# --- what the scene must say ---------------------------------------------------------------------
+
+
+def refused(text: str) -> str:
+    """The words of the refusal."""
+    with pytest.raises(StructureError) as caught:
+        mechanism_of(text).solve()
+    return str(caught.value)
+
+
+def test_a_pin_without_a_side_is_asked_for():
+    assert refused(FOUR_BAR.replace('B = "left of A-Q"', "")) == (
+        "branches.B: is missing; "
+        'expected "left of A-Q" or "right of A-Q"; '
+        "B can lie on either side of the line A-Q; the scene says which"
+    )
+
+
+def test_a_pin_with_the_side_of_another_line_is_asked_for():
+    assert refused(FOUR_BAR.replace("left of A-Q", "left of O-Q")).startswith(
+        "branches.B: does not name the two known pins of its dyad; expected "
+    )
+
+
+def test_the_known_pins_may_be_named_in_either_order():
+    there, back = (
+        mechanism_of(FOUR_BAR.replace("left of A-Q", words)).solve()
+        for words in ("left of A-Q", "right of Q-A")
+    )
+    assert there == back
+
+
+def test_a_block_without_a_way_is_asked_for():
+    assert refused(SLIDER_CRANK.replace('3 = "forward"', "")) == (
+        'branches.3: is missing; expected "forward" or "backward"; '
+        "the arc cuts the guide twice; forward is the larger coordinate along the guide"
+    )
+
+
+def test_every_missing_branch_is_told_at_once():
+    text = FOUR_BAR.replace('B = "left of A-Q"', "").replace(
+        "[[drivers]]",
+        """[links.4]
+B-D = 5
+[links.5]
+D = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]""",
+    )
+    with pytest.raises(StructureError) as caught:
+        mechanism_of(text).solve()
+    places = [problem.place for problem in caught.value.problems]
+    assert places == ["branches.B", "branches.5"]

@@ -1,0 +1,131 @@
+"""Profiles on the mechanism: arcs about their centres that touch where the scene says they do."""
+
+from __future__ import annotations
+
+from math import degrees, hypot, isclose
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from graphkin.construction.core.layout import lay_out
+from graphkin.construction.links.profile_symbols import HALF, WIDEST
+from graphkin.documents.sheet import left_board
+from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.drawing.marks import Arc
+from graphkin.mechanism import Mechanism, load
+from graphkin.motion.curves.outline import draw, stand_of
+from graphkin.motion.cycle import cycle
+from graphkin.text import words
+from graphkin.text.errors import PageError
+from tests.documents.sheet_tools import FOLDER
+from tests.mechanisms import mechanism_of
+
+TOUCHING = str(FOLDER / "gears-profiles.toml")
+ANGLES = (10, 15, 20, 25, 30)
+HOLLOW = """
+[frame]
+O1 = [0, 0]
+O2 = [1.6, 0]
+[links.1]
+O1-K1 = 0.55
+touches = { on = 2, centres = "K1-K2", radii = [0.08, 0.68], contact = "M", inside = true }
+profiles = { about = "K1", through = "M" }
+[links.2]
+O2-K2 = 0.95
+profiles = { about = "K2", through = "M" }
+[[drivers]]
+turn = 1
+angle = 25
+speed = 10
+[branches]
+K2 = "right of K1-O2"
+[ask]
+velocity = ["M@1", "M@2"]
+acceleration = ["K2"]
+"""
+MEETING = """
+[frame]
+O = [0, 0]
+P = [1, 0]
+profiles = {{ about = "P", through = "A" }}
+[links.1]
+O-A = 1
+[[drivers]]
+turn = 1
+angle = {angle}
+speed = 10
+[ask]
+velocity = ["A"]
+"""
+
+
+def drawn(mechanism: Mechanism, view: str = "key"):
+    """For each sheet of a mechanism where its points stand on the page, and its profiles."""
+    for drawing in drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en")):
+        layout = lay_out(drawing)
+        marks = left_board(drawing, layout, view).marks
+        places = {name: layout.mechanism(at) for name, at in drawing.positions.items()}
+        yield places, {mark.name: mark for mark in marks if mark.cls == "profile"}
+
+
+def apart(one: tuple[float, float], other: tuple[float, float]) -> float:
+    """The distance of two places of the page, in mm."""
+    return hypot(one[0] - other[0], one[1] - other[1])
+
+
+def check_touching(mechanism: Mechanism, *, inside: bool) -> None:
+    """Both profiles are about their centres through M, and have one tangent there."""
+    sheets = list(drawn(mechanism))
+    assert len(sheets) == 2
+    for places, profiles in sheets:
+        assert set(profiles) == {"1", "2"}
+        for link, arc in profiles.items():
+            assert isinstance(arc, Arc)
+            assert apart((arc.cx, arc.cy), places[f"K{link}"]) < 1e-9
+            assert apart(arc.at((arc.start + arc.end) / 2), places["M"]) < 1e-9
+            half = min(degrees(HALF / arc.r), WIDEST)
+            assert isclose(arc.end - arc.start, 2 * half)
+        (x, y), *ways = places["M"], *((arc.cx, arc.cy) for arc in profiles.values())
+        (u, v), (s, t) = ((cx - x, cy - y) for cx, cy in ways)
+        sine = (u * t - v * s) / hypot(u, v) / hypot(s, t)
+        assert abs(sine) < 1e-9
+        assert (u * s + v * t > 0) is inside
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_both_profiles_touch_at_the_contact_all_over_the_range(angle):
+    check_touching(load(TOUCHING, angle=angle), inside=False)
+
+
+@pytest.mark.parametrize("angle", [-40, 5, 60])
+def test_a_profile_in_the_hollow_of_another_touches_it_from_inside(angle):
+    text = HOLLOW.replace("angle = 25", f"angle = {angle}")
+    check_touching(mechanism_of(text), inside=True)
+
+
+def test_a_task_does_not_give_the_profiles_away():
+    found = [profiles for _, profiles in drawn(load(TOUCHING), "task")]
+    assert found == [{}, {}]
+
+
+def test_a_profile_of_the_frame_is_drawn_and_one_without_a_radius_refused():
+    ((places, profiles),) = drawn(mechanism_of(MEETING.format(angle=90)))
+    arc = profiles["0"]
+    assert apart((arc.cx, arc.cy), places["P"]) < 1e-9
+    assert isclose(arc.r, apart(places["A"], places["P"]))
+    with pytest.raises(PageError, match="P and A stand at one place; expected an arc") as told:
+        list(drawn(mechanism_of(MEETING.format(angle=0))))
+    assert told.value.problems[0].place == "frame.profiles"
+
+
+def test_the_pictures_of_a_cycle_have_the_profiles():
+    stand = stand_of(cycle(load(TOUCHING)), 1000.0)
+    ax = Figure().subplots()
+    draw(ax, stand, 160.0)
+    curves = [line.get_xdata() + 1j * np.array(line.get_ydata()) for line in ax.lines]
+    curves = [curve for curve in curves if len(curve) > 2]
+    assert len(curves) == 2
+    for curve, centre, radius in zip(curves, ("K1", "K2"), (44, 16), strict=True):
+        assert np.allclose(abs(curve - stand.places[centre]), radius)
+        assert min(abs(curve - stand.places["M"])) < 1e-9

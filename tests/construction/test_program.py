@@ -1,0 +1,507 @@
+"""The straight line of steps: what is needed, what follows from what, batches and failures."""
+
+from __future__ import annotations
+
+import re
+import tracemalloc
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from graphkin.construction.core.batch import made_ready, run_batch
+from graphkin.construction.core.program import Part
+from graphkin.construction.core.run import StepFailed, run
+from graphkin.numbers.arithmetic import FLOAT, batch_kind, least
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+from graphkin.text.errors import ClosureError, SceneError
+from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
+
+EARLY = {Part.SHAPE, Part.POSITION}
+
+
+def keys(program, numbers) -> set[str]:
+    """The actions of some steps."""
+    return {program.steps[n].action.key for n in numbers if program.steps[n].action}
+
+
+def same(one, other) -> bool:
+    """Whether two values of a step are equal to the last bit."""
+    return one == other
+
+
+# --- only what is asked --------------------------------------------------------------------------
+
+
+@settings(LAW, max_examples=40)
+@given(mechanisms(), st.data())
+def test_a_slice_runs_only_earlier_steps_and_gives_the_same_values(made, data):
+    mechanism = made.mechanism()
+    program, whole = mechanism.program, mechanism.trace()
+    target = data.draw(st.sampled_from(sorted(program.answers)))
+    trace = mechanism.trace([target])
+    assert set(trace.values) == set(program.needed([target]))
+    for number, value in trace.values.items():
+        assert same(value, whole.values[number])
+        assert all(arg < number for arg in program.steps[number].args)
+
+
+@settings(LAW, max_examples=25)
+@given(mechanisms(most=2), st.data())
+def test_no_needed_step_can_be_spared(made, data):
+    mechanism = made.mechanism()
+    program = mechanism.program
+    target = data.draw(st.sampled_from(sorted(program.answers)))
+    needed = program.needed([target])
+    for spared in needed:
+        rest = [number for number in needed if number != spared]
+        try:
+            trace = run(program, rest, mechanism.scene.values, FLOAT)
+        except KeyError:
+            continue
+        assert trace.value(*target) is None
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_velocity_needs_no_step_of_the_accelerations(name):
+    program = shipped(name, 7).program
+    needed = program.needed([("velocity", "D"), ("omega", "4")])
+    parts = {program.steps[number].part for number in needed}
+    assert parts <= EARLY | {Part.VELOCITY, Part.RESULT}
+    assert {"normal", "centripetal", "lay-off", "epsilon"}.isdisjoint(
+        keys(program, (n for n in needed if program.steps[n].part not in EARLY))
+    )
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_position_needs_no_velocity_and_the_rocker_no_piston(name):
+    program = shipped(name, 7).program
+    parts = {program.steps[n].part for n in program.needed([("position", "D")])}
+    assert parts <= EARLY
+    names = {program.steps[n].name for n in program.needed([("acceleration", "B")])}
+    assert names.isdisjoint({"C", "D", "c", "d", "c′", "d′"})
+
+
+@settings(LAW, max_examples=30)
+@given(mechanisms(steady=True))
+def test_a_crank_at_constant_speed_has_no_tangential_step(made):
+    assert "driven-tangential" not in keys(*steps_of(made.mechanism()))
+
+
+@settings(LAW, max_examples=30)
+@given(mechanisms(steady=False))
+def test_a_crank_that_gathers_speed_has_one_each(made):
+    program, numbers = steps_of(made.mechanism())
+    found = [n for n in numbers if program.steps[n].action]
+    tangential = [n for n in found if program.steps[n].action.key == "driven-tangential"]
+    assert len(tangential) == len(made.drivers)
+
+
+def steps_of(mechanism):
+    """The program and the numbers of all its steps."""
+    return mechanism.program, range(len(mechanism.program.steps))
+
+
+def test_the_hands_steps_come_only_when_asked_for():
+    program = shipped("pump", 7).program
+    bare, by_hand = program.needed(program.answers), program.needed(program.answers, by_hand=True)
+    assert not any(program.steps[number].hand for number in bare)
+    assert set(bare) < set(by_hand)
+    assert {"set-velocity", "square-at", "turn-over", "join"} <= keys(program, by_hand)
+
+
+def test_arrows_are_drawn_only_between_points_that_are_there():
+    program = shipped("pump", 7).program
+    needed = program.needed([("velocity", "B")], by_hand=True)
+    arrows = {program.steps[n].name for n in needed if program.steps[n].arrow}
+    assert arrows == {"oa", "ob", "ab", "v_A"}
+    assert "v_A" not in {program.steps[n].name for n in program.needed([("velocity", "B")])}
+
+
+# --- what follows from what ----------------------------------------------------------------------
+
+
+def pushed(value, by: float):
+    """A value of a step moved a little, in no special direction."""
+    if isinstance(value, Line):
+        return Line(value.point + by * (0.6 + 0.7j), value.along * (1 + 0.003 + 0.002j))
+    if isinstance(value, Circle):
+        return Circle(value.centre + by * (0.3 - 0.8j), value.radius * 1.004)
+    if isinstance(value, Vector):
+        return Vector(value.tail + by, value.tip + by * 1j)
+    if isinstance(value, Ratio):
+        return Ratio(value.start + by, value.shift * 1.01, value.size * 1.02)
+    if isinstance(value, complex):
+        return value + (abs(value) + 1) * 1e-3 * (0.7 + 0.4j)
+    return value * 1.001 + 1e-6
+
+
+def is_origin(step) -> bool:
+    """A place from which others are counted: moving it carries them along as they are."""
+    given_point = step.given is not None and step.given.form == "point"
+    return given_point or (step.action is not None and step.action.key == "pole")
+
+
+def test_moving_a_step_moves_exactly_its_descendants():
+    """For every step of the pump, those of the hand and the arrows too.
+
+    What hangs on a moved step may stay in two cases only: when an origin is moved, and all with
+    it; and the centres, which do not depend on how fast a link turns.
+    """
+    mechanism = shipped("pump", 7)
+    program, values = mechanism.program, mechanism.scene.values
+    needed = program.needed(program.answers, by_hand=True)
+    before = run(program, needed, values, FLOAT).values
+    for moved in needed:
+
+        def push(number, step, value, moved=moved):
+            return pushed(value, 1e-3) if number == moved else value
+
+        after = run(program, needed, values, FLOAT, hook=push).values
+        changed = {number for number in needed if not same(after[number], before[number])}
+        follows = program.descendants(moved) & set(needed)
+        assert changed <= follows, program.steps[moved]
+        still = [program.steps[number] for number in follows - changed]
+        if not is_origin(program.steps[moved]):
+            assert all(step.part is Part.CENTRE for step in still), program.steps[moved]
+
+
+def test_a_hook_sees_every_step_in_order_and_may_leave_it():
+    mechanism = shipped("pump", 7)
+    program, seen = mechanism.program, []
+    needed = program.needed(program.answers)
+
+    def look(number, step, value):
+        assert step is program.steps[number]
+        seen.append(number)
+        return value
+
+    trace = run(program, needed, mechanism.scene.values, FLOAT, hook=look)
+    assert seen == list(needed)
+    assert trace == mechanism.trace()
+
+
+def test_the_students_own_point_is_followed_through():
+    """A point put in place of ours: all that follows is drawn from it."""
+    mechanism = shipped("pump", 7)
+    program = mechanism.program
+    number = program.targets["velocity", "B"]
+    own = mechanism.trace().values[number] + (0.3 - 0.2j)
+    needed = program.needed(program.answers)
+    trace = run(program, needed, mechanism.scene.values, FLOAT, overrides={number: own})
+    whole = mechanism.trace()
+    assert trace.values[number] == own
+    for other in needed:
+        follows = other in program.descendants(number)
+        assert follows == (not same(trace.values[other], whole.values[other]))
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_the_hand_may_lead(name):
+    """Composite steps taken by the hand's own value come to the same motion."""
+    mechanism = shipped(name, 7)
+    program = mechanism.program
+    needed = program.needed(program.answers, by_hand=True)
+    drawn = run(program, needed, mechanism.scene.values, FLOAT, by_hand=True)
+    for target in (("velocity", "D"), ("acceleration", "D"), ("epsilon", "4")):
+        assert drawn.value(*target) == pytest.approx(mechanism.trace().value(*target), rel=1e-12)
+
+
+# --- batches -------------------------------------------------------------------------------------
+
+
+def flattened(solution):
+    """Every number of a solution by its place."""
+    for kind in ("points", "links", "slides"):
+        for name, motion in getattr(solution, kind).items():
+            for quantity in motion.__slots__:
+                value = getattr(motion, quantity)
+                parts = value if isinstance(value, Ratio) else (value,)
+                for part, number in enumerate(parts):
+                    if number is not None:
+                        yield (kind, name, quantity, part), number
+    yield ("margin",), solution.margin
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_batch_of_all_students_equals_each_one(name):
+    numbers = np.arange(1, 31)
+    batch = dict(flattened(shipped(name, 1).batch(n=numbers)))
+    largest = {place: np.abs(values).max() for place, values in batch.items()}
+    for n in numbers:
+        one = dict(flattened(shipped(name, int(n)).solve()))
+        assert one.keys() == batch.keys()
+        for place, value in one.items():
+            found = np.broadcast_to(batch[place], 30)[n - 1]
+            assert abs(found - value) <= 1e-13 * largest[place], place
+
+
+@pytest.mark.parametrize("size", [1, 2047, 2048, 2049, 5000])
+def test_where_the_blocks_of_a_batch_end_does_not_show(size):
+    angles = np.linspace(1, 30, size)
+    whole = shipped("pump", 1).batch(n=angles).points["D"].acceleration
+    parts = [shipped("pump", 1).batch(n=part) for part in np.array_split(angles, 3) if part.size]
+    assert whole.shape == (size,)
+    joined = np.concatenate([part.points["D"].acceleration for part in parts])
+    np.testing.assert_allclose(whole, joined, rtol=0, atol=1e-13 * np.abs(whole).max())
+
+
+RODS = """
+[parameters]
+rod = 3
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 2
+[links.2]
+A-B = "rod"
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.4]
+O-C = 2
+[[drivers]]
+turn = 1
+angle = 90
+speed = 1
+[[drivers]]
+turn = 4
+angle = 10
+speed = 1
+[branches]
+3 = "forward"
+"""
+
+
+LATER = """[links.6]
+C-D = 9
+[links.7]
+D = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.4]"""
+LATER_BRANCH = '[branches]\n7 = "forward"'
+"""A long rod on the other crank, which crosses well and is drawn last."""
+
+
+def test_a_variant_that_does_not_close_is_nan_and_its_neighbours_are_right():
+    """Rods of 1 do not reach the guide from a crank of 2: only they are masked."""
+    rods = np.array([3.0, 1.0, 2.5, 1.999, 4.0])
+    mechanism = mechanism_of(RODS.replace("[links.4]", LATER).replace("[branches]", LATER_BRANCH))
+    batch = mechanism.batch(rod=rods)
+    closes = rods > 2
+    assert (np.isfinite(batch.margin) == closes).all()
+    for quantity in ("position", "velocity", "acceleration"):
+        values = getattr(batch.points["B"], quantity)
+        assert (np.isfinite(values) == closes).all()
+    assert (np.isfinite(batch.links["2"].omega) == closes).all()
+    for rod, here in zip(rods[closes], np.flatnonzero(closes), strict=True):
+        one = mechanism_of(RODS, rod=float(rod)).solve()
+        assert batch.margin[here] == pytest.approx(one.margin, rel=1e-13)
+        for point in ("A", "B", "C"):
+            for quantity in ("position", "velocity", "acceleration"):
+                values = np.broadcast_to(getattr(batch.points[point], quantity), rods.shape)
+                expected = getattr(one.points[point], quantity)
+                assert values[here] == pytest.approx(expected, rel=1e-13)
+
+
+def test_what_does_not_hang_on_the_failed_step_stays():
+    batch = mechanism_of(RODS).batch(rod=np.array([1.0, 3.0]))
+    for point in ("A", "C"):
+        assert np.isfinite(batch.points[point].acceleration).all()
+
+
+@settings(LAW, max_examples=25)
+@given(mechanisms(most=2))
+def test_no_value_outlives_its_last_use(made):
+    """Nor does it die before: what is alive after a step is what is still to be used or kept."""
+    program = mechanism_of(made.text(moving=True)).program
+    needed, keep = program.needed(program.answers), set(program.targets.values())
+    values = {"h": np.zeros(3)}
+    ready = made_ready(program, needed, values, sorted(keep))
+    moving = [number for number, _ in ready.moving]
+    assert set(moving).isdisjoint(ready.values)
+    assert set(moving) | set(ready.values) == set(needed)
+    alive: set[int] = set()
+    for position, (number, dying) in enumerate(ready.moving):
+        alive.add(number)
+        alive.difference_update(dying)
+        to_come = moving[position + 1 :]
+        used = {arg for later in to_come for arg in program.steps[later].args}
+        assert alive == set(moving[: position + 1]) & (used | keep)
+
+
+def test_a_batch_takes_no_more_room_than_what_is_alive():
+    """Of the fourscore arrays of the pump no more than thirty stand at once."""
+    mechanism = shipped("pump", 7)
+    program, variants = mechanism.program, np.linspace(1, 30, 20_000)
+    needed = program.needed([("acceleration", "D")])
+    keep = [program.targets["acceleration", "D"]]
+    tracemalloc.start()
+    try:
+        run_batch(program, needed, {"n": variants}, batch_kind(), keep)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert len(needed) > 50
+    assert peak < 30 * 16 * variants.size
+
+
+def test_what_hangs_on_no_array_is_worked_out_once():
+    """Another speed of the crank moves no point: the positions are shared, the plans are not."""
+    text = RODS.replace("rod = 3", "rod = 3\nomega = 1").replace("speed = 1", 'speed = "omega"')
+    mechanism = mechanism_of(text)
+    omega = np.array([1.0, 2.0, -3.0])
+    batch, one = mechanism.batch(omega=omega), mechanism.solve()
+    assert batch.points["B"].position == one.points["B"].position
+    np.testing.assert_allclose(batch.points["B"].velocity, omega * one.points["B"].velocity)
+    np.testing.assert_allclose(
+        batch.points["B"].acceleration, omega**2 * one.points["B"].acceleration
+    )
+
+
+def test_a_position_that_no_variant_closes_is_nan_for_all():
+    text = RODS.replace("rod = 3", "rod = 1\nomega = 1").replace("speed = 1", 'speed = "omega"')
+    batch = mechanism_of(text).batch(omega=np.array([1.0, 2.0]))
+    assert np.isnan(batch.points["B"].position)
+    assert np.isnan(batch.points["B"].velocity).all()
+    assert np.isfinite(batch.points["A"].velocity).all()
+    assert np.isnan(batch.margin).all()
+
+
+def test_a_single_number_is_a_batch_of_one_and_no_number_a_batch_without_variants():
+    mechanism = shipped("pump", 1)
+    one = mechanism.batch(n=7).points["D"].velocity
+    assert one.shape == (1,)
+    assert one[0] == pytest.approx(shipped("pump", 7).solve().points["D"].velocity, rel=1e-13)
+    assert mechanism.batch(n=[]).points["D"].velocity.shape == (0,)
+    assert mechanism.batch().points == mechanism.solve().points
+
+
+def test_a_name_that_is_no_parameter_is_refused():
+    with pytest.raises(SceneError) as caught:
+        shipped("pump", 7).batch(m=[1, 2], n=[1, 2])
+    assert str(caught.value) == "m: is no parameter; expected n"
+
+
+def test_a_batch_run_ends_with_what_was_to_be_kept_and_nothing_else():
+    mechanism = shipped("pump", 7)
+    program = mechanism.program
+    needed = program.needed([("acceleration", "D")])
+    keep = [program.targets["acceleration", "D"], program.targets["velocity", "B"]]
+    values = {"n": np.arange(1.0, 31.0)}
+    trace = run_batch(program, needed, values, batch_kind(), keep)
+    assert set(trace.values) == set(keep)
+    assert trace.margins == {}
+
+
+def test_the_margin_is_the_sine_of_the_flattest_crossing():
+    """The transmission angle of each dyad, in position and in both plans."""
+    for name in SHIPPED:
+        for n in range(1, 31):
+            solution = shipped(name, n).solve()
+            p = {point: motion.position for point, motion in solution.points.items()}
+            at_b = ((p["B"] - p["A"]) / (p["B"] - p["O2"])).conjugate()
+            sines = abs(at_b.imag) / abs(at_b), abs((p["D"] - p["C"]).real) / 0.2
+            assert solution.margin == pytest.approx(min(sines), rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", [float, lambda x: np.array([x, x])])
+def test_the_smaller_of_two_numbers_is_unknown_where_one_is(kind):
+    nan = float("nan")
+    for a, b, smaller in ((1, 2, 1), (2, 1, 1), (nan, 1, nan), (1, nan, nan), (nan, nan, nan)):
+        np.testing.assert_array_equal(least(kind(a), kind(b)), kind(smaller))
+
+
+# --- failures ------------------------------------------------------------------------------------
+
+CRANK = """
+[frame]
+O = [0, 0]
+Q = [10, 0]
+[links.1]
+O-A = {crank}
+[links.2]
+A-B = {rod}
+{other}
+[[drivers]]
+turn = 1
+angle = {angle}
+speed = 2
+[branches]
+{branch}
+"""
+BLOCK = 'B = [0, 0]\nslides = { on = 0, through = "O", angle = 0 }'
+
+
+def slider(crank: float, rod: float, angle: float) -> str:
+    """A slider-crank in line."""
+    return CRANK.format(
+        crank=crank, rod=rod, angle=angle, other="[links.3]\n" + BLOCK, branch='3 = "forward"'
+    )
+
+
+def four_bar(crank: float, rod: float, rocker: float, angle: float) -> str:
+    """A four-bar on a frame of 10."""
+    other = f"[links.3]\nQ-B = {rocker}"
+    return CRANK.format(crank=crank, rod=rod, angle=angle, other=other, branch='B = "left of A-Q"')
+
+
+def refusal(text: str) -> str:
+    """The words with which a mechanism that does not close is refused."""
+    with pytest.raises(ClosureError) as caught:
+        mechanism_of(text).solve()
+    words = str(caught.value)
+    assert "None" not in words
+    assert not re.search(r"[{}\[\]]|nan|\(\)|  ", words), words
+    assert isinstance(caught.value.__cause__, StepFailed)
+    return words
+
+
+def test_a_rod_too_short_for_the_guide_misses_it_by_so_much():
+    assert refusal(slider(0.05, 0.03, 90)) == (
+        "position of B: B cannot be found: the arc misses the guide by 0.02 m; "
+        "expected loci that cross; it closes for driver angles "
+        "-36.87° to 36.87°, 143.13° to 216.87°"
+    )
+
+
+def test_the_closing_ranges_are_those_of_trigonometry():
+    """|r sin(phi)| <= l: up to asin(l/r), to the digits that are printed."""
+    limit = np.degrees(np.arcsin(3 / 5))
+    words = refusal(slider(5, 3, 100))
+    found = [float(number) for number in re.findall(r"(-?[\d.]+)°", words)]
+    exact = [-limit, limit, 180 - limit, 180 + limit]
+    assert np.abs(np.array(found) - exact).max() <= 0.005
+
+
+def test_two_arcs_too_short_or_one_inside_the_other_miss_each_other():
+    assert "B cannot be found: the arcs miss each other by 5 m;" in refusal(four_bar(3, 4, 4, 180))
+    assert "B cannot be found: the arcs miss each other by 4.56 m;" in refusal(
+        four_bar(3, 18, 3, 90)
+    )
+
+
+def test_a_mechanism_that_never_closes_says_so():
+    assert refusal(four_bar(3, 1, 2, 180)).endswith(
+        "it closes for no angle of the driver: check the lengths"
+    )
+
+
+def test_large_misses_are_written_out():
+    assert "by 50000 m;" in refusal(slider(1e5, 5e4, 90))
+
+
+def test_at_a_dead_point_the_two_lines_are_parallel():
+    """The rod stands square to the guide: the crank's speed determines no velocity there."""
+    assert refusal(slider(5, 5, 90)) == (
+        "velocity of b: b cannot be found: AB and the guide of 3 are perpendicular to each other; "
+        "expected loci that cross; "
+        "at this dead point, or so near to one that doubles cannot tell (solve --digits can), "
+        "the driver's speed determines no other: change the driver's position"
+    )
+
+
+def test_nothing_is_missed_by_a_mechanism_that_closes():
+    for angle in (0, 36, 144, 216, 324):
+        mechanism_of(slider(5, 3, angle)).solve()

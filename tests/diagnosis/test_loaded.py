@@ -1,0 +1,91 @@
+"""A command loads the libraries that it needs, and none that it does not, in a fresh process."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.diagnosis.scope import FILES, ROOT
+
+HEAVY = (
+    "numpy",
+    "shapely",
+    "matplotlib",
+    "reportlab",
+    "svgwrite",
+    "numba",
+    "flint",
+    "mpmath",
+    "sympy",
+    "scipy",
+)
+HOUSE = (
+    "graphkin.loops",
+    "graphkin.drawing",
+    "graphkin.motion.course",
+    "graphkin.motion.curves",
+)
+"""Rooms that only some commands enter."""
+
+
+def loaded(*words: str) -> tuple[set[str], set[str]]:
+    """The heavy libraries, and the rooms of the house, that a command has loaded at its end."""
+    code = (
+        "import sys, io, contextlib\n"
+        "from graphkin.cli.main import app\n"
+        "with contextlib.redirect_stdout(io.StringIO()):\n"
+        f"    try: app({list(words)!r})\n"
+        "    except SystemExit as left: assert not left.code, left.code\n"
+        "print(*sys.modules)"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == 0, ran.stderr
+    modules = set(ran.stdout.split())
+    return modules & set(HEAVY), modules & set(HOUSE)
+
+
+CASES = [
+    (("list",), set(), set()),
+    (("explain", "pump"), set(), set()),
+    (("explain", "{oscillating-slide}", "--json"), set(), set()),
+    # the witness solves its loops as matrices
+    (("solve", "pump", "--asked"), {"numpy"}, {"graphkin.loops"}),
+    (("solve", "pump", "--asked", "--json"), {"numpy"}, {"graphkin.loops", "graphkin.drawing"}),
+    (("solve", "pump"), {"numpy"}, {"graphkin.loops", "graphkin.drawing"}),
+    (("check", "pump", "--set", "n=7"), {"numpy"}, {"graphkin.loops", "graphkin.motion.course"}),
+]
+
+
+@pytest.mark.parametrize(
+    ("words", "libraries", "rooms"), CASES, ids=[" ".join(case[0]) for case in CASES]
+)
+def test_a_command_loads_what_it_needs(words, libraries, rooms):
+    named = [word.format(**FILES) if "{" in word else word for word in words]
+    assert loaded(*named) == (libraries, rooms)
+
+
+@pytest.mark.parametrize(
+    ("kind", "writer"), [("svg", "svgwrite"), ("pdf", "reportlab")], ids=["svg", "pdf"]
+)
+def test_a_sheet_loads_the_writer_of_its_own_kind(kind, writer, tmp_path: Path):
+    """Labels are set by shapely, the witness needs numpy."""
+    libraries, rooms = loaded("sheet", "pump", "--format", kind, "-o", str(tmp_path))
+    assert libraries == {"numpy", "shapely", writer}
+    assert "graphkin.motion.course" not in rooms
+
+
+def test_a_sheet_without_curves_follows_no_motion_and_one_with_them_does(tmp_path: Path):
+    options = ("--format", "svg", "-o", str(tmp_path))
+    _, rooms = loaded("sheet", str(FILES["centrodes-cardan"]), *options)
+    assert "graphkin.motion.course" in rooms
+    assert "graphkin.motion.curves" not in rooms
+
+
+def test_a_cycle_draws_without_the_writers_of_sheets(tmp_path: Path):
+    libraries, _ = loaded("cycle", "pump", "--format", "svg", "--steps", "60", "-o", str(tmp_path))
+    assert libraries == {"numpy", "matplotlib"}

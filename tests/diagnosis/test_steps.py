@@ -1,0 +1,363 @@
+"""What the scene does not call for is not run: steps counted by their actions, on every scene.
+
+The counts look at what a step does (its action, its plane, the module its action comes from), not
+at the effect that it says it is drawn for; where both are looked at, they are held together.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.rolling import wheel_actions
+from graphkin.diagnosis.effects import (
+    BY_COMMAND,
+    BY_HAND,
+    NAMES,
+    EffectRow,
+    effect_of,
+    effects,
+    parted,
+)
+from graphkin.mechanism import Mechanism
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import Ask
+from graphkin.scene.read_scene import read_text
+from tests.diagnosis.scope import (
+    FILES,
+    accelerations,
+    asking,
+    counted,
+    keys,
+    points,
+    shipped,
+    steps,
+    turning_guides,
+    velocities,
+)
+
+EVERY = pytest.mark.parametrize("name", FILES)
+CORIOLIS = {"coriolis", "lay-off-coriolis", "lay-back-coriolis"}
+OF_ACCELERATION = {"centripetal", "driven-tangential", "normal", "epsilon", "rolling-normal"}
+OF_ACCELERATION |= CORIOLIS | {"acceleration-pole", "turned-pole"}
+OUT_WITH_ACCELERATION = (
+    Effect.ACCELERATION,
+    Effect.DRIVER,
+    Effect.NORMAL,
+    Effect.TANGENTIAL,
+    Effect.CORIOLIS,
+    Effect.POLE,
+)
+
+
+def rows(mechanism: Mechanism) -> dict[str, EffectRow]:
+    """The effects of a mechanism by name."""
+    return {row.name: row for row in effects(mechanism)}
+
+
+def drawn_for(mechanism: Mechanism) -> Counter[Effect]:
+    """How many steps each effect has."""
+    return Counter(parted(mechanism).values())
+
+
+@EVERY
+def test_the_effects_add_up_to_the_steps_that_are_asked(name):
+    mechanism = shipped(name)
+    program, asked = mechanism.program, mechanism.asked()
+    found = rows(mechanism)
+    assert sum(found[each].steps for each in NAMES) == len(program.needed(asked))
+    drawn = len(program.needed(asked, by_hand=True)) - len(program.needed(asked))
+    assert found[BY_HAND].steps == drawn
+    assert set(found) == {*NAMES, BY_HAND, *BY_COMMAND}
+
+
+@EVERY
+def test_an_effect_is_in_where_it_has_steps_and_out_where_it_has_none(name):
+    for row in effects(shipped(name)):
+        shares = row.name == Effect.CENTRODE.value and shipped(name).scene.ask.centrodes
+        assert row.included == (row.steps > 0) or shares, row
+        assert row.reason
+
+
+@EVERY
+def test_no_more_is_run_than_what_is_asked_needs(name, monkeypatch):
+    mechanism = shipped(name)
+    needed = steps(mechanism)
+    with counted(monkeypatch) as ran:
+        mechanism.solve(asked=True)
+    assert [id(step) for step in ran] == [id(step) for step in needed]
+
+
+@EVERY
+def test_a_velocity_runs_no_step_of_an_acceleration(name, monkeypatch):
+    mechanism = velocities(name)
+    with counted(monkeypatch) as ran:
+        mechanism.solve(asked=True)
+    assert ran
+    assert not [step for step in ran if step.plane is Plane.ACCELERATIONS]
+    assert not [s for s in ran if s.part in (Part.ACCELERATION, Part.NORMAL, Part.POLE)]
+    assert not OF_ACCELERATION & {step.action.key for step in ran if step.action}
+    given = {id(mechanism.program.steps[drive.acceleration]) for drive in mechanism.program.drives}
+    shared = {id(mechanism.program.steps[drive.speed]) for drive in mechanism.program.drives}
+    assert not (given - shared) & {id(step) for step in ran}
+    counts = drawn_for(mechanism)
+    assert not [effect for effect in OUT_WITH_ACCELERATION if counts[effect]]
+
+
+@EVERY
+def test_a_position_runs_no_step_of_a_velocity(name):
+    scene = shipped(name).scene
+    mechanism = asking(name, Ask(curves=points(scene)))
+    assert not [s for s in steps(mechanism) if s.plane not in (Plane.NUMBERS, Plane.MECHANISM)]
+    counts = drawn_for(mechanism)
+    out = (*OUT_WITH_ACCELERATION, Effect.VELOCITY, Effect.CENTRE, Effect.CENTRODE)
+    assert not [effect for effect in out if counts[effect]]
+
+
+@EVERY
+def test_coriolis_only_where_a_guide_turns(name):
+    mechanism = accelerations(name)
+    found = keys(mechanism) & CORIOLIS
+    if found:
+        assert turning_guides(mechanism.scene)
+    elif not turning_guides(mechanism.scene):
+        assert not CORIOLIS & {s.action.key for s in mechanism.program.steps if s.action}
+    labelled = {s.action.key for s in steps(mechanism) if effect_of(s) is Effect.CORIOLIS}
+    assert labelled == found
+
+
+@EVERY
+def test_every_block_on_a_guide_that_turns_has_its_coriolis_component(name):
+    """2 ω × v_rel, as the independent route finds it, is nought for every block that has none."""
+    mechanism = shipped(name)
+    by_loops = {block: s.coriolis for block, s in loops_of(name).slides.items()}
+    for block, vector in by_loops.items():
+        has = mechanism.gives(("coriolis", block))
+        assert has or abs(vector) == 0, block
+
+
+def loops_of(name):
+    """The motion by the vector loops alone."""
+    from graphkin.loops.equations import equations
+    from graphkin.loops.newton import solve
+    from graphkin.loops.witness.loops_alone import as_solution
+
+    scene, solution = shipped(name).scene, shipped(name).solve()
+    places = {p: m.position for p, m in solution.points.items() if "@" not in p}
+    slides = {b: s.position for b, s in solution.slides.items()}
+    return as_solution(solve(equations(scene), places, slides))
+
+
+@EVERY
+def test_rolling_and_gears_only_where_wheels_touch(name):
+    mechanism = asking(name, Ask())
+    scene = mechanism.scene
+    has_wheels = any(link.rolls for link in scene.links.values())
+    counts = drawn_for(mechanism)
+    of_wheels = [
+        step
+        for step in mechanism.program.steps
+        if step.action and step.action.value.__module__ == wheel_actions.__name__
+    ]
+    assert bool(counts[Effect.ROLLING] or counts[Effect.GEARS]) == has_wheels
+    assert bool(of_wheels) == has_wheels
+    for step in of_wheels:
+        assert effect_of(step) in (Effect.ROLLING, Effect.GEARS), step.action
+
+
+def test_wheels_on_their_pins_are_gears_and_others_roll():
+    kinds = {
+        name: {e for e in (Effect.ROLLING, Effect.GEARS) if drawn_for(asking(name, Ask()))[e]}
+        for name in FILES
+    }
+    of_gears = {name for name, found in kinds.items() if found == {Effect.GEARS}}
+    of_rolling = {name for name, found in kinds.items() if found == {Effect.ROLLING}}
+    assert of_gears == {"gears-pair", "gears-planet", "gears-rack", "gears-ring"}
+    assert of_rolling == {"centrodes-roller", "rod-and-wheel", "roller", "roller-plates"}
+
+
+@EVERY
+def test_laws_of_time_only_where_a_driver_is_written_in_t(name):
+    mechanism = asking(name, Ask())
+    timed = any(TIME in driver.position.uses() for driver in mechanism.scene.drivers)
+    assert bool(drawn_for(mechanism)[Effect.TIME]) == timed
+    in_t = [s for s in steps(mechanism) if s.given and TIME in s.given.uses()]
+    assert len(in_t) == drawn_for(mechanism)[Effect.TIME]
+
+
+@EVERY
+def test_an_accelerated_driver_only_where_one_is(name):
+    mechanism = asking(name, Ask())
+    accelerated = [d for d in mechanism.scene.drivers if not d.acceleration.is_zero()]
+    if not accelerated:
+        assert not drawn_for(mechanism)[Effect.DRIVER]
+    assert bool(drawn_for(accelerations(name))[Effect.DRIVER]) == bool(accelerated) or closes(name)
+
+
+def closes(name: str) -> bool:
+    """Whether a driver closes a group of higher class: what it is given is missed, not laid off."""
+    keys_ = {step.action.key for step in shipped(name).program.steps if step.action}
+    return bool(keys_ & {"less", "speed-rolled"})
+
+
+@EVERY
+def test_only_what_is_named_has_centres_and_poles(name):
+    mechanism = accelerations(name)
+    parts = Counter(step.part for step in steps(mechanism))
+    assert not parts[Part.CENTRE]
+    assert not parts[Part.POLE]
+    for link in shipped(name).scene.links:
+        if shipped(name).gives(("centre", link)):
+            alone = drawn_for(asking(name, Ask(centres=(link,))))
+            assert alone[Effect.CENTRE] >= 1
+            assert not alone[Effect.POLE]
+            assert not alone[Effect.ACCELERATION]
+        if shipped(name).gives(("pole", link)):
+            alone = drawn_for(asking(name, Ask(poles=(link,))))
+            assert alone[Effect.POLE] >= 1
+            assert not alone[Effect.CENTRE]
+
+
+def test_centrodes_have_the_centres_that_nothing_else_asks_for():
+    alone = asking("centrodes-four-bar", Ask(centrodes=("2",)))
+    both = asking("centrodes-four-bar", Ask(centrodes=("2",), centres=("2",)))
+    assert drawn_for(alone)[Effect.CENTRODE] == drawn_for(both)[Effect.CENTRE] == 1
+    assert drawn_for(alone)[Effect.CENTRE] == drawn_for(both)[Effect.CENTRODE] == 0
+    assert rows(alone)[Effect.CENTRODE.value].included
+    assert rows(both)[Effect.CENTRODE.value].included
+    assert "asked anyway" in rows(both)[Effect.CENTRODE.value].reason
+
+
+def test_what_only_a_command_asks_for_is_out_of_every_scene():
+    for name in FILES:
+        found = rows(shipped(name))
+        assert not any(found[each].included or found[each].steps for each in BY_COMMAND)
+
+
+CRANK = """
+graphkin = 1
+title = "Crank and slot"
+{time}
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[frame]
+O1 = [0, 0]
+O2 = [0, -80]
+[links.1]
+O1-A = 30
+[links.2]
+A = [0, 0]
+slides = {{ on = 3, along = "O2-B" }}
+[links.3]
+O2-B = 150
+[[drivers]]
+turn = 1
+{driver}
+[branches]
+2 = "forward"
+[ask]
+acceleration = ["B"]
+"""
+
+
+def slot(driver: str, time: str = "") -> Mechanism:
+    """A crank that drives a slotted lever."""
+    return Mechanism(read_text(CRANK.format(driver=driver, time=time), "slot"))
+
+
+def test_a_driver_that_gathers_speed_costs_one_step():
+    steady = drawn_for(slot("angle = 40\nspeed = 3"))
+    faster = drawn_for(slot("angle = 40\nspeed = 3\nacceleration = 5"))
+    assert faster[Effect.DRIVER] == 1
+    more = {effect: faster[effect] - steady[effect] for effect in Effect}
+    given = {Effect.DRIVER: 1, Effect.SHAPE: 1}
+    assert {effect: n for effect, n in more.items() if n} == given
+
+
+def test_a_law_of_time_takes_the_place_of_the_numbers_that_it_gives():
+    steady = drawn_for(slot("angle = 40\nspeed = 3"))
+    timed = drawn_for(slot('angle = "40 + 30*t**2"', "time = 0.2"))
+    assert timed[Effect.TIME] == 2  # position and speed; the acceleration of 30 t² is a number
+    assert steady[Effect.SHAPE] - timed[Effect.SHAPE] == 1
+    assert timed[Effect.DRIVER] == 1
+
+
+def test_a_driver_whose_acceleration_is_a_parameter_keeps_its_step_at_nought():
+    text = CRANK.replace("[frame]", "[parameters]\ne = {{ value = 0 }}\n[frame]")
+    driver = 'angle = 40\nspeed = 3\nacceleration = "e"'
+    mechanism = Mechanism(read_text(text.format(driver=driver, time=""), "slot"))
+    assert drawn_for(mechanism)[Effect.DRIVER] == 1
+
+
+def test_a_crank_without_a_second_pin_costs_nothing_more_at_constant_speed():
+    """The points that blocks carry on a driven slot need no tangential component."""
+    for name in ("crank-slot", "oldham", "gears-pair"):
+        mechanism = accelerations(name)
+        program = mechanism.program
+        for number, drive in enumerate(program.drives):
+            if mechanism.scene.drivers[number].acceleration.is_zero():
+                users = [s for s in steps(mechanism) if drive.acceleration in s.args]
+                assert not [s for s in users if s.action.key == "driven-tangential"], name
+
+
+def test_the_slotted_lever_counted_by_eye():
+    """Coriolis: the vector, laid back from the block's image; normal: of the crank, of the lever
+    (vector and laying off); tangential: the lever's perpendicular."""
+    found = drawn_for(slot("angle = 40\nspeed = 3"))
+    assert found[Effect.CORIOLIS] == 2
+    assert found[Effect.NORMAL] == 3
+    assert found[Effect.TANGENTIAL] == 1
+    assert found[Effect.DRIVER] == found[Effect.ROLLING] == found[Effect.GEARS] == 0
+
+
+def test_the_pump_counted_by_eye():
+    """Normal components: the crank's, and for AB, O2B and CD vector and laying off; a
+    perpendicular for each of those three bars; one centre, two poles."""
+    found = drawn_for(shipped("pump"))
+    assert found[Effect.NORMAL] == 1 + 3 * 2
+    assert found[Effect.TANGENTIAL] == 3
+    assert (found[Effect.CENTRE], found[Effect.POLE]) == (1, 2)
+    assert found[Effect.RESULT] == 6
+
+
+@EVERY
+def test_what_an_effect_is_needed_for_is_found_by_taking_it_away(name):
+    """A target whose slice has a step of an effect is named in its reason, and no other."""
+    mechanism = shipped(name)
+    program, whole = mechanism.program, parted(mechanism)
+    for row in effects(mechanism):
+        if row.name not in NAMES or not row.steps:
+            continue
+        needs = {
+            target
+            for target in mechanism.asked()
+            if any(whole[number].value == row.name for number in program.needed([target]))
+        }
+        if needs == set(mechanism.asked()):
+            assert row.reason.endswith("needed for all that is asked")
+        else:
+            told = row.reason.rpartition("needed for ")[2]
+            named = {
+                (quantity, of)
+                for part in told.split("; ")
+                for quantity, _, names in [part.partition(" of ")]
+                for of in names.split(", ")
+            }
+            assert named == needs
+
+
+def test_a_scene_that_asks_nothing_is_asked_everything():
+    mechanism = asking("pump", Ask())
+    everything = len(mechanism.program.needed(mechanism.program.answers))
+    assert sum(drawn_for(mechanism).values()) == everything
+
+
+def test_nothing_is_out_for_what_a_mutilated_program_still_has():
+    """A step without an effect of its own is told by its part: none is left unnamed."""
+    for name in FILES:
+        for step in shipped(name).program.steps:
+            assert effect_of(step) in Effect
+            assert effect_of(replace(step, effect=None)) in Effect

@@ -1,0 +1,196 @@
+"""The calculation pages can be checked with a pocket calculator, line by line."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+from math import pi
+
+import pytest
+import shapely
+
+from graphkin.drawing.marks import Page, reach
+from graphkin.text import LANGUAGES, words
+from tests.documents.sheet_tools import (
+    DRAWN,
+    EVERY,
+    OTHERS,
+    calculations,
+    kind_of,
+    named,
+    relation_lines,
+    texts,
+)
+from tests.mechanisms import SHIPPED
+
+WHICH = [(lab, n, language) for lab in SHIPPED for n in (1, 7, 16, 30) for language in ("en", "ro")]
+WHICH += [(name, None, "en") for name in (*OTHERS, *DRAWN)]
+
+SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+POWER = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+RESULT = re.compile(r"(−?\d+(?:[.,]\d+)?)((?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?)(.*)")
+FIGURES = re.compile(r"[\d.,·/^+\-−*()π ⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+
+
+@pytest.fixture(params=WHICH, ids=named)
+def pages(request) -> tuple[tuple[Page, ...], tuple[Page, ...]]:
+    name, n, language = request.param
+    return calculations(name, n, "key", language), calculations(name, n, "task", language)
+
+
+def value_of(figures: str) -> float:
+    """The value of printed figures."""
+    text = POWER.sub(lambda m: f"*1e{int(m[1].translate(SUPERSCRIPTS))}", figures)
+    text = text.replace(",", ".").replace("·", "*").replace("^", "**").replace("−", "-")
+    text = text.replace("π", repr(pi))
+    assert re.fullmatch(r"[\d.e*/+() -]+", text), figures
+    return float(eval(text, {"__builtins__": {}}))
+
+
+def last_digit(result: str) -> tuple[float, float]:
+    """A printed result and what one of its last digit counts."""
+    found = RESULT.match(result)
+    assert found, result
+    digits, power, _ = found.groups()
+    places = len(re.sub(r"^[^.,]*[.,]?", "", digits))
+    return value_of(digits + power), (value_of(f"1{power}") if power else 1.0) * 10.0**-places
+
+
+def equations(pages) -> list[tuple[str, str, str]]:
+    """Number, figures and result of each relation that has figures, remark left out."""
+    found = []
+    for number, line in relation_lines(pages):
+        pieces = line.partition(" (")[0].split(" = ") if "/mm" not in line else line.split(" = ")
+        if number and len(pieces) > 2 and FIGURES.fullmatch(pieces[-2]):
+            found.append((number, pieces[-2], pieces[-1]))
+    return found
+
+
+ALL = [(lab, n, "en") for lab, n in EVERY] + WHICH
+
+
+@pytest.mark.parametrize("which", dict.fromkeys(ALL), ids=named)
+def test_the_figures_of_every_relation_give_its_result_to_the_last_digit(which):
+    name, n, language = which
+    found = equations(calculations(name, n, "key", language))
+    assert len(found) > 8
+    wrong = []
+    for number, figures, result in found:
+        printed, unit = last_digit(result)
+        if abs(value_of(figures) - printed) > 1.000001 * unit:
+            wrong.append(f"({number}) {figures} = {value_of(figures):.7g}, not {result}")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_the_relations_are_numbered_from_one_without_a_gap(pages):
+    for form in pages:
+        numbers = [int(number) for number, _ in relation_lines(form) if number]
+        assert numbers == list(range(1, len(numbers) + 1))
+        assert len(numbers) > 12
+
+
+def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages):
+    key, task = (after_data(relation_lines(form)) for form in pages)
+    assert [number for number, _ in key] == [number for number, _ in task]
+    for (number, solved), (_, blank) in zip(key, task, strict=True):
+        if not number:
+            assert solved == blank
+            continue
+        place = re.fullmatch(r"(.*) = \((?:\. )*\.; (?:\. )*\.\) (?:mm|cm|m) \([^)]*\)", blank)
+        if place:
+            assert solved.startswith((f"{place[1]} = ", f"{place[1]} at infinity"))
+            continue
+        symbols, dots, unit = re.fullmatch(r"(.*) =((?: \.){10,}) ?(.*)", blank).groups()
+        assert solved.startswith(f"{symbols} = "), (solved, blank)
+        unit, has_sense, sense = unit.partition(" (")
+        assert bool(has_sense) is unit.startswith("rad/"), blank
+        assert not has_sense or sense.endswith(" .)"), blank
+        assert dots and not re.search(r"\d", unit.replace("^2", "")), blank
+        rest = solved.removeprefix(f"{symbols} = ")
+        assert unit in rest, (solved, blank)
+
+
+def after_data(lines):
+    """The relations after the data, of which a form leaves out what it asks."""
+    heads = {words(c)(f"calculation.{of}") for c in LANGUAGES for of in ("driver", "scales")}
+    return lines[next(i for i, (_, line) in enumerate(lines) if line in heads) :]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_form_gives_only_the_parameters_of_what_it_asks(language):
+    key, task = (relation_lines(calculations("pump", 28, of, language)) for of in ("key", "task"))
+    given = [line for number, line in task[: task.index(after_data(task)[0])] if not number]
+    asked = dict(task)
+    assert "*n* = 28;" in " ".join(given)
+    assert words(language)("page.turning_anticlockwise") in " ".join(given)
+    assert not re.search(r"\b(86|580)\b", " ".join(line for _, line in task))
+    assert "*φ* = 86°;" in " ".join(line for _, line in key)
+    assert asked["1"].startswith("*φ* = 30 + 2·*n* = . .") and asked["1"].endswith(". °")
+    assert dict(key)["1"] == "*φ* = 30 + 2·*n* = 30 + 2·28 = 86°"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_form_says_from_where_a_place_is_counted(language):
+    lines = [line for _, line in relation_lines(calculations("pump", 28, "task", language))]
+    places = [line for line in lines if re.match(r"\*[IJ]\*_\{?\d", line)]
+    said = words(language)("calculation.from_pivot", pivot="*O*_{1}")
+    assert len(places) == 3
+    assert all(line.endswith(f") mm ({said})") for line in places), places
+
+
+def test_a_task_has_no_figures_but_those_of_the_data_and_of_the_laws(pages):
+    """What is left are the constants of a relation: pi·n/30, the powers, expressions given."""
+    _, task = pages
+    for number, line in relation_lines(task):
+        if number and "*t*" not in line:
+            left = re.sub(r"_\{[^}]*\}|_\w|\^\{?\w+\}?|\d+$", "", line.partition(" .")[0])
+            figures = re.findall(r"\d+[.,]\d+", left)
+            assert not figures, line
+
+
+def test_every_relation_stands_within_the_frame_of_its_page(pages):
+    for form in pages:
+        for page in form:
+            assert (page.width, page.height) == (210.0, 297.0)
+            rows = [m.y for m in texts([page]) if kind_of(m) == "caption"]
+            assert min(rows) > 18
+            assert max(rows) < 279
+
+
+def test_no_two_texts_of_a_page_touch(pages):
+    for form in pages:
+        for page in form:
+            found = texts([page])
+            boxes = [shapely.box(*reach(mark)) for mark in found]
+            pairs = shapely.STRtree(boxes).query(boxes, predicate="intersects").T.tolist()
+            assert not [(found[i].markup, found[j].markup) for i, j in pairs if i < j]
+
+
+def test_every_heading_is_followed_by_a_relation_on_its_page(pages):
+    for form in pages:
+        for page in form:
+            rows = [m for m in texts([page]) if kind_of(m) == "caption" and m.anchor == "start"]
+            assert rows[-1].height < 3
+            for above, below in pairwise(rows):
+                assert above.height < 3 or below.height < 3
+
+
+def test_a_centre_at_infinity_is_said_in_words():
+    lines = [line for number, line in relation_lines(calculations("parallelogram")) if number]
+    centres = [line for line in lines if re.match(r"\*[IJ]\*_", line)]
+    assert len(centres) == 2
+    assert all(re.fullmatch(r"\*[IJ]\*_\S+ at infinity", line) for line in centres), centres
+
+
+def test_the_tangential_component_of_a_crank_that_speeds_up_follows_from_epsilon():
+    lines = [line for _, line in relation_lines(calculations("clockwise crank that speeds up"))]
+    driven = [line for line in lines if line.startswith("*a*_{A}^{τ} = *ε*_{1}·*O*_{1}*A* = ")]
+    assert len(driven) == 1
+    assert "= 40·0.1 = 4.000 m/s^2" in driven[0]
+
+
+def test_no_line_breaks_between_a_number_and_its_unit(pages):
+    for form in pages:
+        rows = [m.markup for m in texts(form) if kind_of(m) == "caption"]
+        assert not [row for row in rows if re.match(r"(?:mm|cm|m|rev/min|rot/min|rad/s)\b", row)]
+        assert not [row for row in rows if re.search(r"=$", row)]

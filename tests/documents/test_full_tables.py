@@ -1,0 +1,77 @@
+"""Tables of many rows fit above the title block, or one line tells why none do."""
+
+from itertools import product
+
+import pytest
+import shapely
+
+from graphkin.construction.result_tables import slide_rows, tables, turning_rows, vector_rows
+from graphkin.documents.sheet import sheet
+from graphkin.drawing.areas import TABLES
+from graphkin.drawing.columns import ColumnTable, Row, laid_out
+from graphkin.drawing.marks import LineMark, Mark, Text, reach
+from graphkin.text import LANGUAGES
+from graphkin.text.errors import PageError
+from tests.documents.full_scenes import DYADS, STAR, drawings_from
+from tests.documents.sheet_tools import collisions, outside
+
+FULL = {"star": STAR, "dyads": DYADS}
+
+
+def cut(marks: list[Mark]) -> list[str]:
+    """Texts that a line of their table crosses."""
+    lines = [shapely.LineString([(m.x1, m.y1), (m.x2, m.y2)]) for m in marks if type(m) is LineMark]
+    return [
+        mark.markup
+        for mark in marks
+        if isinstance(mark, Text) and any(shapely.box(*reach(mark)).intersects(x) for x in lines)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "language", "empty"), [*product(FULL, LANGUAGES, (False, True))], ids=str
+)
+def test_long_tables_stand_above_the_title_block_with_every_row(name, language, empty):
+    for drawing in drawings_from(FULL[name], language):
+        marks = tables(drawing, TABLES, empty=empty)
+        boxes = [reach(mark) for mark in marks]
+        assert min(box[0] for box in boxes) >= TABLES[0] - 0.2
+        assert max(box[2] for box in boxes) <= TABLES[2] + 0.2
+        assert max(box[3] for box in boxes) <= TABLES[3] + 0.2
+        assert not cut(marks)
+        rows = [f(drawing, empty=empty) for f in (vector_rows, turning_rows, slide_rows)]
+        shown = [mark.name for mark in marks if isinstance(mark, Text)]
+        assert {row.name for some in rows for row in some} <= {*shown}
+
+
+@pytest.mark.parametrize(("name", "view"), [*product(FULL, ("key", "task"))], ids=str)
+def test_sheets_with_long_tables_are_drawn(name, view):
+    for drawing in drawings_from(FULL[name]):
+        page = sheet(drawing, view, "1/2")
+        page.check()
+        assert not collisions(page.marks)
+        assert not outside(page.marks)
+
+
+def test_a_table_that_nothing_makes_fit_is_refused_in_one_line():
+    rows = tuple(Row((f"*v*_{i}", "", "1,00", "2,000"), f"v_{i}") for i in range(100))
+    with pytest.raises(PageError) as caught:
+        laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], TABLES)
+    assert str(caught.value) == (
+        "tables: does not fit: 100 rows are too many for the 178 mm above the title block; "
+        "expected fewer rows; "
+        "ask for fewer velocities, accelerations or links on one sheet, or split the scene"
+    )
+
+
+def test_columns_are_as_wide_as_their_widest_text():
+    rows = (Row(("*a*_{RockerpinCrankpin}^{ν}", "", "1,00", "2,000"), "a_RockerpinCrankpin^ν"),)
+    marks = laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], TABLES)
+    assert not cut(marks)
+
+
+def test_a_name_too_long_for_every_table_is_told():
+    name = "Q" * 120
+    rows = (Row((f"*v*_{{{name}}}", "", "1,00", "2,000"), f"v_{name}"),)
+    with pytest.raises(PageError, match=r"does not fit: v_Q+ is [0-9]+ mm long in the smallest"):
+        laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], TABLES)

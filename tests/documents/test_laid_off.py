@@ -1,0 +1,67 @@
+"""Every vector that a hand lays off bears a name: on the page, in the table, in the calculation."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.construction.core.naming import NAUGHT, drawn_between
+from graphkin.construction.result_tables import vector_rows
+from graphkin.construction.sentence_fields import fields_of
+from graphkin.documents.relations import relations
+from graphkin.drawing.marks import Text
+from graphkin.drawing.symbol_markup import symbol
+from tests.documents.sheet_tools import SCENES, drawings, drawn
+from tests.mechanisms import SHIPPED
+
+LAID = (
+    "turned-velocity",
+    "centripetal",
+    "lay-off",
+    "lay-off-coriolis",
+    "lay-back-coriolis",
+    "driven-tangential",
+    "driven-slide",
+)
+"""The actions that lay off a vector in a plan."""
+WHICH = [(lab, 7) for lab in SHIPPED] + [(name, None) for name in SCENES]
+
+
+def laid_off(drawing):
+    """The symbols of the vectors that are laid off in the right plan, with their lengths in mm."""
+    for number, step, _ in drawing.steps(drawing.plane):
+        if step.action and step.action.key in LAID and number not in drawing.tags:
+            size = drawn_between(drawing, step.args[0], number, step.plane)
+            yield fields_of(drawing, step, step.says)["vector"], size
+
+
+@pytest.mark.parametrize("which", WHICH, ids=str)
+def test_every_vector_that_is_laid_off_stands_in_the_table(which):
+    for drawing in drawings(*which):
+        rows = {row.cells[0] for row in vector_rows(drawing, empty=False)}
+        assert {name for name, _ in laid_off(drawing)} <= rows
+
+
+@pytest.mark.parametrize("which", WHICH, ids=str)
+def test_every_vector_that_is_laid_off_is_named_beside_its_arrow_or_in_a_note(which):
+    for drawing in drawings(*which):
+        page = drawn(*which, drawing.kind)
+        names = texts(page)
+        for name, size in laid_off(drawing):
+            assert size < NAUGHT or any(name in markup for markup in names), name
+
+
+def texts(page):
+    """The markup of all that is written in the field of the plan, its notes among it."""
+    return [mark.markup for mark in page.marks["plan"] if isinstance(mark, Text)]
+
+
+@pytest.mark.parametrize("which", WHICH, ids=str)
+def test_every_vector_that_is_laid_off_is_computed_or_read_off(which):
+    whole = [r.left for _, section in relations(drawings(*which)) for r in section if r.result]
+    for drawing in drawings(*which):
+        assert {name for name, _ in laid_off(drawing)} <= set(whole)
+
+
+def test_what_turns_steadily_about_a_moving_pin_has_a_normal_component_with_its_arrow():
+    (_, acceleration) = drawings("jumper")
+    assert symbol("a_CH^ν") in {name for name, _ in laid_off(acceleration)}

@@ -1,0 +1,59 @@
+"""Beside a mechanism that takes the whole breadth the plan keeps its caption and its notes."""
+
+from itertools import product
+
+import pytest
+
+from graphkin.construction.core.layout import LEAST_FIELD, lay_out, shared_width
+from graphkin.documents.captions import headlines
+from graphkin.documents.overlay import overlay
+from graphkin.documents.sheet import sheet
+from graphkin.drawing.areas import AREA, MARGIN, WIDTH
+from graphkin.drawing.marks import Text, reach
+from graphkin.text import LANGUAGES
+from graphkin.text.errors import PageError
+from tests.documents.full_scenes import FLAT, TOGGLE, drawings_from
+from tests.documents.sheet_tools import collisions, outside
+
+NARROW = {"flat": FLAT, "toggle": TOGGLE}
+EVERY = [*product(NARROW, LANGUAGES, ("key", "task"))]
+
+
+@pytest.mark.parametrize(("name", "language", "view"), EVERY, ids=str)
+def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
+    for drawing in drawings_from(NARROW[name], language):
+        layout = lay_out(drawing)
+        left, right = layout.mechanism.rect, layout.plan.rect
+        for marks, rect in zip(headlines(drawing, layout, view), (left, right), strict=True):
+            assert max(reach(mark)[2] for mark in marks) <= rect[2] - 1
+        page = sheet(drawing, view, "1/2", layout)
+        page.check()
+        assert not collisions(page.marks)
+        assert not outside(page.marks)
+        notes = [m for m in page.marks if isinstance(m, Text) and m.name == "note"]
+        for note in notes:
+            rect = left if note.x < right[0] else right
+            assert reach(note)[2] <= rect[2] - 1, note.markup
+
+
+@pytest.mark.parametrize("plan", [0.0, 1.0, 10.0])
+def test_a_field_is_at_least_as_wide_as_its_caption_needs(plan):
+    whole = AREA[2] - AREA[0]
+    assert whole - shared_width(WIDTH - plan, plan) >= LEAST_FIELD - 1e-9
+    assert shared_width(plan, WIDTH - plan) >= LEAST_FIELD - 1e-9
+    assert shared_width(WIDTH - plan, plan) >= WIDTH - plan + MARGIN
+
+
+def test_drawings_wider_than_the_sheet_are_refused():
+    with pytest.raises(PageError, match="does not fit"):
+        shared_width(WIDTH, 1.0)
+
+
+@pytest.mark.parametrize("length", [240, 900])
+def test_a_long_title_of_an_overlay_is_smaller_or_refused_as_on_the_key(length):
+    drawing, _ = drawings_from(FLAT, title="letters " * (length // 8))
+    if length == 240:
+        overlay(drawing, "1/2").check()
+    else:
+        with pytest.raises(PageError, match=r"title block, title: .* does not fit .* shorten"):
+            overlay(drawing, "1/2")

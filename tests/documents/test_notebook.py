@@ -1,0 +1,163 @@
+"""What a notebook shows: the sheet itself, and plans in matplotlib's axes to scale."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.textpath import TextPath
+
+from graphkin import load
+from graphkin.documents.scaling import shown
+from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
+from graphkin.drawing.glyphs import size_for
+from graphkin.drawing.style import BLUE, STYLES
+from graphkin.text.errors import PageError, SceneError
+from graphkin.writers.axes import face, size_of
+from graphkin.writers.svg import write_svg
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+
+
+def lines(ax, colour, width):
+    """Both ends of every straight stroke of a look, as complex numbers in the axes' units."""
+    found = []
+    for patch in ax.patches:
+        assert isinstance(patch, PathPatch)
+        ends = patch.get_path().vertices
+        wide = abs(patch.get_linewidth() - width * 72 / 25.4) < 1e-9
+        if len(ends) == 2 and wide and to_hex(patch.get_edgecolor()) == colour:
+            found.append(complex(*ends[1]) - complex(*ends[0]))
+    return found
+
+
+def axes():
+    return Figure().subplots()
+
+
+def test_a_mechanism_shows_itself_as_its_first_sheet():
+    mechanism = load("pump", n=7)
+    shown_ = mechanism._repr_svg_()
+    assert shown_ == write_svg(hand_out(mechanism)[0].pages[0])
+    assert "<svg" in shown_ and 'data-name="oa"' in shown_
+
+
+@pytest.mark.parametrize("n", [1, 7, 30])
+def test_the_velocities_of_the_plan_stand_in_millimetres(n):
+    """v over kv is as long as the arrow, and points the same way: y runs up in axes."""
+    mechanism = load("pump", n=n)
+    drawn = lines(mechanism.plot(axes(), "velocity"), BLUE, STYLES["velocity"].width)
+    spoken = language_of(mechanism, None)
+    (first, _) = drawings_of(mechanism, proved(mechanism, shown(mechanism)), spoken)
+    solution = mechanism.solve()
+    for name in ("A", "B", "C", "D"):
+        wanted = 1000 * solution.points[name].velocity / first.scales.kv
+        assert min(abs(each - wanted) for each in drawn) < 1e-6
+
+
+def test_black_ink_and_another_language():
+    ax = load("pump", n=7).plot(axes(), "acceleration", ink="black", language="en")
+    colours = {patch.get_edgecolor()[:3] for patch in ax.patches if patch.get_linewidth()}
+    assert colours == {(0.0, 0.0, 0.0)}
+
+
+@pytest.mark.parametrize("which", ["mechanism", "velocity", "acceleration"])
+def test_the_axes_hold_all_that_is_drawn(which):
+    ax = load("pump", n=7).plot(axes(), which)
+    inside = ax.get_window_extent()
+    for patch in ax.patches:
+        box = patch.get_path().get_extents(patch.get_transform())
+        assert inside.x0 - 1e-6 <= box.x0 and box.x1 <= inside.x1 + 1e-6
+        assert inside.y0 - 1e-6 <= box.y0 and box.y1 <= inside.y1 + 1e-6
+    assert ax.get_aspect() == 1
+
+
+SIGN = TextPath((0, 0), "⊥", size=size_for(2.5), prop=face(italic=False)).get_extents()
+
+
+def signs(ax):
+    """The sizes in mm of the signs ⊥, which stand in every plan."""
+    found = []
+    for patch in ax.patches:
+        box = patch.get_path().get_extents(patch.get_transform())
+        letter = not patch.get_linewidth() and len(patch.get_path().vertices) == 10
+        if letter and abs(box.width / box.height - SIGN.width / SIGN.height) < 1e-3:
+            found.append(box.height / ax.figure.dpi * 25.4)
+    return found
+
+
+def heads(ax):
+    """The lengths in mm of the arrowheads: filled triangles without an edge."""
+    found = []
+    for patch in ax.patches:
+        corners = patch.get_transform().transform(patch.get_path().vertices)
+        if len(corners) == 4 and not patch.get_linewidth():
+            tip, *back = (complex(*corner) for corner in corners[:3])
+            found.append(abs(tip - sum(back) / 2) / ax.figure.dpi * 25.4)
+    return found
+
+
+@pytest.mark.parametrize("later", [False, True])
+def test_letters_and_arrowheads_of_all_drawings_in_a_figure_are_of_one_size(later):
+    """Capitals are 2.5 mm high and heads 3.2 mm long, as on the sheets, in axes of every size."""
+    names = ("pump", str(SCENES / "oscillating-slide.toml"), str(SCENES / "gears-planet.toml"))
+    figure = Figure((9, 10))
+    for row, name in zip(figure.subplots(3, 2), names, strict=True):
+        for ax, which in zip(row, ("velocity", "acceleration"), strict=True):
+            load(name).plot(ax, which, language="en")
+    for ax in figure.axes:
+        box = ax.get_position()
+        if later:
+            ax.set_position((box.x0, box.y0, 1.3 * box.width, 0.9 * box.height))
+            ax.apply_aspect()
+        assert max(heads(ax)) == pytest.approx(3.2)
+        assert signs(ax)
+        assert signs(ax) == pytest.approx([SIGN.height] * len(signs(ax)))
+
+
+@pytest.mark.parametrize("inches", [(3, 2.5), (6.4, 4.8), (12, 9)])
+def test_a_drawing_fills_its_axes_in_millimetres_of_the_sheet(inches):
+    """Its longest vector takes up what the letters beside it leave of the axes."""
+    ax = load("pump", n=7).plot(Figure(inches).subplots(), "velocity")
+    longest = max(lines(ax, BLUE, STYLES["velocity"].width), key=abs)
+    assert abs(longest) == pytest.approx(60)
+    width, height = size_of(ax)
+    left, right = ax.get_xlim()
+    assert (right - left) / width == pytest.approx(np.diff(ax.get_ylim())[0] / height)
+    assert abs(longest.imag) * width / (right - left) > 0.4 * height
+
+
+def test_axes_too_small_for_the_letters_are_refused():
+    ax = Figure((1.2, 1)).subplots()
+    with pytest.raises(PageError, match="axes of 24 × 20 mm are too small: does not fit"):
+        load("pump", n=7).plot(ax, "acceleration")
+
+
+def test_a_plan_of_which_nothing_is_asked_is_refused(tmp_path):
+    text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
+    asked = 'acceleration = ["B", "P"]\nomega = [2, 3]\nepsilon = [2, 3]\n'
+    assert asked in text
+    path = tmp_path / "velocities.toml"
+    path.write_text(text.replace(asked, ""), encoding="utf-8")
+    with pytest.raises(SceneError, match="nothing of the acceleration plan is asked"):
+        load(str(path)).plot(axes(), "acceleration")
+
+
+def test_a_plan_of_velocities_of_which_nothing_is_asked_is_refused_too(tmp_path):
+    text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
+    path = tmp_path / "path.toml"
+    path.write_text(text.partition("[ask]")[0] + '[ask]\ncurves = ["P"]\n', encoding="utf-8")
+    refused = "nothing of the velocity plan is asked; expected mechanism; ask for a velocity under"
+    with pytest.raises(SceneError, match=refused):
+        load(str(path)).plot(axes(), "velocity")
+    assert load(str(path)).plot(axes(), "mechanism").get_children()
+
+
+@pytest.mark.parametrize("which", ["vel", None, 3])
+def test_what_is_no_drawing_is_said_to_be_none(which):
+    with pytest.raises(
+        SceneError, match="is no drawing; expected mechanism, velocity, acceleration"
+    ):
+        load("pump", n=7).plot(axes(), which)

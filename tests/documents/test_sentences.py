@@ -1,0 +1,313 @@
+"""What the sentences, the data and the calculation say is enough to draw by, in every scene."""
+
+from __future__ import annotations
+
+import re
+from cmath import phase
+from math import degrees
+
+import pytest
+
+from graphkin.construction.centres.parallel_velocities import set_before
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import given
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.core.solution import Verdict
+from graphkin.documents.relations import relations
+from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet_documents import drawings_of
+from graphkin.drawing.marks import Text
+from graphkin.drawing.richtext import plain
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.text import words
+from tests.documents.made_up import HEAD
+from tests.documents.sheet_tools import SCENES, drawings, drawn, kinds_of, named
+
+LABS = [(lab, n) for lab in ("pump", "pump-collinear", "slotted-lever") for n in (1, 7, 20)]
+LABS += [("offset-slider-crank", n) for n in (1, 7, 20)]
+ALL = [*((name, None) for name in SCENES), *LABS]
+HIGHER = (
+    "rapid-return",
+    "rod-and-wheel",
+    "stephenson-2-binary",
+    "stephenson-2-ternary",
+    "stephenson-3-crank",
+)
+NORMAL = re.compile(r"lay off [^;:]*?(\*a\*_\{[^}]*\}\^\{ν\})")
+BAR = re.compile(r"[/·]((?:\*[A-Z]\*(?:_\{[^}]*\})?){2})$")
+ARTICLES = re.compile(r"\b(?:a|da|di|su|in) (?:la|il|lo|le|gli|i) |\b(?:a|da|di|su) l['’]")
+CLASHING = re.compile(r"(?<!\S)(?:a A|a a|e E|e e)")
+WHEEL_AND_BAR = """
+[frame]
+A = [-250, 40]
+R = [0, 0]
+[links.1]
+A-D = 30
+[links.2]
+D-B = 210
+[links.3]
+C-B = 40
+wheel = { centre = "C", radius = 60 }
+rolls = { on = 0, through = "R", angle = 0, start = { 3 = 90 } }
+[[drivers]]
+turn = 1
+angle = 50
+speed = 5
+[branches]
+3 = "closure 1"
+"""
+DRIVEN_LEVER = """
+[frame]
+O = [0, 0]
+C = [120, 0]
+[links.1]
+O-A = 200
+[links.2]
+B = [0, 0]
+slides = { on = 1, along = "O-A" }
+[links.3]
+C-B = 90
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[branches]
+2 = "forward"
+"""
+
+
+@pytest.fixture(params=ALL, ids=named)
+def both(request) -> tuple[Drawing, ...]:
+    return drawings(*request.param)
+
+
+def written(text: str, kind: int) -> list[Sentence]:
+    """The sentences of one sheet of a scene given as text."""
+    mechanism = Mechanism(read_text(HEAD + text, "written", None, {}))
+    verdict = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    return sentences(drawings_of(mechanism, verdict, words("en"))[kind])
+
+
+def all_said(found: tuple[Drawing, ...]) -> list[str]:
+    """Every sentence, piece of data and remark of a scene."""
+    said = [piece for drawing in found for piece in given(drawing)]
+    said += [one.markup for drawing in found for one in sentences(drawing)]
+    return said + [r.remark for _, section in relations(found) for r in section]
+
+
+def test_every_normal_component_that_is_laid_off_has_a_length_or_a_triangle(both):
+    for drawing in both:
+        told: set[str] = set()
+        for said in sentences(drawing):
+            for clause in said.markup.split("; "):
+                for name in NORMAL.findall(clause):
+                    assert re.search(r"\d mm", clause) or name in told, (clause, told)
+            if said.name in ("ν1", "ν", "ν none", "ν by number"):
+                told |= set(re.findall(r"\*a\*_\{[^}]*\}\^\{ν\}", said.markup))
+
+
+def test_a_normal_component_that_a_known_turning_gives_says_so_with_its_length():
+    (_, drawing) = drawings("eight-link-2")
+    told = [plain(said.markup) for said in sentences(drawing)]
+    clause = "from o′ lay off aCν = ω32·BC ∥ BC, from C towards B, 11.45 mm"
+    assert any(clause in said for said in told)
+
+
+def test_the_last_sentence_names_what_is_set_on_the_mechanism(both):
+    for drawing in both:
+        part = Part.VELOCITY if drawing.kind == "velocity" else Part.ACCELERATION
+        early = set_before(drawing)
+        arrows = {
+            symbol(step.says["symbol"])
+            for number, step, arrow in drawing.steps(Plane.MECHANISM)
+            if step.arrow and step.part is part and abs(arrow.tip - arrow.tail) > 1e-9
+            if number not in early
+        }
+        last = sentences(drawing)[-1].markup
+        listed = re.fullmatch(r"set (.*) on the mechanism, each at its point(;.*)?", last)
+        assert arrows == (set(listed[1].split(", ")) if listed else set()), last
+
+
+def test_every_length_of_the_calculation_is_given_or_measured_before(both):
+    told = set(re.findall(r"(?:\*[A-Z]\*(?:_\{[^}]*\})?){2}(?= =)", " ".join(given(both[0]))))
+    drawn_before = False
+    for section, found in relations(both):
+        drawn_before |= section == "lengths"
+        for relation in found:
+            told.add(relation.left)
+            bar = BAR.search(relation.symbols)
+            if bar and drawn_before:
+                turned = "".join(reversed(re.findall(r"\*[A-Z]\*(?:_\{[^}]*\})?", bar[1])))
+                assert {bar[1], turned} & told, relation
+    assert drawn_before
+
+
+def test_exact_scale_factors_have_no_noughts_at_their_end():
+    for name in ("slider-crank", "pump-collinear", "rapid-return", "gears-ring"):
+        n = None if name in SCENES else 7
+        for kind in kinds_of(name, n):
+            captions = [
+                mark.markup
+                for mark in drawn(name, n, kind).page.marks
+                if isinstance(mark, Text) and re.search(r"\*k\*_[va] = [\d.]+ ", mark.markup)
+            ]
+            assert captions
+            assert not [text for text in captions if re.search(r"\.\d*0 \(", text)]
+
+
+# --- trial plans ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", HIGHER)
+def test_the_gaps_of_the_trials_divide_the_line_as_the_sentence_says(name):
+    """Checked on the plan itself: the parts of the line are to each other as the two numbers."""
+    for drawing in drawings(name):
+        (said,) = [s for s in sentences(drawing) if "divide the line" in s.markup]
+        one, two = (
+            float(text) for text in re.search(r"= ([\d.]+) : ([\d.]+)", said.markup).groups()
+        )
+        for number in said.all_steps:
+            step = drawing.trace.program.steps[number]
+            first, second, _ = (drawing.trace.values[arg] for arg in step.args)
+            right, apart = drawing.trace.values[number], abs(second - first)
+            if apart:
+                parts = abs(right - first), abs(second - right)
+                assert abs(parts[0] * two - parts[1] * one) < 0.02 * apart * (one + two)
+                assert (sum(parts) > 1.000001 * apart) is ("beyond" in said.markup)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "gap"),
+    [
+        (
+            "rapid-return",
+            0,
+            "the line qIqII of the trials; through o the parallel to guide 5; they",
+        ),
+        ("stephenson-2-ternary", 1, "the line e′Ie′II of the trials; from o′ lay off aEν ∥ O2E"),
+        ("rod-and-wheel", 0, "measure along guide 2, in its positive sense: b1,IbI = 0.00 mm"),
+    ],
+)
+def test_the_crossing_or_the_gap_of_trials_is_told_by_its_line_and_points(name, kind, gap):
+    told = [plain(said.markup) for said in sentences(drawings(name)[kind])]
+    assert any(said.startswith(gap) for said in told), told
+
+
+# --- closing and Coriolis ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "listed"),
+    [
+        ("stephenson-3-crank", "draw links 1, 3, 2 each time"),
+        ("stephenson-2-ternary", "draw links 2, 3, 4 each time"),
+        ("stephenson-2-binary", "draw links 1, 2, 4 each time"),
+        ("rapid-return", "draw links 2, 3, 4 each time"),
+        ("rod-and-wheel", "draw links 3, 2, 1 each time"),
+    ],
+)
+def test_the_link_that_is_cut_off_is_not_drawn_for_the_locus(name, listed):
+    (said,) = [one.markup for one in sentences(drawings(name)[0]) if one.name == "close"]
+    assert listed in said
+
+
+def test_a_link_that_gives_the_locus_alone_is_drawn_each_time():
+    (said,) = [one.markup for one in written(WHEEL_AND_BAR, 0) if one.name == "close"]
+    assert "move link 3 in steps, draw it each time and mark the locus of *B*" in said
+
+
+def test_a_guide_whose_direction_the_closing_gives_is_drawn_at_its_angle():
+    (drawing, _) = drawings("rapid-return")
+    told = [plain(said.markup) for said in sentences(drawing)]
+    way = degrees(phase(drawing.standing.spot("Q") - drawing.standing.spot("P")))
+    assert any(f"draw guide 2 at {way:.1f}° to the x axis" in said for said in told)
+
+
+@pytest.mark.parametrize(
+    ("name", "n", "line"),
+    [
+        ("slotted-lever", 7, "it is cut in f by the line O2a″;"),
+        ("rod-and-wheel", None, "it is cut in f by the line from A to the tip of vB1, set at B1;"),
+        ("rapid-return-slider", None, "it is cut in f by the line Pq″;"),
+        ("oldham", None, "by the line from O1 that makes with O1eMM3 the angle which O1A makes"),
+    ],
+)
+def test_a_coriolis_triangle_whose_base_lies_on_the_lever_is_cut_by_the_tips_line(name, n, line):
+    drawing = drawings(name, n)[1]
+    told = [plain(said.markup) for said in sentences(drawing) if said.name == "c"]
+    assert line in told[0]
+
+
+@pytest.mark.parametrize("name", ["slotted-lever", "rod-and-wheel", "rapid-return-slider"])
+def test_the_corner_f_lies_on_the_line_to_the_tip(name):
+    drawing = drawings(name, None if name in SCENES else 7)[1]
+    values = drawing.trace.values
+    drawn = [step for _, step, _ in drawing.mechanism_steps() if step.action]
+    leans = [step for step in drawn if step.action.key == "coriolis-ray"]
+    assert leans
+    for lean in leans:
+        pivot, tip = values[lean.args[1]], values[lean.args[3]]
+        along = values[drawing.number_of(lean)].along
+        assert abs(((tip - pivot) / along).imag) < 1e-9 * abs((tip - pivot) / along)
+
+
+def test_a_driven_lever_whose_velocity_no_right_triangle_shows_has_no_letter_at_its_tip():
+    (said,) = [plain(one.markup) for one in written(DRIVEN_LEVER, 1) if one.name == "c"]
+    assert "it is cut in f by the line from O to the tip of vA, set at A;" in said
+
+
+# --- guides --------------------------------------------------------------------------------------
+
+
+def test_the_positive_sense_of_every_asked_guide_stands_among_the_data(both):
+    drawing = both[0]
+    told = [piece for piece in given(drawing) if "(positive from " in piece]
+    for block in drawing.scene.ask.slides:
+        point = symbol(drawing.scene.links[block].points[0])
+        assert any(piece.startswith((point, f"pin {point}")) for piece in told), block
+
+
+@pytest.mark.parametrize("name", ["crank-fixed-slot", "mobility-cam", "gears-rack"])
+def test_a_block_moves_to_where_its_guide_is_positive_when_its_speed_is(name):
+    (drawing, *_) = drawings(name)
+    ways = {"to the right": 0, "upwards": 90, "to the left": 180, "downwards": -90}
+    seen = 0
+    for block in drawing.scene.ask.slides:
+        link = drawing.scene.links[block]
+        if link.slides[0].on != "0":
+            continue
+        piece = next(p for p in given(drawing) if p.startswith(f"{symbol(link.points[0])} slides"))
+        said = re.search(
+            r"\(positive from .*? (to the right|upwards|to the left|downwards)\)", piece
+        )
+        velocity = drawing.trace.value("velocity", link.points[0])
+        speed = drawing.trace.value("slide speed", block)
+        off = degrees(phase(velocity if speed > 0 else -velocity)) - ways[said[1]]
+        assert abs((off + 180) % 360 - 180) < 46
+        seen += 1
+    assert seen
+
+
+# --- languages -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ALL, ids=named)
+def test_italian_joins_its_prepositions_and_parts_its_vowels(name):
+    for said in all_said(drawings(*name, "it")):
+        assert not ARTICLES.search(said), said
+        assert not CLASHING.search(plain(said)), said
+
+
+def test_italian_parts_equal_vowels_alone():
+    spoken = words("it")
+    assert spoken("step.compass", bar="AB", p="A") == "arco di raggio AB e centro A"
+    assert spoken("step.square-to", s="b", bar="*A**B*") == "per b la perpendicolare ad *A**B*"
+    assert spoken("step.square-to", s="b", bar="*O**B*") == "per b la perpendicolare a *O**B*"
+    assert spoken("step.kennedy-line", m="*I*", n="*E*") == "congiungere *I* ed *E*"
+
+
+def test_romanian_has_one_word_for_the_end_of_a_vector():
+    assert not [text for text in words("ro").sentences.values() if "extremit" in text]

@@ -1,0 +1,420 @@
+"""Every sheet of both shipped labs and of other mechanisms can be read: nothing on anything."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from math import dist, hypot
+
+import pytest
+import shapely
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.program import Plane
+from graphkin.construction.result_tables import tables
+from graphkin.documents.sheet_documents import hand_out
+from graphkin.drawing.areas import TABLES
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text, reach
+from graphkin.drawing.style import style_of
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbols import SHORT
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import PageError
+from tests.documents.sheet_tools import (
+    EVERY,
+    KINDS,
+    OTHERS,
+    SCENES,
+    Drawn,
+    attempt,
+    both,
+    calculations,
+    collisions,
+    drawing_of,
+    drawn,
+    is_label,
+    is_vector,
+    kind_of,
+    kinds_of,
+    labels_of,
+    length_of,
+    named,
+    off_fields,
+    outline,
+    outside,
+    texts,
+    told,
+    within,
+)
+from tests.mechanisms import SHIPPED
+
+FIELDS = ("mechanism", "plan")
+HEAD = 0.41
+"""Longest arrowhead, in parts of its vector."""
+WIDER = 2.2
+"""Least width of an arrowhead, in parts of its shaft's."""
+BENEATH = ("link", "plate", "guide-bar", "block", "slider", "spoke", "pin", "hinge", "fixed-pivot")
+"""The marks of the mechanism that hide no vector."""
+TINY = 0.5
+"""Vectors shorter than this, in mm, are named at the foot of their field."""
+NEAR = 6.0
+"""Farthest a label without a leader stands from what it names, in mm."""
+INSIDE = 1.1
+"""Farthest a leader ends from the line it leads to, in mm: at the rim of a pin that stands on it,
+or at a centre's cross."""
+RAY = 20.0
+"""How much of the ray to a centre off its field the centre's name belongs to, in mm."""
+OFF = (0.8, 1.6)
+"""Farthest a leader begins from its text, or from the corner of the box around a ring, in mm."""
+
+SHEETS = [(lab, n, kind) for lab, n in EVERY for kind in KINDS]
+SHEETS += [(name, None, kind) for name in (*OTHERS, *SCENES) for kind in kinds_of(name)]
+
+
+@pytest.fixture(params=SHEETS, ids=named)
+def page(request) -> Drawn:
+    _, made = attempt(*request.param, "key", "en")
+    if isinstance(made, PageError):
+        pytest.skip("another test says that this sheet cannot be made")
+    return drawn(*request.param)
+
+
+@pytest.mark.parametrize("which", SHEETS, ids=named)
+def test_every_sheet_can_be_made_or_another_scene_is_clearly_refused(which):
+    _, made = attempt(*which, "key", "en")
+    shipped = which[0] not in OTHERS
+    if isinstance(made, PageError):
+        assert not shipped and "does not fit" in str(made), made
+
+
+def test_no_label_touches_a_line_or_another_text(page):
+    faults = collisions(page.page.marks)
+    assert not faults, "\n".join(faults)
+
+
+def test_nothing_leaves_the_frame_or_its_field(page):
+    faults = [*outside(page.page.marks), *off_fields(page)]
+    assert not faults, "\n".join(faults)
+
+
+def test_every_vector_point_and_pin_has_one_label_that_says_its_name(page):
+    """But for a letter or two of small triangles, where many stand at one pin."""
+    faults, left_out = [], []
+    for field in FIELDS:
+        subjects = named_marks(page, field)
+        assert subjects
+        faults += [f"{field}: {told(mark)} has no name" for mark in subjects if not mark.name]
+        counts = Counter(mark.name for mark in subjects)
+        faults += [f"{field}: {name} is there {k} times" for name, k in counts.items() if k > 1]
+        labels: dict[str, list[str]] = {}
+        for label in page.labels(field):
+            said = re.split(" [≡≈] ", page.meaning(field, label))
+            for name, word in zip(label.names(), said, strict=True):
+                labels.setdefault(name, []).append(word)
+        for mark in subjects:
+            said, names = labels.get(mark.name, []), names_of(page, mark)
+            noted = any(name in page.notes(field) for name in names)
+            tiny = is_vector(mark) and length_of(mark) < TINY and noted
+            if not said and mark.cls == "point construction":
+                left_out.append(mark.name)
+            elif not tiny and (len(said) != 1 or said[0] not in names):
+                faults.append(f"{field}: {told(mark)} is named {said}")
+    assert not faults, "\n".join(faults)
+    assert len(left_out) <= 2, left_out
+
+
+def is_apart(mark):
+    """True for a mark of an inset or of an enlarged detail."""
+    return bool({"inset", "detail"} & {*mark.cls.split()})
+
+
+def named_marks(page: Drawn, field: str) -> list[Mark]:
+    """The vectors, points, poles, pins and centres of a field."""
+    circles = ("point", "pole", "pin", "centre")
+    return [
+        mark
+        for mark in page.marks[field]
+        if is_vector(mark)
+        or (isinstance(mark, CircleMark) and kind_of(mark) in circles and not is_apart(mark))
+    ]
+
+
+def names_of(page: Drawn, mark: Mark) -> set[str]:
+    """The markups that a mark may be called by."""
+    names = {symbol(mark.name), symbol(mark.name.partition("_")[0])}
+    if mark.step is not None and is_vector(mark):
+        said = page.drawing.trace.program.steps[mark.step].says
+        names = {symbol(said["symbol"])} if "symbol" in said else {symbol(mark.name)}
+    return names
+
+
+def test_every_link_has_its_number_in_a_ring(page):
+    links = page.drawing.scene.links
+    rings = [x for x in page.labels("mechanism") if x.ring or x.text.markup in links]
+    found = Counter(label.text.markup for label in rings)
+    assert found == Counter(list(links)), found
+    assert all(label.text.name == label.text.markup for label in rings)
+
+
+def test_every_label_stands_by_what_it_names_or_leads_to_it(page):
+    faults = []
+    for field in FIELDS:
+        subjects = [
+            mark
+            for mark in page.marks[field]
+            if mark.name and not isinstance(mark, Text) and not is_label(mark)
+        ]
+        for label in page.labels(field):
+            own = [outline(mark) for mark in subjects if mark.name in label.names()]
+            if not own:
+                continue
+            near = shapely.union_all(own)
+            if label.leader:
+                end = shapely.Point(label.leader.x2, label.leader.y2)
+                start = shapely.Point(label.leader.x1, label.leader.y1)
+                off = OFF[label.ring is not None]
+                inside = INSIDE + RAY * is_far(page, field, label.text.name)
+                if end.distance(near) > inside or start.distance(label.ink()) > off:
+                    faults.append(f"the leader of {told(label.text)} leads elsewhere")
+            elif label.ink().distance(near) > NEAR + RAY * is_far(page, field, label.text.name):
+                faults.append(f"{told(label.text)} stands apart")
+    assert not faults, "\n".join(faults)
+
+
+def is_far(page: Drawn, field: str, name: str) -> bool:
+    """True for a centre or pole off its field: only a head at the field's edge points to it."""
+    return {kind_of(m) for m in page.marks[field] if m.name == name} <= {
+        "arrowhead",
+        "ray",
+        "label",
+        "leader",
+    }
+
+
+def test_every_vector_has_one_head_at_its_tip_and_a_short_one_has_none(page):
+    faults = []
+    for field in FIELDS:
+        heads = [
+            mark
+            for mark in page.marks[field]
+            if isinstance(mark, Polyline) and kind_of(mark) == "arrowhead" and mark.name
+        ]
+        for line in page.vectors(field):
+            own = [head for head in heads if head.name == line.name]
+            if len(own) != (length_of(line) >= SHORT):
+                faults.append(f"{len(own)} heads: {told(line)}, {length_of(line):.2f} mm long")
+            faults += [f"{told(line)}: {why}" for head in own for why in misfits(line, head)]
+    assert not faults, "\n".join(faults)
+
+
+def misfits(line: LineMark, head: Polyline) -> list[str]:
+    """Why a head does not belong to its line, or cannot be told from it."""
+    tip, *back = head.points
+    found = []
+    if hypot(tip[0] - line.x2, tip[1] - line.y2) > 1e-6:
+        found.append("head not at the tip")
+    middle = sum(x for x, _ in back) / 2, sum(y for _, y in back) / 2
+    size = hypot(tip[0] - middle[0], tip[1] - middle[1])
+    if size > HEAD * length_of(line):
+        found.append(f"head {size:.2f} mm long")
+    if shapely.Point(middle).distance(outline(line)) > 1e-6:
+        found.append("head askew")
+    wide, shaft = dist(*back), style_of(line.cls).width
+    if wide < WIDER * shaft:
+        found.append(f"head {wide:.2f} mm wide on a shaft of {shaft} mm")
+    return found
+
+
+def test_vectors_stand_above_bars_and_pins(page):
+    """The head of a crank's acceleration ends on the fixed pivot and can be seen."""
+    marks = [m for m in page.marks["mechanism"] if not {"inset", "detail"} & {*m.cls.split()}]
+    first = min((marks.index(line) for line in page.vectors("mechanism")), default=len(marks))
+    above = [told(mark) for mark in marks[first:] if kind_of(mark) in BENEATH]
+    assert not above, above
+
+
+@pytest.mark.parametrize("field", ["mechanism", "plan"])
+def test_every_enlarged_detail_names_the_short_vector_that_it_is_for(page, field):
+    marks = page.marks[field]
+    named = {label.text.name: label.text.markup for label in labels_of(marks)}
+    free = [label.text for label in labels_of(marks) if not label.text.name]
+    circles = [m for m in marks if isinstance(m, CircleMark) and m.cls == "detail"]
+    for small, large in zip(circles[::2], circles[1::2], strict=True):
+        inside = [m for m in marks if is_vector(m) and within(m, reach(small))]
+        disc = shapely.Point(large.cx, large.cy).buffer(large.r)
+        told = {text.markup for text in free if disc.contains(shapely.box(*reach(text)))}
+        assert told & {named[m.name] for m in inside if m.name in named}
+
+
+def test_only_vectors_have_heads(page):
+    """The end of a bar in an enlarged detail is no tip."""
+    heads = [m for marks in page.marks.values() for m in marks if kind_of(m) == "arrowhead"]
+    assert not [m for m in heads if m.cls.split()[1] in ("link", "construction")]
+
+
+def test_every_inset_names_the_centre_and_the_points_of_its_rays(page):
+    marks = page.marks["mechanism"]
+    boxes = [m for m in marks if isinstance(m, Polyline) and m.cls == "panel"]
+    names = [label.text for label in labels_of(marks) if not label.text.name]
+    for panel in boxes:
+        inside = [t.markup for t in names if within(t, reach(panel))]
+        assert len(inside) == len(set(inside)) >= 3, inside
+
+
+# --- the task view -------------------------------------------------------------------------------
+
+TASKS = [(lab, n) for lab in SHIPPED for n in (1, 7, 16, 29)]
+TASKS += [(name, None) for name in list(OTHERS)[1:3]]
+GIVEN_CLASSES = {"fixed-pivot", "guide", "ground", "pin", "centre-line", "pole", "label", "link"}
+
+
+@pytest.fixture(params=TASKS, ids=named)
+def pair(request) -> list[tuple[Drawn, Drawn]]:
+    tasks, keys = both(*request.param, "task"), both(*request.param, "key")
+    return list(zip(tasks, keys, strict=True))
+
+
+def test_a_task_shows_only_fixed_pivots_lines_of_guides_and_the_pole(pair):
+    for task, _ in pair:
+        frame = task.drawing.scene.frame.points
+        assert {kind_of(mark) for mark in task.marks["plan"]} == {"pole", "label"}
+        assert {mark.name for mark in task.marks["plan"]} == {task.drawing.pole}
+        for mark in task.marks["mechanism"]:
+            assert kind_of(mark) in GIVEN_CLASSES, told(mark)
+            assert mark.step is None, told(mark)
+            if kind_of(mark) in ("pin", "link", "label", "leader"):
+                assert mark.name in frame, told(mark)
+            elif kind_of(mark) == "centre-line":
+                assert mark.name.startswith("guide "), told(mark)
+
+
+def test_what_a_task_shows_stands_where_the_key_has_it(pair):
+    for task, key in pair:
+        for field in FIELDS:
+            shown = [m for m in task.marks[field] if not is_label(m)]
+            assert shown
+            assert not [told(mark) for mark in shown if mark not in key.marks[field]]
+
+
+def test_the_cells_for_results_are_empty_in_a_task_and_full_in_the_key(pair):
+    for task, key in pair:
+        blank, full = (
+            {(m.x, m.y, m.markup) for m in texts([side.page]) if kind_of(m) == "table"}
+            for side in (task, key)
+        )
+        heads = {m for m in blank if m[1] == min(y for _, y, _ in blank)}
+        assert blank < full
+        rows = Counter(m.name for m in texts([key.page]) if kind_of(m) == "table" and m.name)
+        left = Counter(m.name for m in texts([task.page]) if kind_of(m) == "table" and m.name)
+        assert left.keys() == rows.keys() and heads
+        for name, count in rows.items():
+            assert left[name] == count - 2, name
+        assert not [m for m in blank if re.search(r"\d[.,]\d", m[2])]
+
+
+def test_a_task_has_the_data_line_of_the_key(pair):
+    for task, key in pair:
+        lines = [[m.markup for m in texts([s.page]) if m.name == "data"] for s in (task, key)]
+        assert lines[0] == lines[1] != []
+
+
+def test_no_number_of_the_solution_stands_on_a_task(pair):
+    task, _ = pair[0]
+    name = task.drawing.scene.name
+    n = next((int(v) for v in task.drawing.scene.values.values()), None)
+    secret = solution_numbers([key.drawing for _, key in pair])
+    for view, pages in (
+        ("task", [*(t.page for t, _ in pair), *calculations(name, n, "task")]),
+        ("key", [*(k.page for _, k in pair), *calculations(name, n, "key")]),
+    ):
+        words = [m.markup for m in texts(pages) if m.name not in ("data", "witness")]
+        found = set(re.findall(r"\d+[.,]\d+(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?", " ".join(words)))
+        assert bool(found & secret) == (view == "key"), found & secret
+
+
+def solution_numbers(drawings: list[Drawing]) -> set[str]:
+    """How the numbers of a solution may be printed, from three to six digits."""
+    numbers = [drawings[0].scales.kv / 1000, drawings[0].scales.ka / 1000]
+    for drawing in drawings:
+        scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+        for target, number in drawing.trace.program.targets.items():
+            value = drawing.trace.values.get(number)
+            if target[0] in ("velocity", "acceleration", "omega", "epsilon") and value:
+                numbers += [abs(value), 1000 * abs(value) / scale]
+    words = drawings[0].words
+    printed = {words.significant(x, k) for x in numbers for k in range(3, 7) if x > 1e-9}
+    printed |= {words.fixed(x, k) for x in numbers for k in (1, 2, 3)}
+    return {text for text in printed if re.search(r"[1-9]\d*[.,]\d*[1-9]|[.,]\d*[1-9]", text)}
+
+
+def test_a_centre_at_infinity_has_two_parallel_rays_to_the_edge_of_its_field():
+    parallelogram = """graphkin = 1
+title = "Parallelogram"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+Q = [200, 0]
+[links.1]
+O-A = 80
+[links.2]
+A-B = 200
+[links.3]
+Q-B = 80
+[[drivers]]
+turn = 1
+angle = 70
+speed = 10
+[branches]
+B = "left of A-Q"
+[ask]
+velocity = ["B"]
+centres = [2]
+"""
+    (sheet, _) = hand_out(Mechanism(read_text(parallelogram, "parallelogram")), language="en")
+    rays = [m for m in sheet.pages[0].marks if isinstance(m, LineMark) and m.cls == "ray"]
+    assert len(rays) == 2
+    ways = [complex(ray.x2 - ray.x1, ray.y2 - ray.y1) for ray in rays]
+    assert abs((ways[0].conjugate() * ways[1]).imag) <= 1e-6 * abs(ways[0]) * abs(ways[1])
+    assert all(abs(way) > 60 for way in ways)
+
+
+@pytest.mark.parametrize("name", ["crank-slot", "rapid-return", "rapid-return-slider", "oldham"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_asked_of_a_block_stands_in_a_table(name, kind):
+    """Magnitude and sense along the guide, as calculated; a task leaves them out."""
+    drawing = drawing_of(name, None, kind)
+    for block in drawing.scene.ask.slides:
+        what = "slide speed" if kind == "velocity" else "slide acceleration"
+        value = float(drawing.trace.value(what, block))
+        key, task = (
+            [m.markup for m in tables(drawing, TABLES, empty=empty) if m.name == f"slide {block}"]
+            for empty in (False, True)
+        )
+        symbol, size, sense = key
+        assert size == drawing.words.significant(abs(value))
+        assert sense.startswith("positive" if value > 0 else "negative")
+        assert task == [symbol]
+
+
+def test_tables_stay_above_the_title_block():
+    for name in SCENES:
+        for kind in kinds_of(name):
+            marks = tables(drawing_of(name, None, kind), TABLES, empty=False)
+            assert max(reach(mark)[3] for mark in marks) <= TABLES[3] + 1e-6, (name, kind)
+
+
+def test_a_mechanism_is_drawn_large_where_only_triangles_stand_in_its_way():
+    """The Coriolis triangle of this one would halve its scale: that component is computed."""
+    drawing = drawing_of("eight-link-2", None, "acceleration")
+    assert drawing.scales.kL == 2
+    assert not drawing.scales.triangles
+    keys = {step.action.key for _, step, _ in drawing.steps(*Plane) if step.action}
+    assert "coriolis" in keys
+    assert "coriolis-by-hand" not in keys
+
+
+def test_a_plan_is_not_small_where_there_is_room_for_a_larger_one():
+    drawing = drawing_of("oscillating-slide", None, "velocity")
+    assert 1000 * drawing.largest / drawing.scales.kv > 40
+    assert not drawing.scales.from_driver

@@ -1,0 +1,322 @@
+"""Labels keep clear of all that is drawn, and sit where a reader looks for them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import combinations, pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import LineString, MultiLineString, Point, box
+
+from graphkin.drawing.candidates import Blots
+from graphkin.drawing.clashes import PAD
+from graphkin.drawing.placement import CLEAR, Segment, Spot, Wish, place
+from graphkin.drawing.shapes import LOOSE, merged, segments, separation
+
+FIELD = (0.0, 0.0, 80.0, 60.0)
+NONE = np.empty((0, 4))
+
+inner = st.tuples(st.floats(2, 78), st.floats(2, 58))
+sizes = st.tuples(st.floats(2, 9), st.floats(1.8, 4))
+angles = st.floats(0, 2 * math.pi)
+
+
+def ink(wish: Wish, spot: Spot):
+    return box(
+        spot.x - wish.width / 2,
+        spot.y - wish.height / 2,
+        spot.x + wish.width / 2,
+        spot.y + wish.height / 2,
+    )
+
+
+@st.composite
+def wishes(draw) -> Wish:
+    width, height = draw(sizes)
+    start = draw(inner)
+    turn, length = draw(angles), draw(st.floats(0.5, 30))
+    end = (start[0] + length * math.cos(turn), start[1] + length * math.sin(turn))
+    line = draw(st.booleans())
+    lean = draw(st.none() | angles)
+    return Wish(
+        width,
+        height,
+        (start, end) if line else start,
+        away=None if lean is None else (math.cos(lean), math.sin(lean)),
+        priority=draw(st.integers(0, 2)),
+        gap=draw(st.sampled_from([0.8, 1.0, 1.5])),
+        radius=0.0 if line else draw(st.sampled_from([0.0, 0.5, 1.5])),
+    )
+
+
+@st.composite
+def knots(draw):
+    """Short vectors and points within a few millimetres, with boxes and lines around them."""
+    at = st.tuples(st.floats(37, 43), st.floats(27, 33))
+    short = [(a, b) for a, b in draw(st.lists(st.tuples(at, at), min_size=4, max_size=8))]
+    points = draw(st.lists(at, min_size=2, max_size=6))
+    asked = [Wish(6.5, 4, (a, b) if math.dist(a, b) > 0.5 else a) for a, b in short]
+    asked += [Wish(3, 2.5, p, radius=0.5) for p in points]
+    turns = draw(st.lists(angles, min_size=2, max_size=5))
+    away = [(40 + 11 * math.cos(t), 30 + 11 * math.sin(t)) for t in turns]
+    boxes = [(x - 2, y - 1, x + 2, y + 1) for x, y in away]
+    return asked, [(*a, *b) for a, b in short], boxes
+
+
+@st.composite
+def crowds(draw):
+    asked = draw(st.lists(wishes(), min_size=1, max_size=14))
+    lines = [(*a, *b) for a, b in draw(st.lists(st.tuples(inner, inner), min_size=0, max_size=14))]
+    for wish in asked:
+        if isinstance(wish.subject[0], tuple):
+            lines.append((*wish.subject[0], *wish.subject[1]))
+    boxes = [
+        (x, y, x + w, y + h)
+        for (x, y), (w, h) in draw(st.lists(st.tuples(inner, sizes), min_size=0, max_size=5))
+    ]
+    return asked, lines, boxes
+
+
+def settled(asked, lines, boxes, field=FIELD):
+    spots = place(asked, lines or NONE, boxes or NONE, field)
+    assert len(spots) == len(asked)
+    return [(w, s, ink(w, s)) for w, s in zip(asked, spots, strict=True) if s.free]
+
+
+@settings(max_examples=150, deadline=None)
+@given(crowds() | knots())
+def test_a_free_label_touches_nothing(crowd):
+    asked, lines, boxes = crowd
+    free = settled(asked, lines, boxes)
+    drawn = MultiLineString([((a, b), (c, d)) for a, b, c, d in lines])
+    for wish, _, label in free:
+        assert box(*FIELD).buffer(1e-9).covers(label)
+        assert not lines or drawn.distance(label) >= CLEAR - 1e-9
+        assert all(box(*taken).distance(label) >= PAD - 1e-9 for taken in boxes)
+        subject = wish.subject
+        subject = LineString(subject) if isinstance(subject[0], tuple) else Point(subject)
+        assert subject.distance(label) >= wish.gap + wish.radius - 1e-6
+    for (_, _, one), (_, _, other) in combinations(free, 2):
+        assert one.distance(other) >= PAD - 1e-9
+
+
+@settings(max_examples=150, deadline=None)
+@given(knots())
+def test_leaders_cross_no_label_no_box_and_no_other_leader(crowd):
+    asked, lines, boxes = crowd
+    free = settled(asked, lines, boxes)
+    leaders = [(LineString(s.leader), s) for _, s, _ in free if s.leader]
+    for path, spot in leaders:
+        assert not any(path.intersects(label) for _, other, label in free if other is not spot)
+        foot = Point(spot.leader[1])
+        taken = [box(*b) for b in boxes]
+        assert not any(path.intersects(b) for b in taken if b.distance(foot) > 1.0)
+    assert not any(a.crosses(b) for (a, _), (b, _) in combinations(leaders, 2))
+
+
+@settings(max_examples=60, deadline=None)
+@given(crowds() | knots())
+def test_far_labels_have_a_leader_to_their_subject(crowd):
+    for wish, spot, label in settled(*crowd):
+        line = isinstance(wish.subject[0], tuple)
+        subject = LineString(wish.subject) if line else Point(wish.subject)
+        if subject.distance(label) > wish.gap + wish.radius + 6.0:
+            assert spot.leader
+        if spot.leader:
+            start, foot = spot.leader
+            assert label.distance(Point(start)) < 0.75
+            assert subject.distance(Point(foot)) == pytest.approx(wish.radius, abs=1e-6)
+
+
+@settings(max_examples=30, deadline=None)
+@given(crowds())
+def test_the_same_crowd_gets_the_same_places(crowd):
+    asked, lines, boxes = crowd
+    first = place(asked, lines or NONE, boxes or NONE, FIELD)
+    assert place(list(asked), np.array(lines or NONE), list(boxes) or NONE, FIELD) == first
+
+
+@pytest.mark.parametrize("turn", range(0, 360, 15))
+@pytest.mark.parametrize("line", [False, True])
+def test_the_preferred_side_is_kept_in_free_space(turn, line):
+    u = (math.cos(math.radians(turn)), math.sin(math.radians(turn)))
+    along = ((40 - 10 * u[1], 30 + 10 * u[0]), (40 + 10 * u[1], 30 - 10 * u[0]))
+    wish = Wish(6, 3, along if line else (40, 30), away=u)
+    drawn = [(*along[0], *along[1])] if line else NONE
+    (spot,) = place([wish], drawn, NONE, FIELD)
+    assert spot.free
+    assert spot.leader is None
+    way = (spot.x - 40, spot.y - 30)
+    assert (way[0] * u[0] + way[1] * u[1]) / math.hypot(*way) > 0.8
+
+
+def test_a_lone_label_keeps_just_its_gap():
+    spots = [
+        place([Wish(5, 3, (40, 30), gap=gap, radius=r)], NONE, NONE, FIELD)[0]
+        for gap, r in [(1.0, 0.0), (1.0, 1.5), (0.4, 0.0)]
+    ]
+    gaps = [ink(Wish(5, 3, (0, 0)), s).distance(Point(40, 30)) for s in spots]
+    assert gaps == pytest.approx([1.0, 2.5, 0.4])
+
+
+def test_a_label_of_a_line_sits_beside_its_middle():
+    ends = ((10.0, 30.0), (70.0, 30.0))
+    (spot,) = place([Wish(6, 3, ends)], [(10, 30, 70, 30)], NONE, FIELD)
+    assert spot == Spot(pytest.approx(40), pytest.approx(30 - 1.0 - 1.5), None, True)
+
+
+def test_labels_of_two_near_lines_take_the_outer_sides():
+    upper, lower = ((10.0, 28.0), (70.0, 28.0)), ((10.0, 33.0), (70.0, 33.0))
+    lines = [(*a, *b) for a, b in (upper, lower)]
+    one, two = place([Wish(6, 3, upper), Wish(6, 3, lower)], lines, NONE, FIELD)
+    assert one.y < 28
+    assert two.y > 33
+
+
+def test_a_walled_label_gets_a_leader():
+    walls = [(30, 24, 50, 24), (30, 36, 50, 36), (30, 24, 30, 36), (50, 24, 50, 36)]
+    grid = [(x, 24, x, 36) for x in range(32, 50, 2) if x != 40]
+    wish = Wish(6, 3, (40, 30))
+    (spot,) = place([wish], walls + grid, NONE, FIELD)
+    assert spot.free
+    assert spot.leader
+    assert spot.leader[1] == pytest.approx((40, 30))
+
+
+def test_a_stuffed_field_says_so():
+    asked = [Wish(9, 4, (x, y)) for x in (14, 15, 16) for y in (10, 11, 12, 13, 14)]
+    spots = place(asked, NONE, NONE, (0.0, 0.0, 30.0, 24.0))
+    assert not all(spot.free for spot in spots)
+    assert any(spot.free for spot in spots)
+    free = [ink(w, s) for w, s in zip(asked, spots, strict=True) if s.free]
+    assert all(a.disjoint(b) for a, b in combinations(free, 2))
+    (none,) = place([Wish(9, 4, (5, 5))], NONE, [(0, 0, 16, 12)], (0.0, 0.0, 16.0, 12.0))
+    assert not none.free
+    assert none.leader is None
+
+
+def test_the_higher_priority_gets_the_only_place():
+    low, high = Wish(9, 4, (5.0, 6.0)), Wish(9, 4, (7.0, 6.0), priority=1)
+    field = (0.0, 0.0, 10.0, 6.5)
+    assert place([low], NONE, NONE, field)[0].free
+    assert [s.free for s in place([low, high], NONE, NONE, field)] == [False, True]
+    assert [s.free for s in place([high, low], NONE, NONE, field)] == [True, False]
+
+
+def test_an_optional_label_leaves_the_only_place_to_one_that_must_have_it():
+    must, may = Wish(9, 4, (5.0, 6.0)), Wish(9, 4, (7.0, 6.0), priority=6, optional=True)
+    field = (0.0, 0.0, 10.0, 6.5)
+    assert place([may], NONE, NONE, field)[0].free
+    assert [s.free for s in place([must, may], NONE, NONE, field)] == [True, False]
+    assert [s.free for s in place([may, must], NONE, NONE, field)] == [False, True]
+
+
+def test_each_line_may_keep_labels_further_off():
+    wish = Wish(6, 3, (40.0, 30.0))
+    lines = [(0, 28, 80, 28), (0, 31, 80, 31)]
+    (spot,) = place([wish], lines, NONE, FIELD, clearance=[0.6, 2.0])
+    label = ink(wish, spot)
+    assert LineString([(0, 31), (80, 31)]).distance(label) >= 2.0
+    assert LineString([(0, 28), (80, 28)]).distance(label) >= 0.6
+
+
+def test_no_wishes_and_no_numbers():
+    assert place([], [(0, 0, 1, 1)], NONE, FIELD) == []
+    with pytest.raises(ValueError, match="not finite"):
+        place([Wish(5, 3, (40, 30))], [(0, 0, math.nan, 1)], NONE, FIELD)
+
+
+def test_a_plan_is_labelled_without_leaders():
+    pole, tips = (20.0, 30.0), [(60.0, 12.0), (66.0, 30.0), (58.0, 50.0)]
+    lines = [(*pole, *tip) for tip in tips]
+    asked = [Wish(5, 3.5, (pole, tip)) for tip in tips]
+    asked += [Wish(3, 2.5, p, radius=0.7) for p in (pole, *tips)]
+    spots = place(asked, lines, NONE, FIELD)
+    assert all(spot.free and spot.leader is None for spot in spots)
+    ways = [LineString([pole, tip]) for tip in tips]
+    for k, (wish, spot) in enumerate(zip(asked[:3], spots, strict=False)):
+        near = [way.distance(ink(wish, spot)) for way in ways]
+        assert near.index(min(near)) == k
+    again = place([replace(wish, priority=3) for wish in asked], lines, NONE, FIELD)
+    assert all(spot.free for spot in again)
+
+
+@settings(max_examples=100, deadline=None)
+@given(inner, st.floats(0.2, 9), st.integers(3, 60), st.floats(0.1, 2 * math.pi))
+def test_chords_merged_keep_labels_as_far_as_all_of_them(at, r, count, turn):
+    steps = [turn * k / count for k in range(count + 1)]
+    points = [(at[0] + r * math.cos(t), at[1] + r * math.sin(t)) for t in steps]
+    chords = np.array([(*a, *b) for a, b in pairwise(points)])
+    fewer, clear = merged(chords, np.full(count, CLEAR))
+    assert len(fewer) <= count
+    assert (clear <= CLEAR + LOOSE).all()
+    kept = MultiLineString([((a, b), (c, d)) for a, b, c, d in fewer])
+    slack = float(clear.max()) - CLEAR
+    assert all(kept.distance(Point(point)) <= slack + 1e-9 for point in points)
+
+
+def test_only_tiny_lines_that_follow_one_another_are_merged():
+    long = np.array([(0.0, 0, 5, 0), (5, 0, 9, 0), (9, 1, 9.1, 1), (9.2, 1, 9.3, 1)])
+    assert np.array_equal(merged(long, np.full(4, CLEAR))[0], long)
+    tiny = np.array([(0.0, 0, 0.1, 0), (0.1, 0, 0.2, 0)])
+    assert merged(tiny, np.full(2, CLEAR))[0].tolist() == [[0, 0, 0.2, 0]]
+    assert len(merged(tiny, np.array([0.6, 1.2]))[0]) == 2
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.tuples(inner, inner), min_size=1, max_size=10), st.lists(inner), sizes)
+def test_what_is_ruled_out_at_a_glance_is_too_near_a_line(ends, at, size):
+    lines = np.array([(*a, *b) for a, b in ends])
+    x, y = np.array(at).reshape(-1, 2).T
+    hx, hy = np.full(len(x), size[0] / 2), np.full(len(x), size[1] / 2)
+    hit = Blots(lines, FIELD, 0.7 * CLEAR).hit(x, y, hx, hy)
+    apart = separation(x[:, None], y[:, None], hx[:, None], hy[:, None], segments(lines))
+    assert (apart[hit] < CLEAR).any(axis=1).all()
+
+
+def test_a_label_walled_in_far_around_still_finds_a_place():
+    walls = [(k, 12.0, k, 48.0) for k in np.arange(20, 61, 2.0)]
+    wish = Wish(6, 3, (40, 30))
+    (spot,) = place([wish], walls, NONE, FIELD)
+    assert spot.free
+    assert spot.leader
+    (spot,) = place([replace(wish, optional=True)], walls, NONE, FIELD)
+    assert not spot.free  # so far no place is looked for
+
+
+def test_a_line_drawn_there_and_back_is_not_merged_away():
+    there = (37.0, 27.0, 40.5, 29.0)
+    wish = Wish(width=3, height=2.5, subject=(37.0, 27.0), radius=0.5)
+    (spot,) = place([wish], [there, (*there[2:], *there[:2])], NONE, FIELD)
+    line = LineString([there[:2], there[2:]])
+    assert spot.free and line.distance(ink(wish, spot)) >= CLEAR - 1e-9
+
+
+def test_labels_keep_to_a_field_of_their_own_each():
+    fields = [(0.0, 0.0, 40.0, 40.0), (40.0, 0.0, 80.0, 40.0)]
+    wishes = [Wish(12.0, 4.0, (x, 20.0)) for x in (38.0, 42.0)]
+    found = place(wishes, [], [], fields)
+    for spot, field in zip(found, fields, strict=True):
+        assert spot.free
+        assert field[0] <= spot.x - 6.0 and spot.x + 6.0 <= field[2]
+
+
+@pytest.mark.parametrize("turn", [2, 3, 4, 5, 6])
+@pytest.mark.parametrize("length", [14, 20, 30, 40])
+def test_no_label_sits_beyond_another_line_without_a_leader(turn, length):
+    """One line between two longer ones that all begin at one place, in degrees and mm."""
+
+    def ray(degrees: float, far: float) -> Segment:
+        way = math.radians(degrees)
+        return (20.0, 40.0), (20.0 + far * math.cos(way), 40.0 - far * math.sin(way))
+
+    rays = [ray(0, 60), ray(turn, length), ray(2 * turn, 60)]
+    wishes = [Wish(5, 3, ends, gap=0.9) for ends in rays]
+    spots = place(wishes, [(*a, *b) for a, b in rays], NONE, (0.0, 0.0, 120.0, 90.0))
+    own, bare = LineString(rays[1]), spots[1].leader is None
+    way = LineString([(spots[1].x, spots[1].y), own.interpolate(own.length / 2)])
+    assert not bare or not any(way.crosses(LineString(rays[k])) for k in (0, 2))

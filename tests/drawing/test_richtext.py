@@ -1,0 +1,152 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from reportlab.pdfbase.ttfonts import TTFont
+
+from graphkin.drawing.glyphs import advance, capital, font_file, measures
+from graphkin.drawing.richtext import escape, extent, flowed, plain, runs, spaced_runs, words_of
+from graphkin.text.errors import PageError
+
+
+def test_capitals_have_the_height_asked_for():
+    assert capital() == pytest.approx(0.729, abs=5e-4)
+    assert runs("H", 3.5)[0].size == pytest.approx(4.80, abs=5e-3)
+    assert extent("H", 3.5)[1:] == pytest.approx((-3.5, 0.0))
+
+
+def test_a_subscript_and_a_superscript_stack():
+    base, low, high = runs("*a*_{BA}^{ν}", 3.5)
+    assert (base.text, low.text, high.text) == ("a", "BA", "ν")
+    assert (base.italic, low.italic, high.italic) == (True, False, False)
+    assert low.x == high.x > base.x
+    assert low.y == pytest.approx(0.24 * base.size)
+    assert high.y == pytest.approx(-0.48 * base.size)
+    assert low.size == high.size == pytest.approx(0.7 * base.size)
+
+
+def test_what_follows_stacked_scripts_starts_after_the_longer_one():
+    _, low, _, after = runs("a_{BA}^{ν}x", 3.5)
+    wide = extent("BA", 3.5)[0] * 0.7
+    assert after.x == pytest.approx(low.x + wide)
+
+
+def test_short_scripts_and_escapes():
+    assert [run.text for run in runs(r"m/s^2\_\*", 2.5)] == ["m/s", "2", "_*"]
+    assert plain(escape(r"a_b*c^{d}\e")) == r"a_b*c^{d}\e"
+    assert [run.text for run in runs("{x}", 2.5)] == ["{x}"]
+
+
+def test_an_italic_letter_may_stand_in_a_script():
+    assert [(run.text, run.italic) for run in runs("a_{1*x*}", 2.5)[1:]] == [
+        ("1", False),
+        ("x", True),
+    ]
+
+
+@pytest.mark.parametrize("markup", ["*v", "a_", "a_{b", "a_{b_c}", "a^*b*", "end\\"])
+def test_markup_that_does_not_end_is_refused(markup):
+    with pytest.raises(PageError, match="markup"):
+        runs(markup, 2.5)
+
+
+def test_blanks_move_what_follows_but_stand_in_no_run():
+    found = runs("  Plan  de *v* = 3 ", 2.5)
+    assert [run.text for run in found] == ["Plan", "de", "v", "= 3"]
+    em, blank = found[0].size, measures(False)[" "][0]
+    assert found[0].x == pytest.approx(2 * blank * em)
+    assert extent("a b", 2.5)[0] == pytest.approx(extent("a", 2.5)[0] + extent(" b", 2.5)[0])
+
+
+def test_words_stay_apart_when_searched():
+    found = spaced_runs("viteza *v*_A  este", 2.5)
+    assert [run.text for run in found] == ["viteza ", "v", "A ", "este"]
+
+
+@pytest.mark.parametrize("italic", [False, True])
+@pytest.mark.parametrize("text", ["Mecanism", "ăâîșț ĂÂÎȘȚ", "αβγδεζηθικλμνξοπρστυφχψω", "∥⊥△∠′″√"])
+def test_widths_are_those_of_the_font_file(text, italic):
+    font = TTFont("measured", str(font_file(italic)))
+    markup = f"*{text}*" if italic else text
+    size = runs("H", 2.5)[0].size
+    wide = extent(markup, 2.5)[0]
+    assert wide == pytest.approx(font.stringWidth(text, size), abs=0.002 * len(text) * size)
+
+
+def test_extents_are_those_of_the_ink():
+    low, high = extent("x", 3.5), extent("Ț", 3.5)
+    assert low[1] == pytest.approx(-2.6, abs=0.2)
+    assert high[1] == pytest.approx(-3.5, abs=0.1)
+    assert high[2] > 0.5 > low[2]
+    assert extent("", 3.5) == (0, 0, 0)
+
+
+def test_the_sheets_signs_are_in_both_faces():
+    signs = (
+        "ăâîșțşţĂÂÎȘȚàèéìòùÀÈÉÌÒÙαβγδεζηθλμνξπρστφχψωΓΔΘΛΞΠΣΦΨΩ"
+        "₀₁₂₃⁰¹²³′″‴⁗∥⊥∠△∼∞·×÷±−≈≤≥≠√°←↑→↓↺↻•–—„”“’«»…①②③"
+    )
+    for italic in (False, True):
+        assert set(signs) <= measures(italic).keys()
+    assert runs("⟂", 2.5)[0].text == "⊥"
+
+
+def test_a_sign_without_a_glyph_is_refused_by_its_code():
+    with pytest.raises(PageError, match=r"U\+6F22"):
+        runs("漢", 2.5)
+
+
+def test_an_exponent_stands_after_a_long_index_and_above_a_short_one():
+    """Over the first letters of a word it would be read as theirs."""
+    for index, stacked in (("2", True), ("BA", True), ("coupler", False), ("B3A", False)):
+        _, low, high = runs(f"*ω*_{{{index}}}^2", 3.5)
+        assert (low.text, high.text) == (index, "2")
+        assert (high.x == low.x) is stacked
+        assert stacked or high.x > low.x + advance(index, False) * low.size * 0.99
+
+
+def test_the_sign_of_a_component_stands_above_any_index():
+    _, low, high = runs("*a*_{B3A}^{ν}", 3.5)
+    assert high.x == low.x
+
+
+def test_lines_do_not_end_between_a_number_and_its_unit_or_before_a_bar():
+    markup = "lay off *a* ⊥ *AB*, 12.3 mm, at 4.5 rad/s^2, *k* = 0.1 (m/s)/mm, 3·10^{−3} m"
+    assert words_of(markup) == [
+        "lay",
+        "off",
+        "*a*",
+        "⊥ *AB*,",
+        "12.3 mm,",
+        "at",
+        "4.5 rad/s^2,",
+        "*k* = 0.1 (m/s)/mm,",
+        "3·10^{−3} m",
+    ]
+
+
+PIECES = st.sampled_from(
+    ["*v*_{BA}^{ν}", "= 2,5", "m/s^2", "∥ *OA*_1", "x^2", "_2", "a_{ABC}^2", "din *o*′ se ia"]
+)
+
+
+@given(st.lists(PIECES, max_size=14), st.sampled_from([" ", "; "]), st.floats(1, 90))
+def test_lines_are_filled_with_whole_pieces_as_far_as_they_go(pieces, mark, width):
+    lines = flowed(pieces, mark, width, 2.5)
+    left = [piece + mark.rstrip() for piece in pieces[:-1]] + pieces[-1:]
+    for line in lines:
+        count = next(k for k in range(1, len(left) + 1) if " ".join(left[:k]) == line)
+        assert count == 1 or extent(line, 2.5)[0] <= width + 1e-9
+        if left[count:]:
+            assert extent(f"{line} {left[count]}", 2.5)[0] > width - 1e-9
+        left = left[count:]
+    assert not left
+
+
+def test_a_slanted_letter_does_not_run_into_what_stands_above_or_after_it():
+    """The ink of a slanted f reaches beyond its width: a prime and an exponent keep clear of it."""
+    letter, prime = runs("*f*′", 3.5)
+    assert prime.x > letter.x + extent("*f*", 3.5)[0] + 0.1 * letter.size
+    above = runs("*f*^{IV}", 3.5)[1]
+    assert above.x == pytest.approx(prime.x)
+    assert runs("*f*_{A}", 3.5)[1].x == pytest.approx(extent("*f*", 3.5)[0])
+    assert runs("*a*′", 3.5)[1].x == pytest.approx(extent("*a*", 3.5)[0])

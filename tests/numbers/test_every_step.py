@@ -1,0 +1,211 @@
+"""Every step of the vocabulary in every number kind: within its bound, and of its type."""
+
+from __future__ import annotations
+
+import inspect
+import random
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import pytest
+
+from graphkin.construction.centres import centre_actions
+from graphkin.construction.core import vocabulary
+from graphkin.construction.core.program import Given, Part, Plane, Program, Step
+from graphkin.construction.core.vocabulary import Action
+from graphkin.construction.guides import guide_actions
+from graphkin.construction.higher_class import trial_actions
+from graphkin.construction.rolling import wheel_actions
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.numbers.kinds import decimal_kind
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+from tests.numbers import number_kinds as nk
+
+STEPS = {
+    f"{room.__name__.rpartition('.')[2]}.{name}": value
+    for room in (vocabulary, guide_actions, wheel_actions, centre_actions, trial_actions)
+    for name, value in vars(room).items()
+    if isinstance(value, Action)
+}
+"""Every action, once, under its module and name."""
+DRAWS = 12
+TRIALS = 200
+ROUNDINGS = 16
+"""Rounding units of a value's size and condition that a step may lose."""
+NARROW = 200
+"""The same for the radius of a ball."""
+MADE = {"Line": (Line, 2, "pp"), "Circle": (Circle, 2, "pr"), "Ratio": (Ratio, 3, "ppr")}
+"""How what a step takes is put together: of points (p) and positive numbers (r)."""
+PARTS = {Line: 2, Circle: 2, Ratio: 3, Vector: 2}
+EXTRA = {"way": 1, "side": -1, "sense": -1, "place": 1, "size": 1.0}
+"""What a step is told beside its arguments."""
+
+
+class Builder:
+    """Writes a program of one step, from single numbers and points to single numbers and points."""
+
+    def __init__(self) -> None:
+        self.steps: list[Step] = []
+        self.shapes: dict[int, str] = {}
+
+    def put(self, action: Action | None, args: tuple[int, ...] = (), extra: Any = ()) -> int:
+        given = Given("one", ()) if action is None else None
+        self.steps.append(Step(action, args, Part.RESULT, Plane.NUMBERS, extra=extra, given=given))
+        return len(self.steps) - 1
+
+    def leaf(self, shape: str) -> int:
+        number = self.put(None)
+        self.shapes[number] = shape
+        return number
+
+    def made(self, annotation: str) -> int:
+        if annotation in MADE:
+            of, _, shapes = MADE[annotation]
+            return self.put(Action("made", of), tuple(self.leaf(shape) for shape in shapes))
+        if annotation.startswith("tuple"):
+            return self.put(Action("made", lambda *v: v), tuple(self.leaf("r") for _ in range(3)))
+        return self.leaf({"Point": "p", "Real": "r"}[annotation])
+
+
+@cache
+def built(name: str) -> tuple[nk.Work, dict[int, str]]:
+    """The program of a step, and the shapes of what enters it."""
+    action, builder = STEPS[name], Builder()
+    args: list[int] = []
+    extra: list[Any] = []
+    for parameter in inspect.signature(action.value).parameters.values():
+        if parameter.kind is parameter.VAR_POSITIONAL:
+            many = "rrpp" if name == "closing.reach" else "pp"
+            args += [builder.leaf(shape) for shape in many]
+            extra += [2] if name == "closing.reach" else []
+        elif parameter.annotation in ("int", "float"):
+            extra.append(EXTRA[parameter.name])
+        else:
+            assert not extra, "what a step is told comes last"
+            args.append(builder.made(parameter.annotation))
+    step = builder.put(action, tuple(args), tuple(extra))
+    probe = sample(builder.shapes, random.Random(name))
+    wanted = [step]
+    for _ in range(TRIALS):
+        work = nk.Work(Program(tuple(builder.steps), {}), (step,), {})
+        found = nk.drawn(work, FLOAT, probe)
+        if found is not None:
+            count = PARTS.get(type(found[0]), 0)
+            places = [Action("of", lambda value, k: value[k])] * count
+            wanted = [builder.put(get, (step,), (k,)) for k, get in enumerate(places)] or wanted
+            break
+        probe = sample(builder.shapes, random.Random(str(probe)))
+    else:
+        pytest.fail("no place was found where the step can be drawn")
+    return nk.Work(Program(tuple(builder.steps), {}), tuple(wanted), {}), builder.shapes
+
+
+def sample(shapes: dict[int, str], chance: random.Random) -> dict[int, tuple[Fraction, ...]]:
+    """Numbers between 0.2 and 1.2, points within a unit of the origin, all of three digits."""
+    found: dict[int, tuple[Fraction, ...]] = {}
+    for number, shape in shapes.items():
+        if shape == "r":
+            found[number] = (Fraction(chance.randint(200, 1200), 1000),)
+        else:
+            found[number] = tuple(Fraction(chance.randint(-1000, 1000), 1000) for _ in "xy")
+    return found
+
+
+@cache
+def cases(name: str) -> list[tuple[dict[int, tuple[Fraction, ...]], list[Any], list[float]]]:
+    """Inputs, reference and conditions where the step can be drawn."""
+    work, shapes = built(name)
+    chance, found = random.Random(f"cases of {name}"), []
+    for _ in range(TRIALS):
+        inputs = sample(shapes, chance)
+        reference = nk.drawn(work, nk.REFERENCE, inputs)
+        if reference is None:
+            continue
+        condition = nk.conditions(lambda i: nk.drawn(work, nk.REFERENCE, i), inputs, reference)
+        if condition is not None:
+            found.append((inputs, [nk.REFERENCE.pi.context.mpc(r) for r in reference], condition))
+        if len(found) == DRAWS:
+            return found
+    pytest.fail(f"only {len(found)} places were found where the step can be drawn")
+
+
+def held(found: list[Any], reference: list[Any], condition: list[float], unit: float) -> None:
+    """Hold every value to the bound."""
+    for value, true, moved in zip(found, reference, condition, strict=True):
+        allowed = ROUNDINGS * unit * (float(abs(true)) + moved)
+        assert nk.far(value, true) <= allowed
+
+
+every_step = pytest.mark.parametrize("name", STEPS)
+
+
+def test_the_vocabulary_is_there():
+    assert len(STEPS) > 110
+    assert {"vocabulary.meet", "guides.coriolis", "wheels.rack_at", "closing.share"} <= set(STEPS)
+
+
+@every_step
+def test_a_step_on_one_scene_in_floats(name):
+    for inputs, reference, condition in cases(name):
+        found = nk.by_one(built(name)[0], FLOAT, inputs)
+        assert all(type(value) in (float, complex) for value in found)
+        held(found, reference, condition, nk.UNITS["float"])
+
+
+@pytest.mark.parametrize("kind", nk.ARRAYS)
+@every_step
+def test_a_step_on_arrays(name, kind):
+    for inputs, reference, condition in cases(name):
+        found = nk.by_array(built(name)[0], kind, nk.arrays_of(kind, inputs))
+        assert all(nk.is_of(value, kind) for value in found)
+        held(found, reference, condition, nk.UNITS[kind])
+
+
+@pytest.mark.parametrize("kind", nk.ARRAYS)
+@every_step
+def test_a_step_keeps_its_type_beside_what_all_variants_share(name, kind):
+    inputs, reference, condition = cases(name)[0]
+    for number in inputs:
+        one, others = {number: inputs[number]}, {n: v for n, v in inputs.items() if n != number}
+        for shared, moving in ((one, others), (others, one)):
+            work = nk.with_shared(built(name)[0], shared)
+            found = nk.by_array(work, kind, nk.arrays_of(kind, moving))
+            assert all(nk.is_of(value, kind) for value in found)
+            held(found, reference, condition, nk.UNITS[kind])
+
+
+@every_step
+def test_a_step_in_emitted_source(name):
+    for inputs, reference, condition in cases(name):
+        found = nk.by_source(built(name)[0], nk.arrays_of("float64", inputs))
+        held(found, reference, condition, nk.UNITS["float64"])
+
+
+@pytest.mark.parametrize("digits", nk.DIGITS)
+@every_step
+def test_a_step_in_decimals_never_asks_for_numpy(name, digits, monkeypatch):
+    work, known = built(name)[0], cases(name)
+    monkeypatch.setitem(__import__("sys").modules, "numpy", None)
+    for inputs, reference, condition in known:
+        found = nk.by_one(work, decimal_kind(digits), inputs)
+        for value, true, moved in zip(found, reference, condition, strict=True):
+            allowed = 10.0**-digits * (float(abs(true)) + moved)
+            assert float(abs(value - true)) <= allowed
+
+
+@pytest.mark.parametrize("bits", nk.BITS)
+@every_step
+def test_a_step_in_balls_contains_the_value_and_is_narrow(name, bits, monkeypatch):
+    from graphkin.numbers.kinds import ball_kind
+
+    work, known = built(name)[0], cases(name)
+    monkeypatch.setitem(__import__("sys").modules, "numpy", None)
+    for inputs, reference, condition in known:
+        kind = ball_kind(bits)
+        found = nk.by_one(work, kind, inputs)
+        with kind.working():
+            for value, true, moved in zip(found, reference, condition, strict=True):
+                ball = nk.as_ball(value)
+                assert nk.contains(ball, true)
+                assert nk.width(ball) <= NARROW * 2.0**-bits * (float(abs(true)) + moved)

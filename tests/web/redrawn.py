@@ -1,0 +1,128 @@
+"""The fields of a sheet drawn anew by Python at another place of the driver, at the same scales.
+
+The construction runs step by step on floats there; nothing of it is shared with a page but the
+steps themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import hypot, inf, radians
+from typing import Any
+
+import numpy as np
+
+from graphkin.construction.core.layout import Layout, spans
+from graphkin.construction.core.program import Program
+from graphkin.construction.core.run import StepFailed, run
+from graphkin.documents.sheet import left_board, right_board
+from graphkin.drawing.field import Field
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
+from graphkin.drawing.style import BRIEF
+from graphkin.mechanism import Mechanism
+from graphkin.motion.course import Course
+from graphkin.motion.sweep import names, sweep_of
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.model import Closure
+from graphkin.web.field_extents import room_of
+from graphkin.web.page_driver import PageDriver
+from graphkin.web.screen_sheets import ScreenSheet
+
+CLOSURES = range(1, 9)
+"""The closures of a group of class III that are tried."""
+Fields = tuple[list[Mark], list[Mark]]
+
+
+def redrawn(
+    mechanism: Mechanism, driven: PageDriver, sheet: ScreenSheet, x: float, program: Program
+) -> Fields:
+    """The marks of both fields of a sheet, but for labels, at a place of the driver."""
+    scene, drawn = mechanism.scene, sheet.drawing.trace.values
+    sweep = sweep_of(scene)
+    place = x * driven.metres
+    values = sweep.values(np.array([place]))
+    overrides: dict[int, Any] = dict(mechanism.trial_rates)
+    for n, (driver, drive) in enumerate(zip(scene.drivers, program.drives, strict=True), 1):
+        if names(n)[0] not in values:
+            continue
+        at, speed, push = (float(np.ravel(values[name])[0]) for name in names(n))
+        overrides |= {drive.speed: speed, drive.acceleration: push}
+        overrides[drive.position] = FLOAT.direction(at) if driver.kind == "turn" else at
+        if drive.angle is not None:
+            overrides[drive.angle] = radians(at)
+    if program.seconds is not None and program.seconds in drawn:
+        overrides[program.seconds] = drawn[program.seconds]
+    overrides = {n: value for n, value in overrides.items() if n in drawn}
+    trace = run(program, sorted(drawn), scene.values, FLOAT, overrides=overrides)
+    standing = Course(sweep, scene.branches).standing(place)
+    here = replace(sheet.drawing, scene=standing, trace=trace)
+    fields = Layout(roomy(sheet.layout.mechanism), roomy(sheet.layout.plan), {})
+    layout = Layout(fields.mechanism, fields.plan, spans(here, fields))
+    boards = left_board(here, layout, "key"), right_board(here, layout, "key")
+    left, right = ([m for m in board.marks if not isinstance(m, Text)] for board in boards)
+    return left, right
+
+
+def roomy(field: Field) -> Field:
+    """A field with all the room that it can grow to, lines' ends and centres included."""
+    return replace(field, rect=room_of(field.rect))
+
+
+def redrawn_near(
+    mechanism: Mechanism,
+    driven: PageDriver,
+    sheet: ScreenSheet,
+    x: float,
+    pins: Mapping[str, Sequence[float]],
+) -> Fields:
+    """The same in the closure of a group of class III whose pins stand nearest to given ones."""
+    scene, found = mechanism.scene, []
+    numbered = [name for name, branch in scene.branches.items() if isinstance(branch, Closure)]
+    if not numbered:
+        return redrawn(mechanism, driven, sheet, x, sheet.drawing.trace.program)
+    for number in CLOSURES:
+        branches = {**scene.branches, numbered[0]: Closure(number)}
+        program = Mechanism(replace(scene, branches=branches)).program
+        try:
+            found.append(redrawn(mechanism, driven, sheet, x, program))
+        except StepFailed:
+            continue
+    return min(found, key=lambda fields: farthest(fields[0], pins), default=([], []))
+
+
+def farthest(left: Sequence[Mark], pins: Mapping[str, Sequence[float]]) -> float:
+    """How far the pins of a field stand from given ones, at most."""
+    here = {m.name: m for m in left if isinstance(m, CircleMark) and m.cls == "pin"}
+    return max((hypot(m.cx - pins[n][0], m.cy - pins[n][1]) for n, m in here.items()), default=inf)
+
+
+def numbers(mark: Mark) -> list[float]:
+    """What places a mark: the ends of lines, corners, middles, of an arc what its path has."""
+    if isinstance(mark, LineMark):
+        return [mark.x1, mark.y1, mark.x2, mark.y2]
+    if isinstance(mark, CircleMark):
+        return [mark.cx, mark.cy]
+    if isinstance(mark, Arc):
+        return arc_numbers(mark)
+    assert not isinstance(mark, Text)
+    return [number for point in mark.points for number in point]
+
+
+def arc_numbers(arc: Arc) -> list[float]:
+    """An arc as a path has it: its start, both radii, whether it is more than half a turn, whether
+    it goes clockwise, its end."""
+    large, clockwise = float(abs(arc.end - arc.start) > 180), float(arc.end < arc.start)
+    return [*arc.at(arc.start), arc.r, arc.r, large, clockwise, *arc.at(arc.end)]
+
+
+def kind_of(mark: Mark) -> tuple[str, str, str, int | None]:
+    """What tells a mark from others of its sheet, where it may stand, a vector long or short."""
+    return type(mark).__name__, mark.cls.removesuffix(f" {BRIEF}"), mark.name, mark.step
+
+
+def apart(one: Sequence[float], other: Sequence[float]) -> float:
+    """How far two marks of a kind lie apart, in mm; infinite where one has more corners."""
+    if len(one) != len(other):
+        return inf
+    return max(abs(a - b) for a, b in zip(one, other, strict=True))

@@ -1,0 +1,388 @@
+"""Animations begin where the scene stands, follow the cycle, and nothing leaves the picture."""
+
+from __future__ import annotations
+
+import io
+from functools import lru_cache
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphkin.drawing.marks import Text, reach
+from graphkin.mechanism import load
+from graphkin.motion.cycle import cycle
+from graphkin.text import words
+from graphkin.web.animation_pictures import EDGE, Stage, stage
+from graphkin.web.fixed_parts import STILL
+from graphkin.web.frame_marks import cut, mechanism_seen, plan_box
+from graphkin.web.frames import GROWN, FrameSequence, motion
+from graphkin.web.gif import PAUSE, gif
+from graphkin.web.moving_labels import crossed, obstacles
+from graphkin.web.panes import AIR, AREA, HELD, PICTURE, aside, leaves, room_in, seated
+from tests.cli.conftest import Run, run  # noqa: F401
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+NAMES = (
+    "pump",
+    "slotted-lever",
+    "oldham",
+    "trammel",
+    "gears-ring",
+    "roller",
+    "five-bar",
+    "four-bar-change-point",
+    "stephenson-3-crank",
+    "excavator-absolute",
+)
+"""Whole turns and ranges; drivers that turn, slide and roll; two of them; class III; wheels."""
+FRAMES = 12
+SLACK = 1e-9
+
+
+@lru_cache
+def shown(name: str) -> FrameSequence:
+    """A motion in a few moments."""
+    path = SCENES / f"{name}.toml"
+    mechanism = load(str(path)) if path.is_file() else load(name, n=7)
+    return motion(cycle(mechanism), words("en"), FRAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_begins_where_the_scene_stands(name):
+    found = shown(name)
+    first = found.moments[found.order[0]]
+    drawn = found.cycle.mechanism.solve()
+    size = max(abs(z) for z in first.alone.positions.values())
+    for point, place in first.alone.positions.items():
+        assert abs(place - drawn.points[point].position) < SLACK * size
+    if found.cycle.sweep.driver is not None:
+        turn = 360 if found.cycle.sweep.whole else np.inf
+        assert abs(first.at - found.cycle.sweep.start) % turn < SLACK
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_moment_is_a_place_of_the_cycle(name):
+    """One construction by floats against the batch of all places, closures and all."""
+    found = shown(name)
+    whole = 360 if found.cycle.sweep.whole else np.inf
+    rows = found.cycle.along([m.at for m in found.moments])
+    assert len(rows.at) >= len(found.moments) - 2  # dead points have no row
+    for moment in found.moments:
+        near = np.flatnonzero(np.abs(np.abs(rows.at - moment.at) % whole) < SLACK)
+        if not near.size:
+            continue
+        for point, place in moment.alone.positions.items():
+            other = np.broadcast_to(rows.solution.points[point].position, rows.at.shape)[near[0]]
+            assert abs(place - other) < 1e-8 * (1 + abs(place)), (name, point, moment.at)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_goes_on_without_a_jump_and_then_begins_anew(name):
+    found = shown(name)
+    order, ends = np.array(found.order), len(found.moments) - 1
+    steps = np.diff(np.append(order, order[0]))
+    assert sorted(abs(steps)) == [1] * ends + [ends]
+    assert set(order) == set(range(len(found.moments)))
+    places = [moment.at for moment in found.moments]
+    assert places == sorted(places)
+
+
+@pytest.mark.parametrize("name", ["pump", "trammel", "engine", "slider-crank-slider", "five-bar"])
+def test_every_point_moves_as_its_velocity_says(name):
+    """Ranges and whole turns, drivers in both senses, a law of time: Δr is about v·Δt, Δt > 0."""
+    found = shown(name)
+    fast = found.cycle.along([moment.at for moment in found.moments])
+    ways, speeds = [], []
+    for point, moves in fast.solution.points.items():
+        speed = np.broadcast_to(moves.velocity, fast.at.shape)
+        for here, there in pairwise(found.order):
+            rows = [np.flatnonzero(fast.at == found.moments[n].at) for n in (here, there)]
+            if abs(here - there) == 1 and all(row.size for row in rows):
+                one, two = (found.moments[n].alone.positions[point] for n in (here, there))
+                ways.append(two - one)
+                speeds.append((speed[rows[0][0]] + speed[rows[1][0]]) / 2)
+    along = np.real(np.array(ways) * np.conj(speeds))
+    apart = np.abs(ways) * np.abs(speeds)
+    assert np.sum(apart > 0) >= FRAMES // 2
+    assert np.median(along[apart > 0] / apart[apart > 0]) > 0.95
+    assert np.mean(along[apart > 0] > 0) > 0.9
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nothing_leaves_its_field_and_scales_stay(name):
+    found = shown(name)
+    set_up = stage(found, words("en"))
+    for moment in found.moments:
+        parts = [(set_up.mechanism, set_up.mechanism_marks(moment.alone))]
+        for kind, drawing in moment.drawings.items():
+            field = set_up.seated(drawing)
+            assert field.rect == set_up.plans[kind].rect
+            assert (field.mm, field.middle) == (set_up.plans[kind].mm, set_up.plans[kind].middle)
+            parts.append((field, [*cut(set_up.plan_marks(drawing, field), field.rect)]))
+        for field, marks in parts:
+            for mark in marks:
+                box = reach(mark)
+                room = 3.0 if isinstance(mark, Text) else 1.0 if mark.cls[:5] == "arrow" else 1e-6
+                assert box[0] > field.rect[0] - room, (name, moment.at, mark)
+                assert box[1] > field.rect[1] - room, (name, moment.at, mark)
+                assert box[2] < field.rect[2] + room, (name, moment.at, mark)
+                assert box[3] < field.rect[3] + room, (name, moment.at, mark)
+
+
+@lru_cache
+def closely(name: str, *, beside: bool) -> Stage:
+    """The stage of a motion in as many moments as it is shown."""
+    path = SCENES / f"{name}.toml"
+    mechanism = load(str(path)) if path.is_file() else load(name, n=7)
+    return stage(motion(cycle(mechanism), words("en")), words("en"), beside=beside)
+
+
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "rapid-return"])
+def test_plans_fill_a_third_of_their_panes_at_the_median(name, beside):
+    """A scale for the peaks alone would make a dot of what is seen most of the time."""
+    set_up = closely(name, beside=beside)
+    assert set(set_up.plans) == {"velocity", "acceleration"}
+    for kind, field in set_up.plans.items():
+        left, top, right, bottom = field.rect
+        boxes = [plan_box(moment.drawings[kind]) for moment in set_up.motion.moments]
+        filled = [
+            max(box.width * field.mm / (right - left), box.height * field.mm / (bottom - top))
+            for box in boxes
+        ]
+        assert np.median(filled) > 1 / 3, (kind, np.median(filled))
+        gone = [leaves(seated(field, box), box) for box in boxes]
+        assert np.mean(gone) <= 1 - HELD[-1] + 1 / len(boxes)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_plan_that_has_room_stands_in_its_pane_and_a_larger_one_is_told(name):
+    found = shown(name)
+    set_up = stage(found, words("en"))
+    said = words("en")("animation.beyond")
+    for moment in found.moments:
+        told = [m for m in set_up.moving(moment) if isinstance(m, Text) and m.markup == said]
+        gone = 0
+        for drawing in moment.drawings.values():
+            field, box = set_up.seated(drawing), plan_box(drawing)
+            room = room_in(field.rect, AIR)
+            size = box.width * field.mm, box.height * field.mm
+            fits = size[0] <= room[2] - room[0] and size[1] <= room[3] - room[1]
+            assert not (fits and leaves(field, box)), (name, moment.at)
+            assert field.holds(0j, AIR - SLACK), (name, moment.at)
+            gone += leaves(field, box)
+        assert len(told) == gone
+
+
+@given(st.floats(-50, 150), st.floats(0, 200), st.floats(0, 1), st.floats(-1e-3, 1e-3))
+def test_a_plan_is_moved_aside_no_more_than_needed_and_without_a_jump(low, size, part, more):
+    start, end, pole = 10.0, 90.0, low + part * size
+    way = aside(low, low + size, pole, start, end)
+    if low >= start and low + size <= end:
+        assert way == 0
+    if size <= end - start:
+        assert low + way >= start - SLACK
+        assert low + size + way <= end + SLACK
+    assert start - SLACK <= pole + way <= end + SLACK
+    grown = max(size + more, 0.0)
+    assert (
+        abs(aside(low, low + grown, low + part * grown, start, end) - way) <= 2 * abs(more) + SLACK
+    )
+
+
+STRONG = ("link", "guide", "slider", "block", "guide-bar")
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "rapid-return", "crank-rocker"])
+def test_letters_of_the_mechanism_seldom_lie_on_bars_and_never_on_one_another(name):
+    """Before, every third one did: on the walls of guides, on blocks, on bars that turn below."""
+    set_up = closely(name, beside=True)
+    ground = [mark for mark in set_up.ground if mark.cls.split()[0] in STRONG]
+    covered, letters = 0, 0
+    for moment in set_up.motion.moments:
+        seen = mechanism_seen(moment.alone, set_up.mechanism)
+        lines = [mark for mark in seen.marks if mark.cls.split()[0] in STRONG]
+        ends = obstacles([*lines, *ground])[0]
+        placed = [m for m in set_up.mechanism_marks(moment.alone) if isinstance(m, Text)]
+        boxes = [reach(text) for text in placed]
+        for i, box in enumerate(boxes):
+            middle = np.array([[(box[0] + box[2]) / 2, (box[1] + box[3]) / 2]])
+            half = (box[2] - box[0]) / 2, (box[3] - box[1]) / 2
+            covered += bool(crossed(middle, half, ends).any())
+            letters += 1
+            for other in boxes[:i]:
+                assert (
+                    box[0] > other[2] or other[0] > box[2] or box[1] > other[3] or other[1] > box[3]
+                )
+    assert letters > 0.9 * len(set_up.motion.moments) * len(seen.letters)
+    assert covered < 0.16 * letters
+
+
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_letters_of_the_frame_stand_clear_of_hatching(name, beside):
+    set_up = closely(name, beside=beside)
+    moment = set_up.motion.moments[0]
+    marks = [*mechanism_seen(moment.alone, set_up.mechanism).marks, *set_up.ground]
+    ends = obstacles([mark for mark in marks if mark.cls.split()[0] == "ground"])[0]
+    fixed = set_up.motion.cycle.scene.frame.points
+    placed = set_up.mechanism_marks(moment.alone)
+    letters = [m for m in placed if isinstance(m, Text) and m.name in fixed]
+    assert len(letters) == len(fixed)
+    for text in letters:
+        box = reach(text)
+        middle = np.array([[(box[0] + box[2]) / 2, (box[1] + box[3]) / 2]])
+        half = (box[2] - box[0]) / 2, (box[3] - box[1]) / 2
+        assert not crossed(middle, half, ends).any(), text
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_letters_go_smoothly_with_their_points(name):
+    """Each as far from its point as at any other moment, but where it yields to another."""
+    set_up = closely(name, beside=True)
+    for moment in set_up.motion.moments:
+        seen = mechanism_seen(moment.alone, set_up.mechanism)
+        for text in set_up.mechanism_marks(moment.alone):
+            if isinstance(text, Text):
+                (x, y), rule = seen.places[text.name], set_up.rules["mechanism"][text.name]
+                box = reach(text)
+                across = (box[0] + box[2]) / 2 - x
+                down = (box[1] + box[3]) / 2 - y
+                wide = rule.far + seen.letters[text.name].width / 4
+                assert (across / wide) ** 2 + (down / rule.far) ** 2 == pytest.approx(1, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "trammel", "roller"])
+def test_what_belongs_to_the_frame_does_not_travel(name):
+    found = shown(name)
+    field = stage(found, words("en")).mechanism
+    fixed = [
+        {m for m in mechanism_seen(moment.alone, field).marks if m.cls in STILL}
+        for moment in found.moments
+    ]
+    assert all(marks == fixed[0] for marks in fixed)
+
+
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("name", ["pump", "trammel", "roller"])
+def test_guides_and_tracks_end_within_their_field(name, beside):
+    set_up = stage(shown(name), words("en"), beside=beside)
+    left, top, right, bottom = set_up.mechanism.rect
+    marks = [mark for mark in set_up.ground if mark.cls.split()[0] in STILL]
+    assert marks
+    for mark in marks:
+        box = reach(mark)
+        assert left + EDGE <= box[0] + SLACK and box[2] - SLACK <= right - EDGE, mark
+        assert top + EDGE <= box[1] + SLACK and box[3] - SLACK <= bottom - EDGE, mark
+
+
+@pytest.mark.parametrize("name", ["pump", "trammel"])
+def test_it_ends_before_a_dead_point(name):
+    """There a driver at constant speed gives velocities without bound."""
+    found = shown(name)
+    assert found.reached[0] < found.low < found.high < found.reached[1]
+    assert found.shortened
+    rows = found.cycle.along(np.linspace(found.low, found.high, 200))
+    for rate in ("velocity", "acceleration"):
+        every = [getattr(p, rate) for p in found.cycle.solution.points.values()]
+        usual = np.median(
+            np.max([np.abs(np.broadcast_to(v, found.cycle.at.shape)) for v in every], axis=0)
+        )
+        here = [getattr(p, rate) for p in rows.solution.points.values()]
+        assert max(float(np.max(np.abs(v))) for v in here) <= 1.1 * GROWN * usual
+
+
+def test_a_whole_turn_is_not_cut():
+    found = shown("slotted-lever")
+    assert not found.shortened
+    assert len(found.order) == FRAMES
+
+
+@pytest.mark.parametrize("name", ["pump", "five-bar"])
+def test_a_gif_has_all_its_pictures_and_the_same_bytes_again(name):
+    from PIL import Image
+
+    found = shown(name)
+    data = gif(found, words("en"))
+    assert data == gif(found, words("en"))
+    with Image.open(io.BytesIO(data)) as picture:
+        assert picture.n_frames == len(found.order)
+        assert picture.info["loop"] == 0
+        assert picture.info["duration"] == PAUSE
+        assert picture.width / picture.height == pytest.approx(PICTURE[0] / PICTURE[1], rel=0.01)
+    assert len(data) < 5e6 * len(found.order) / 72
+
+
+def test_the_first_picture_is_the_drawn_position():
+    """The ink of a pin's place: dark where A stands, white where it stands nowhere."""
+    from PIL import Image
+
+    found = shown("pump")
+    set_up = stage(found, words("en"))
+    with Image.open(io.BytesIO(gif(found, words("en")))) as picture:
+        dots = np.asarray(picture.convert("L"))
+    drawn = found.cycle.mechanism.solve()
+    scale = dots.shape[1] / PICTURE[0]
+    for name in "ABCD":
+        x, y = set_up.mechanism(complex(drawn.points[name].position))
+        around = dots[int((y - 1.5) * scale) : int((y + 1.5) * scale)]
+        assert around[:, int((x - 1.5) * scale) : int((x + 1.5) * scale)].min() < 100
+    left, top = int((AREA[0] + 2) * scale), int((AREA[1] + 12) * scale)
+    assert dots[top : top + 20, left : left + 20].min() > 240
+
+
+def test_the_command_writes_both(run: Run, tmp_path: Path):  # noqa: F811
+    args = ("cycle", "slotted-lever", "-o", tmp_path, "--format", "gif,html", "--steps", "24")
+    result = run(*args)
+    assert result.exit_code == 0, result.output
+    names = {path.name for path in tmp_path.iterdir()}
+    stem = next(name for name in names if name.endswith(".csv")).removesuffix("-cycle.csv")
+    assert names == {f"{stem}-cycle.csv", f"{stem}-motion.gif", f"{stem}-motion.html"}
+    again = run(*args)
+    assert again.exit_code == 2
+    assert "--force" in again.stderr
+
+
+RIGID = """graphkin = 1
+title = "Rigid"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O1 = [0, 0]
+O2 = [30, 0]
+[links.1]
+O1-A = 10
+[links.2]
+A-B = 10
+[links.3]
+O2-B = 10
+[[drivers]]
+turn = 1
+angle = 0
+speed = 2
+[branches]
+B = "left of A-O2"
+[ask]
+velocity = ["B"]
+"""
+
+
+@pytest.mark.parametrize("kind", ["gif", "html"])
+def test_what_cannot_move_is_a_message(run: Run, tmp_path: Path, kind: str):  # noqa: F811
+    path = tmp_path / "rigid.toml"
+    path.write_text(RIGID, encoding="utf-8")
+    result = run("cycle", path, "-o", tmp_path / "out", "--format", kind)
+    assert result.exit_code == 2
+    assert "Traceback" not in result.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_page_says_when_it_cannot_move_one_of_several_drivers(run: Run, tmp_path: Path):  # noqa: F811
+    args = ("cycle", SCENES / "five-bar.toml", "--driver", "2", "-o", tmp_path)
+    result = run(*args, "--format", "html")
+    assert result.exit_code == 2
+    assert "--format gif" in result.stderr
+    assert run(*args, "--format", "gif", "--steps", "24").exit_code == 0

@@ -1,0 +1,332 @@
+"""Marks follow the driver: where they are drawn, and where Python draws them elsewhere."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cache
+from itertools import combinations
+from math import acos, degrees, hypot, isclose
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from graphkin.construction.core.plot import above_foot
+from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import clipped
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
+from graphkin.mechanism import Mechanism, load
+from graphkin.motion.pieces import followed
+from graphkin.motion.sweep import sweep_of
+from graphkin.scene.model import FRAME
+from graphkin.text import words
+from graphkin.web.moving import Moving, moving, still
+from graphkin.web.page_driver import driven_by, window
+from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
+from tests.documents.sheet_tools import SCENES, mechanism_named
+from tests.mechanisms import mechanism_of
+from tests.web.laid import laid
+from tests.web.redrawn import apart, kind_of, numbers, redrawn_near
+
+LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
+CENTRES = ", all its centres"
+"""The end of the name of a mechanism of which the centres of all pairs of links are asked."""
+ENDLESS = tuple(f"{name}{CENTRES}" for name in ("slider-crank", "crank-fixed-slot", "trammel"))
+EVERY = (*LABS, *(name for name in SCENES if name not in LABS), *ENDLESS)
+LIMIT = 0.01
+"""Millimetres within which a page draws as Python does."""
+SHIFTED = ("ground", "gear", "gear-disc", "fixed-pivot", "slot", "plate", "detail", "square-mark")
+SHIFTED += ("weld", "drive")
+"""Marks that are not drawn alike elsewhere: strokes and teeth stay with what bears them, a pivot
+does not grow where a block covers it, a plate's corners may be counted from another one, a corner
+is filled and a dimension stands on the side where it was drawn."""
+OTHERWISE = {
+    ("four-bar-change-point", "ray"): "a link that only shifts: rounding says which end is far",
+    ("mobility-cam", "guide-bar"): "the bar stays as far as its arm, also where that is far off",
+    ("excavator-absolute", "sense"): "the arrow of a sense stays when a law of time turns back",
+    ("excavator-relative", "sense"): "the arrow of a sense stays when a law of time turns back",
+    ("jumper", "sense"): "the arrow of a sense stays when a law of time turns back",
+    ("rod-and-wheel", ""): "the construction has other steps in a closure of another number",
+}
+"""What is not compared, and why: marks of a class, or a whole scene."""
+CARRIED = ("arrowhead", "block", "slider")
+"""The broken lines that a body or a vector carries along."""
+PLACES = (0.07, 0.21, 0.38, 0.55, 0.72, 0.94)
+"""The places looked at, in parts of the range."""
+
+
+@cache
+def named(name: str) -> Mechanism:
+    """A shipped mechanism or an example, as it is or with all its centres."""
+    if name.endswith(CENTRES):
+        scene = named(name.removesuffix(CENTRES)).scene
+        pairs = tuple("-".join(pair) for pair in combinations((FRAME, *scene.links), 2))
+        return Mechanism(replace(scene, ask=scene.ask._replace(pairs=pairs)))
+    return load(name) if name in LABS else mechanism_named(name)
+
+
+@cache
+def page_of(name: str) -> tuple[list[ScreenSheet], Moving]:
+    """The sheets of a mechanism, and what moves them."""
+    sheets = screen_sheets(named(name))
+    found = moving(named(name), sheets)
+    assert found is not None
+    return sheets, found
+
+
+def fields(sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, Mark, int, int]]:
+    """Every mark with its id, its sheet, and 0 in the mechanism's field or 1 in the plan's."""
+    for s, sheet in enumerate(sheets):
+        for k, mark in enumerate((*sheet.left, *sheet.right)):
+            yield f"m{s}-{k}", mark, s, int(k >= len(sheet.left))
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_every_mark_lies_where_it_is_drawn(name):
+    """Each binding gives the drawn coordinates back, and hides nothing that is drawn."""
+    sheets, found = page_of(name)
+    here = laid(found, found.data["start"])
+    assert here is not None
+    kinds = {record[0]: record[1] for record in found.data["marks"]}
+    for mark_id, mark, s, side in fields(sheets):
+        if mark_id not in here or kinds[mark_id] in "oi":
+            continue
+        at = here[mark_id]
+        if at is None and isinstance(mark, LineMark) and is_nothing(numbers(mark)):
+            continue
+        assert at is not None, (mark_id, mark)
+        drawn = [0.0, 0.0] if isinstance(mark, Text) else numbers(mark)
+        rect = sheets[s].layout.plan.rect if side else sheets[s].layout.mechanism.rect
+        cut = [
+            at,
+            *(cut_to(at, edge) for edge in (rect, above_foot(rect)) if isinstance(mark, LineMark)),
+        ]
+        assert min(apart(each, drawn) for each in cut) < 1e-5, (mark_id, mark)
+
+
+def cut_to(at: list[float], rect: Rect) -> list[float]:
+    """The part of a line that is on paper."""
+    part = clipped((at[0], at[1]), (at[2], at[3]), rect)
+    return [] if part is None else [*part[0], *part[1]]
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_what_moves_in_the_mechanism_is_bound(name):
+    """Only what tells a number of the drawn position, or lies off its field, is left behind."""
+    sheets, found = page_of(name)
+    left = {record[0] for record in found.data["marks"] if record[1] == "o"}
+    for mark_id, mark, s, _ in fields(sheets):
+        if mark_id in left:
+            values = sheets[s].drawing.trace.program.steps
+            far = mark.step is not None and values[mark.step].part.value in ("centre", "pole")
+            told = mark.name.startswith(("phi", "s ", "note", "locus"))
+            detail = mark.cls == "detail"
+            assert far or told or detail, mark
+
+
+def is_nothing(at: Sequence[float]) -> bool:
+    """Whether a line has no length."""
+    return len(at) == 4 and hypot(at[2] - at[0], at[3] - at[1]) < 1e-6
+
+
+def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
+    """What a page draws otherwise than Python at a place of the driver."""
+    (sheets, found), mechanism = page_of(name), named(name)
+    left = {*SHIFTED, *(cls for scene, cls in OTHERWISE if scene == name)}
+    here = defaultdict(list)
+    drawn: dict[Any, int] = defaultdict(int)
+    places = {mark_id: (mark, s, side) for mark_id, mark, s, side in fields(sheets)}
+    for mark_id, mark, s, side in fields(sheets):
+        first = mark.cls.split()[0]
+        if isinstance(mark, Text) or first in ("label", "number", "leader", *left):
+            continue
+        drawn[s, side, *kind_of(mark)] += 1
+        at = marks.get(mark_id, numbers(mark))
+        if at is not None and at != []:
+            here[s, side, *kind_of(mark)].append(at)
+    for mark_id, (before, _, cls) in found.data["more"].items():
+        mark, s, side = places[before]
+        kind = "LineMark" if cls.split()[0] == "construction" else "Polyline"
+        key = (s, side, kind, cls, *kind_of(mark)[2:])
+        drawn[key] += 1
+        if marks[mark_id] is not None:
+            here[key].append(marks[mark_id])
+    for s, sheet in enumerate(sheets):
+        pins = {
+            mark.name: marks.get(f"m{s}-{k}") or numbers(mark)
+            for k, mark in enumerate(sheet.left)
+            if isinstance(mark, CircleMark) and mark.cls == "pin"
+        }
+        for side, there in enumerate(redrawn_near(mechanism, found.driven, sheet, x, pins)):
+            wanted = defaultdict(list)
+            for mark in there:
+                if mark.cls.split()[0] not in left:
+                    wanted[s, side, *kind_of(mark)].append(numbers(mark))
+            mine = {key: at for key, at in here.items() if key[:2] == (s, side)}
+            yield from differences(mine, wanted, drawn, x)
+
+
+def differences(
+    mine: dict[Any, list[Any]], wanted: dict[Any, list[Any]], drawn: dict[Any, int], x: float
+) -> Iterator[str]:
+    """Marks of one that no mark of the other lies at; those that were not drawn cannot follow."""
+    for key in {*mine, *wanted}:
+        if is_broken(key):
+            continue
+        a, b = mine.get(key, []), wanted.get(key, [])
+        for at in (each for each in a if not is_nothing(each)):
+            if min((apart(at, other) for other in b), default=9.0) > LIMIT:
+                yield f"at {x:g} {key}: {at} is not drawn by Python, which has {b}"
+        if drawn[key] >= len(b):
+            for at in (each for each in b if not is_nothing(each)):
+                if min((apart(at, other) for other in a), default=9.0) > LIMIT:
+                    yield f"at {x:g} {key}: {at} is not on the page, which has {a}"
+
+
+def is_broken(key: tuple[Any, ...]) -> bool:
+    """Curves as broken lines are cut elsewhere; arrows to what is far and of a dimension stay."""
+    kind, cls, name = key[2:5]
+    arrow = cls.startswith("arrowhead")
+    far = arrow and name[:1] in "IJW" and not name.startswith("W_")
+    return (kind == "Polyline" and not cls.startswith(CARRIED)) or far or name.startswith("s ")
+
+
+@pytest.mark.parametrize("name", [name for name in EVERY if (name, "") not in OTHERWISE])
+def test_marks_follow_as_python_draws_them(name):
+    """Every line, circle, arc and vector within 0.01 mm of a fresh drawing at the same scales."""
+    _, found = page_of(name)
+    for share in PLACES:
+        x = found.reach.low + share * (found.reach.high - found.reach.low)
+        marks = laid(found, x)
+        assert marks is not None
+        assert not list(compared(name, x, dict(marks)))
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_a_page_stays_small(name):
+    """What moves a page has less than 150 kB, and nothing in it ends a script."""
+    source = page_of(name)[1].source
+    assert len(source.encode()) < 150_000
+    assert "</" not in source and "<!--" not in source and "http" not in source
+
+
+def test_nothing_stands_still_that_can_move():
+    """Every example moves, groups of class III among them."""
+    assert {still(named(name)) for name in EVERY} == {None}
+
+
+FOUR_BAR = """
+[frame]
+O = [0, 0]
+Q = [{d}, 0]
+[links.1]
+O-A = {a}
+[links.2]
+A-B = {b}
+[links.3]
+Q-B = {c}
+[[drivers]]
+turn = 1
+angle = {angle}
+speed = 10
+[branches]
+B = "left of A-Q"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+"""
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "c", "d", "angle"), [(4, 3, 2, 4, 30), (3, 2, 2.5, 3, 50), (5, 3, 1, 4, 30)]
+)
+def test_a_rocker_goes_as_far_as_coupler_and_follower_reach(a, b, c, d, angle):
+    """Where these lie in line, A stands b + c from Q: the law of cosines tells its angle."""
+    mechanism = mechanism_of(FOUR_BAR.format(a=a, b=b, c=c, d=d, angle=angle))
+    found = moving(mechanism, screen_sheets(mechanism))
+    assert found is not None and not found.reach.whole
+    farthest = degrees(acos((a * a + d * d - (b + c) ** 2) / (2 * a * d)))
+    assert isclose(found.reach.high, farthest, abs_tol=1e-6)
+    nearest = degrees(acos((a * a + d * d - (b - c) ** 2) / (2 * a * d)))
+    assert isclose(found.reach.low, nearest, abs_tol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["stephenson-2-ternary", "stephenson-3-crank"])
+def test_a_group_of_class_iii_goes_as_far_as_its_cycle(name):
+    """The motion's own search for dead points, which counts closures anew at every place."""
+    path = followed(sweep_of(named(name).scene))
+    reach = page_of(name)[1].reach
+    assert isclose(reach.low, path.ranges[0][0].low.at, abs_tol=1e-4)
+    assert isclose(reach.high, path.ranges[0][-1].high.at, abs_tol=1e-4)
+
+
+def test_what_only_has_a_place_stands_still():
+    """Crank, coupler and follower in line: they reach from pivot to pivot in no other position."""
+    mechanism = mechanism_of(FOUR_BAR.format(a=1, b=1, c=1, d=3, angle=0))
+    assert words("en")(still(mechanism) or "").startswith("The mechanism stands at a place")
+
+
+def test_a_free_crank_goes_all_the_way_round():
+    """The shortest bar of a Grashof chain turns fully: a range of one turn that holds the start."""
+    mechanism = mechanism_of(FOUR_BAR.format(a=1, b=4, c=3, d=3.5, angle=400))
+    found = moving(mechanism, screen_sheets(mechanism))
+    assert found is not None and found.reach.whole
+    assert (found.reach.low, found.reach.high) == (360.0, 720.0)
+
+
+def test_a_plate_is_hidden_nowhere():
+    """A polygon of a body shows at every place, for it is carried along."""
+    sheets, found = page_of("pump")
+    plates = [i for i, m, _, _ in fields(sheets) if isinstance(m, Polyline) and m.cls == "plate"]
+    low, high = found.reach.low, found.reach.high
+    for share in PLACES:
+        marks = laid(found, low + share * (high - low))
+        assert marks is not None and all(marks[plate] for plate in plates)
+
+
+@pytest.mark.parametrize("name", ["gears-pair", "gears-planet", "gears-rack", "gears-ring"])
+def test_teeth_mesh_all_the_way(name):
+    """Two wheels never cut into one another, a ring holds its planet, and teeth go on turning."""
+    sheets, found = page_of(name)
+    low, high, outlines = found.reach.low, found.reach.high, set()
+    for share in np.linspace(0.003, 0.021, 7) if found.driven.unit == "deg" else PLACES:
+        marks = laid(found, low + share * (high - low))
+        assert marks is not None
+        shapes = {}
+        for mark_id, mark, s, _ in fields(sheets):
+            if s == 0 and mark.cls in ("gear", "gear-disc") and isinstance(mark, Polyline):
+                at = marks.get(mark_id) or numbers(mark)
+                shapes[mark.name] = (
+                    mark.cls,
+                    shapely.Polygon(list(zip(at[::2], at[1::2], strict=True))),
+                )
+        for (a, one), (b, other) in combinations(shapes.values(), 2):
+            if "gear" not in (a, b):
+                assert one.intersection(other).area < 1e-3
+            elif {a, b} == {"gear", "gear-disc"}:
+                ring, wheel = (one, other) if a == "gear" else (other, one)
+                assert wheel.difference(ring).area < 1e-3
+        outlines.add(tuple(round(x, 4) for _, shape in shapes.values() for x in shape.bounds))
+    assert len(outlines) > len(PLACES) / 2
+
+
+def by_law(law: str) -> Mechanism:
+    """A crank-rocker driven by a law of time."""
+    text = FOUR_BAR.format(a=1, b=3, c=2.5, d=3, angle=f'"{law}"').replace("speed = 10\n", "")
+    return mechanism_of(f"time = 0.25\n{text}")
+
+
+def test_a_law_that_makes_no_turn_is_shown_from_the_start_once_to_and_fro():
+    mechanism = by_law("75 + 20*sin(180*t)")
+    driven = driven_by(mechanism.scene)
+    assert driven is not None
+    assert window(driven) == pytest.approx((0, 0.25 + 2), abs=1e-6)
+    assert still(mechanism) is None
+
+
+def test_a_law_that_never_turns_back_stands_still_and_says_why():
+    mechanism = by_law("75 + 20*t/(1 + t)")
+    assert words("en")(still(mechanism) or "").startswith("No driver makes a whole turn")

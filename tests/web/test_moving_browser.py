@@ -1,0 +1,305 @@
+"""The same in a real browser: what the page's own JavaScript writes, beside Python's drawing."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations
+from typing import Any
+
+import pytest
+
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
+from graphkin.tape.graph import Graph
+from graphkin.tape.javascript import MATH, script_source
+from graphkin.tape.tape_outputs import ran
+from graphkin.web.moving import Moving
+from tests.browser.opening import chromium  # noqa: F401
+from tests.web.laid import laid
+from tests.web.test_moving import LIMIT, compared, fields, page_of
+
+SCENES = (
+    "pump",
+    "slotted-lever",
+    "offset-slider-crank",
+    "oldham",
+    "gears-ring",
+    "gears-rack",
+    "oscillating-slide",
+    "four-bar-crank-rocker",
+    "rapid-return",
+    "stephenson-2-ternary",
+    "trammel",
+    "excavator-relative",
+)
+"""Cranks, slides, gears, a rack, a group of class III, a driver that slides, a law of time."""
+PLACES = (0.04, 0.2, 0.36, 0.52, 0.68, 0.84, 0.97)
+RUN = """([source, places]) => {
+  const motion = new Function(source + ';return graphkinMotion')();
+  return places.map((x) => {
+    const marks = {};
+    const mark = (id) => ({
+      setAttribute: (name, value) => { (marks[id] = marks[id] || {})[name] = value; },
+      removeAttribute: () => { marks[id] = marks[id] || {}; },
+    });
+    const { ok } = motion.set(x, mark);
+    return { ok, marks, values: motion.values(x), margins: motion.margins(x) };
+  });
+}"""
+LARGER = """([source, x, times]) => {
+  const motion = new Function(source + ';return graphkinMotion')();
+  return [undefined, times].map((asked) => {
+    const marks = {};
+    motion.set(x, (id) => ({
+      setAttribute: (name, value) => { (marks[id] = marks[id] || {})[name] = value; },
+      removeAttribute: () => { marks[id] = marks[id] || {}; },
+    }), asked);
+    return marks;
+  });
+}"""
+DRAWN = """([source, svg, x]) => {
+  document.body.innerHTML = svg;
+  const motion = new Function(source + ';return graphkinMotion')();
+  motion.set(x, (id) => document.getElementById(id));
+  const made = [...document.querySelectorAll('[id$=h]')];
+  return made.map((mark) => [mark.id, mark.tagName, mark.getAttribute('class'),
+    mark.previousElementSibling.id, mark.getAttribute('data-step'), mark.namespaceURI]);
+}"""
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Any) -> Any:  # noqa: F811
+    """An empty page."""
+    return chromium.new_page()
+
+
+def run(page: Any, name: str, places: Sequence[float]) -> list[dict[str, Any]]:
+    """What the page of a scene does at some places of its driver."""
+    found: list[dict[str, Any]] = page.evaluate(RUN, [page_of(name)[1].source, list(places)])
+    return found
+
+
+def places_of(name: str) -> list[float]:
+    """Places within the range of a scene, that where it stands first."""
+    reach, driven = page_of(name)[1].reach, page_of(name)[1].driven
+    return [driven.start, *(reach.low + share * (reach.high - reach.low) for share in PLACES)]
+
+
+def read(mark: Mark | None, written: Mapping[str, str]) -> list[float] | None:
+    """The numbers of a mark by its attributes; None where it is hidden, or a text."""
+    if written.get("visibility") == "hidden" or isinstance(mark, Text):
+        return None
+    if isinstance(mark, LineMark) or (mark is None and "x1" in written):
+        return [float(written[name]) for name in ("x1", "y1", "x2", "y2")] if written else []
+    if isinstance(mark, CircleMark):
+        return [float(written[name]) for name in ("cx", "cy")] if written else []
+    if isinstance(mark, Arc):
+        numbers = [float(n) for n in re.findall(r"-?\d+\.?\d*", written["d"])]
+        return [*numbers[:4], *numbers[5:]]  # without the turn of its axes
+    return [float(number) for number in re.split("[ ,]", written["points"])] if written else []
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_browser_draws_as_python_does(page, name):
+    """Coordinates of every line, circle, arc and vector within 0.01 mm of a fresh drawing."""
+    by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
+    places = places_of(name)
+    for x, found in zip(places, run(page, name, places), strict=True):
+        assert found["ok"]
+        marks = {i: read(by_id.get(i), written) for i, written in found["marks"].items()}
+        assert not list(compared(name, x, marks))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_texts_move_as_their_bindings_say(page, name):
+    """A letter's shift is that of its record, to the digits that are written, or lays it as far on
+    the other side of what it names."""
+    records = {record[0]: record for record in page_of(name)[1].data["marks"]}
+    by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
+    for x, found in zip(places_of(name), run(page, name, places_of(name)), strict=True):
+        shifts = laid(page_of(name)[1], x)
+        assert shifts is not None
+        for mark_id, written in found["marks"].items():
+            if isinstance(by_id.get(mark_id), Text) and "transform" in written:
+                if written.get("visibility") == "hidden":
+                    continue
+                shift = [float(n) for n in re.findall(r"-?\d+\.?\d*", written["transform"])]
+                if shift != pytest.approx(shifts[mark_id], abs=LIMIT):
+                    other = overturned(page_of(name)[1], records[mark_id], x)
+                    assert shift == pytest.approx(other, abs=LIMIT)
+
+
+def overturned(moving: Moving, record: list[Any], x: float) -> list[float] | None:
+    """The shift of a text on the other side of what it names."""
+    name, kind, shown, o, d, a, b, *rest = record
+    other = [name, kind, shown, o, d, a if kind == "b" else -a, -b, *rest]
+    found = laid(replace(moving, data=moving.data | {"marks": [other]}), x)
+    return None if found is None else found[name]
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "gears-ring"])
+def test_fewer_labels_lie_on_one_another(page, name):
+    """Than if each kept its side: at most a third as many of all places."""
+    found, before, after = page_of(name)[1], 0, 0
+    for x, here in zip(places_of(name)[1:], run(page, name, places_of(name)[1:]), strict=True):
+        plain = laid(found, x)
+        assert plain is not None
+        for field in (field for sheet in found.data["fields"] for field in sheet):
+            first, last = [], []
+            for i, across, down, _ in field["labels"]:
+                name_, _, *rest = found.data["marks"][i]
+                u, v = rest[5], rest[6]
+                written, shift = here["marks"][name_], plain[name_]
+                if shift is not None:
+                    first.append((u + shift[0], v + shift[1], across, down))
+                if written.get("visibility") != "hidden":
+                    du, dv = (float(n) for n in re.findall(r"-?\d+\.?\d*", written["transform"]))
+                    last.append((u + du, v + dv, across, down))
+            before, after = before + hits(first), after + hits(last)
+    assert before > 12 and after < before / 3
+
+
+def hits(boxes: Sequence[tuple[float, float, float, float]]) -> int:
+    """How many pairs of boxes lie on one another by more than half a millimetre."""
+    return sum(
+        abs(a[0] - b[0]) < a[2] + b[2] - 0.5 and abs(a[1] - b[1]) < a[3] + b[3] - 0.5
+        for a, b in combinations(boxes, 2)
+    )
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever", "gears-ring"])
+def test_read_outs_and_margins_are_those_of_the_sheet(page, name):
+    """Where the scene stands, values and sines are those that the construction has."""
+    sheets, _ = page_of(name)
+    (found,) = run(page, name, places_of(name)[:1])
+    for sheet in sheets:
+        drawing = sheet.drawing
+        what, letter = ("omega", "ω") if drawing.kind == "velocity" else ("epsilon", "ε")
+        largest = max(abs(v) for v in drawing.all_of(what)) or 1.0
+        for link in drawing.scene.links:
+            value = drawing.trace.value(what, link)
+            if value is not None:
+                near = pytest.approx(value, rel=1e-9, abs=1e-8 * largest)
+                assert found["values"][f"{letter}{link}"] == near
+        for _, step, value in drawing.steps(drawing.plane):
+            if step.arrow:
+                size = abs(value.tip - value.tail)
+                near = pytest.approx(size, rel=1e-9, abs=1e-8 * drawing.largest)
+                assert found["values"][step.says["symbol"]] == near
+        for number, sine in drawing.trace.margins.items():
+            if str(number) in found["margins"]:
+                assert found["margins"][str(number)] == pytest.approx(float(sine), abs=1e-9)
+
+
+def test_beyond_its_range_nothing_is_touched(page):
+    """Past a dead point the marks stay, and the page is told so."""
+    reach = page_of("pump")[1].reach
+    inside, beyond = run(page, "pump", [reach.high - 1e-6, reach.high + 0.01])
+    assert inside["ok"] and not beyond["ok"]
+    assert not beyond["marks"] and not beyond["values"] and not beyond["margins"]
+
+
+def test_what_is_too_short_where_the_scene_stands_is_made(page):
+    """A vector that grows gets its head: a sibling, with the step of its line."""
+    sheets, found = page_of("pump")
+    assert found.data["more"]
+    lines = "".join(
+        f'<line id="{i}" data-step="{m.step}"/>'
+        for i, m, _, _ in fields(sheets)
+        if isinstance(m, LineMark)
+    )
+    svg = f"<svg>{lines}</svg>"
+    x = found.reach.low + 0.7 * (found.reach.high - found.reach.low)
+    made = page.evaluate(DRAWN, [found.source, svg, x])
+    assert {row[0] for row in made} == set(found.data["more"])
+    for mark_id, tag, cls, before, step, space in made:
+        line, element, wanted = found.data["more"][mark_id]
+        assert (tag, cls, before) == (element, wanted, line)
+        assert step.isdigit() and space.endswith("svg")
+
+
+def test_a_printed_graph_gives_what_numpy_gives(page):
+    """Every operation of a graph, with conditions and choices, on numbers of either sign."""
+    graph = Graph()
+    a, b = graph.input("a"), graph.input("b")
+    one = graph.do("add", graph.do("mul", a, b), graph.number(-1.25))
+    two = graph.do("sub", graph.do("over", a), graph.do("neg", graph.do("abs", b)))
+    three = graph.do("atan2", graph.do("sin", a), graph.do("cos", b))
+    four = graph.do("min", graph.do("floor", one), graph.do("max", two, graph.do("sin45", a)))
+    near = graph.do("both", graph.do("less", a, b), graph.do("not", graph.do("equal", a, one)))
+    either = graph.do("either", near, graph.do("at_most", two, three))
+    five = graph.do("choose", either, graph.do("sqrt", graph.do("mul", a, a)), graph.do("neg", a))
+    six = graph.do("sub", graph.number(-2.0), graph.do("neg", graph.do("round", two)))
+    outputs = [one, two, three, four, near, either, five, six]
+    rows = [(0.3, -1.7), (-2.4, 0.9), (5.1, 5.2), (-0.7, -0.6), (1e-3, 7.75)]
+    source = MATH + script_source(graph, outputs, {"a": 0, "b": 1}, "run")
+    code = "([source, rows]) => { const run = new Function(source + ';return run')();"
+    code += " return rows.map((row) => { const y = []; run(row, y); return y; }); }"
+    found = page.evaluate(code, [source, rows])
+    for row, values in zip(rows, found, strict=True):
+        there = ran(graph, outputs, dict(zip("ab", row, strict=True)))
+        assert values == pytest.approx([float(value) for value in there], rel=1e-14)
+
+
+def test_names_cannot_leave_the_script():
+    """What is written into the data as text has no sign that could end a script."""
+    source = page_of("pump")[1].source
+    text = source[source.index("const data = ") + 13 : source.index(";\nconst BEYOND")]
+    assert "<" not in text and json.loads(text)["name"] == "*φ*"
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_bodies_move_as_their_bindings_say(page, name):
+    """Teeth, strokes, plates and slots lie where their records lay them."""
+    by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
+    for x, found in zip(places_of(name), run(page, name, places_of(name)), strict=True):
+        wanted = laid(page_of(name)[1], x)
+        assert wanted is not None
+        for mark_id, written in found["marks"].items():
+            if isinstance(by_id.get(mark_id), Text):
+                continue
+            at = read(by_id.get(mark_id), written)
+            if at and wanted[mark_id]:
+                assert at == pytest.approx(wanted[mark_id], abs=LIMIT), mark_id
+            else:
+                assert not at and not wanted[mark_id], mark_id
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_in_one_field_labels_stand_farther_off_and_heads_are_larger(page, name):
+    """What keeps its size on the screen is drawn larger where a field is shown smaller; what is
+    constructed stays, and so does every other field."""
+    found = page_of(name)[1]
+    x = found.reach.low + 0.7 * (found.reach.high - found.reach.low)
+    plain, larger = page.evaluate(LARGER, [found.source, x, [[1, 1], [1, 3]]])
+    first, off = (found.data["fields"][1][1][name] for name in ("first", "off"))
+    heads = letters = 0
+    for i, (mark, kind, _, *rest) in enumerate(found.data["marks"]):
+        before, after = plain[mark], larger[mark]
+        if i < first:
+            assert before == after
+        elif kind == "h" and "hidden" not in (before.get("visibility"), after.get("visibility")):
+            ends = [read(None, written) for written in (before, after)]
+            assert ends[0][:2] == ends[1][:2]
+            assert long(ends[0]) <= long(ends[1]) <= 3 * long(ends[0]) + LIMIT
+            heads += long(ends[1]) > long(ends[0])
+        elif kind == "t" and i in off and before.get("transform") and after.get("transform"):
+            a, b = rest[2:4]
+            shift, farther = (
+                [float(n) for n in re.findall(r"-?\d+\.?\d*", written["transform"])]
+                for written in (before, after)
+            )
+            more = abs(complex(*shift) - complex(*farther)) / abs(complex(a, b))
+            assert min(abs(more - 2), abs(more - 4)) < 0.01  # 4 if it is now on the other side
+            letters += 1
+        elif kind in "lgfrx":
+            assert before == after or i in off
+    assert heads and letters
+
+
+def long(points: Sequence[float]) -> float:
+    """The length of an arrowhead."""
+    (x, y), (a, b), (c, d) = zip(points[::2], points[1::2], strict=True)
+    return abs(complex(x, y) - (complex(a, b) + complex(c, d)) / 2)

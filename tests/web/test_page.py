@@ -1,0 +1,524 @@
+"""The step page: one safe file, in which every mark appears after what it is drawn from."""
+
+from __future__ import annotations
+
+import gc
+import re
+from base64 import b64encode
+from functools import cache
+from hashlib import sha256
+from html import unescape
+
+import pytest
+
+from graphkin.construction.core.program import Part
+from graphkin.construction.result_tables import turning_rows, vector_rows
+from graphkin.documents.sentences import sentences
+from graphkin.documents.step_numbers import behind
+from graphkin.drawing.marks import CircleMark, LineMark, Text, reach
+from graphkin.drawing.richtext import plain
+from graphkin.drawing.style import BRIEF
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.read_scene import read_text
+from graphkin.text import LANGUAGES, words
+from graphkin.web import step_page as page
+from graphkin.web.field_pictures import ink_sheet
+from graphkin.web.offline_page import data_block, offline_page, part
+from graphkin.web.protocol import PageProtocol, telling
+from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
+from graphkin.web.step_page import step_page, task_page
+from graphkin.writers.svg import number
+from tests.documents.sheet_tools import SCENES, mechanism_named
+
+LABS = ("pump", "offset-slider-crank", "slotted-lever")
+FEW = (*LABS, "oldham", "gears-ring", "rapid-return", "centrodes-cardan", "eight-link-1")
+"""Scenes of different kinds: dyads, slots, gears, trial plans, centrodes, many links."""
+TAG = re.compile(r"<[a-z][^>]*>")
+ALLOWED = 400_000
+"""Most letters of a page."""
+
+HOSTILE = "</title><script>alert(1)</script>\"'&"
+NASTY = f"""graphkin = 1
+title = '''{HOSTILE}'''
+notes = {{ en = '''{HOSTILE} *_^{{''' }}
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = {{ on = 0, through = "O", angle = 0 }}
+[[drivers]]
+turn = 1
+angle = 40
+speed = 5
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+[sheet]
+language = "en"
+owner = '''{HOSTILE}'''
+"""
+
+
+@cache
+def mechanism_of(name: str) -> Mechanism:
+    """A mechanism by its name."""
+    return mechanism_named(name) if name in SCENES else load(name)
+
+
+@cache
+def sheets_of(name: str) -> list[ScreenSheet]:
+    """The sheets of a mechanism."""
+    return screen_sheets(mechanism_of(name), "en")
+
+
+@cache
+def told_of(name: str) -> PageProtocol:
+    """The run of a mechanism."""
+    return telling(sheets_of(name))
+
+
+@cache
+def page_of(name: str, language: str = "en") -> str:
+    """The page of a mechanism."""
+    return step_page(mechanism_of(name), language)
+
+
+def seen(page: str) -> str:
+    """The words of a page, without scripts, styles and tags."""
+    page = re.sub(r"<(script|style)\b.*?</\1>", " ", page, flags=re.DOTALL)
+    return unescape(re.sub(r"<[^>]*>", "", page))
+
+
+# --- the run of sentences ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_what_a_step_is_drawn_from_stands_before_it(name):
+    told = told_of(name)
+    late = {
+        step: source
+        for step, sources in told.sources.items()
+        for source in sources
+        if told.at[source] > told.at[step] > 0
+    }
+    assert not late
+    assert sum(map(len, told.sources.values())) > len(told.sources)
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_the_sources_of_a_step_are_all_that_it_hangs_on_by_one_stroke(name):
+    told, program = told_of(name), sheets_of(name)[0].drawing.trace.program
+    for step, sources in told.sources.items():
+        before = behind(program, [step]) - {step}
+        assert set(sources) <= before
+        farther = behind(program, sources)
+        assert {one for one in before if one in told.at} <= farther
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_the_run_holds_every_sentence_of_every_sheet_once(name):
+    sheets, told = sheets_of(name), told_of(name)
+    said = [plain(one.markup) for sheet in sheets for one in sentences(sheet.drawing)]
+    assert [shortened(plain(one.markup)) for one in told.said] == [*map(shortened, said)]
+    assert told.bounds(0)[0] == 1
+    assert told.bounds(len(sheets) - 1)[1] == len(said)
+
+
+def shortened(text: str) -> str:
+    """A sentence without the indices of the points of right triangles."""
+    return re.sub(r"(?<=[″‴])_?\w+|(?<=[a-z])_?[A-Z]\w*(?=\^?IV)", "", text)
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_each_mark_appears_with_a_sentence_of_its_own_sheet_or_stands_before(name):
+    told = told_of(name)
+    for place, timed in enumerate(told.timed):
+        first, last = told.bounds(place)
+        assert all(mark.at == 0 or first <= mark.at <= last for mark in timed)
+        assert max(mark.at for mark in timed) == last
+
+
+def test_b_of_the_pump_is_drawn_from_what_its_sentence_names():
+    told = told_of("pump")
+    letters = {step: plain(name) for step, name in told.letters.items()}
+    (b,) = (step for step, name in letters.items() if name == "b")
+    lines = told.sources[b]
+    named = {letters[step] for line in lines for step in told.sources[line]}
+    assert named == {"a", "o", "A", "B", "O2"}
+    sides = [{letters[point] for point in told.sides[line]} for line in lines]
+    assert sides == [{"A", "B"}, {"O2", "B"}]
+
+
+def test_the_reasons_of_b_are_those_of_rigid_bars():
+    said = telling(screen_sheets(load("pump"), "en")).said[5]
+    assert [plain(why) for why in said.why] == [
+        "AB keeps its length: relative to A, B can move only perpendicular to it",
+        "O2B keeps its length: relative to O2, B can move only perpendicular to it",
+        "each line alone holds b, so it lies where they meet",
+    ]
+
+
+def test_both_lines_of_the_second_image_of_b_have_their_reasons():
+    (why,) = (
+        [plain(reason) for reason in one.why]
+        for one in telling(screen_sheets(load("pump"), "en")).said
+        if one.sheet == 1 and "they meet in *b*′" in one.markup
+    )
+    assert why == [
+        "B goes round A: along AB its acceleration relative to A is v2/AB, towards A",
+        "what else B has relative to A is the tangential component ε·AB: perpendicular to AB, "
+        "its length not known yet",
+        "likewise B goes round O2: v2/O2B along O2B, towards O2",
+        "and B has ε·O2B relative to O2, perpendicular to O2B, its length not known yet",
+        "each line alone holds b′, so it lies where they meet",
+    ]
+
+
+@pytest.mark.parametrize("name", ["oscillating-slide", "gears-planet", "gears-ring"])
+def test_a_letter_in_a_reason_has_its_index_once(name):
+    labels = {plain(letter) for letter in told_of(name).letters.values()}
+    for said in told_of(name).said:
+        for why in said.why:
+            found = re.search("each line alone holds (.*), so", plain(why))
+            assert found is None or found.group(1) in labels
+
+
+def test_what_touches_without_slip_says_so():
+    said = [*told_of("gears-planet").said]
+    touch = next(one for one in said if "touch in *T*" in one.markup)
+    assert any("called T3" in plain(why) for why in touch.why)
+    assert any(
+        "(*T* has one velocity on both links, for nothing slips)" in one.markup for one in said
+    )
+    assert any("common normal" in why for one in said for why in one.why)
+
+
+def test_a_contact_appears_with_the_sentence_that_finds_it():
+    run = telling(sheets_of("gears-planet"))
+    steps = sheets_of("gears-planet")[0].drawing.trace.program.steps
+    found = [one for one in run.timed[0] if one.step is not None and steps[one.step].name == "T"]
+    assert {type(one.mark) for one in found} == {CircleMark, Text}
+    assert {one.at for one in found} == {3}
+    assert "*T*" in run.said[2].markup
+
+
+def test_frames_of_names_and_arrows_of_senses_appear_with_what_they_belong_to():
+    marks = told_of("excavator-relative").timed[0]
+    frames = [i for i, one in enumerate(marks) if one.mark.cls == "number" and not one.mark.name]
+    senses = [i for i, one in enumerate(marks) if one.mark.cls == "sense"]
+    assert len(frames) == len(senses) == 3
+    assert [marks[i].at for i in frames] == [marks[i + 1].at for i in frames] == [1, 2, 3]
+    assert [marks[i].at for i in senses] == [1, 2, 3]
+
+
+def test_a_detail_is_told_beside_the_last_sentence_of_its_sheet_and_is_no_reason():
+    run, sheets = telling(sheets_of("pump")), sheets_of("pump")
+    told = words("en")("screen.detail", scale="5:1")
+    assert [said.aside == told for said in run.said] == [step == 20 for step in range(1, 21)]
+    assert not any("circle marked" in why for said in run.said for why in said.why)
+    assert [bool(sheet.more_left or sheet.more_right) for sheet in sheets] == [False, True]
+
+
+@pytest.mark.parametrize("name, digits", [("pump", "1"), ("gears-planet", "3")])
+def test_the_place_of_the_driver_has_the_decimals_that_its_slider_needs(name, digits):
+    assert f'data-digits="{digits}"' in page_of(name)
+
+
+@pytest.mark.parametrize("make", [step_page, task_page])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_field_has_its_bar(make, language):
+    text = make(load("pump"), language)
+    assert text.count('class="bar"') == text.count("<figure>") == 4
+    assert words(language)("screen.on_paper") in text
+    for place, sheet in enumerate(screen_sheets(load("pump"), language)):
+        left, top, right, bottom = sheet.layout.plan.rect
+        rule = f"#fields-{place}>:nth-child(2){{--bar:20;--wide:{number(right - left)};"
+        assert rule + f"--high:{number(bottom - top)}}}" in text
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_reasons_name_what_stands_in_their_sentence(name):
+    for said in told_of(name).said:
+        for why in said.why:
+            assert not re.search(r"[{}@]|None|\s[:,;.]|  ", plain(why)), why
+
+
+def test_an_acceleration_is_not_explained_by_velocities():
+    said = [one for one in told_of("slotted-lever").said if one.sheet == 1]
+    every = " ".join(plain(why) for one in said for why in one.why)
+    assert "keeps its length" not in every
+    assert "2ω·v" in every
+
+
+def test_the_parts_of_the_pump_follow_one_another():
+    assert [(first, last, part.value) for first, last, part in told_of("pump").stops()] == [
+        (1, 4, "position"),
+        (5, 8, "velocity"),
+        (9, 9, "centre"),
+        (11, 14, "normal"),
+        (15, 17, "acceleration"),
+        (18, 19, "pole"),
+    ]
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_what_is_told_of_right_triangles_has_the_names_of_the_drawing(name):
+    for sheet in sheets_of(name):
+        labels = {plain(mark.markup) for mark in sheet.left if isinstance(mark, Text)}
+        said = [one for one in told_of(name).said if one.sheet == sheets_of(name).index(sheet)]
+        told = " ".join(
+            plain(text) for one in said for text in (one.markup, *one.why, *one.letters)
+        )
+        found = re.findall(r"(?<![a-z])[a-z][″‴](?:[A-Z\d][A-Z\d,]*)?", told)
+        assert {name.rstrip(",") for name in found} <= labels
+
+
+@pytest.mark.parametrize("name", ["stephenson-1", "watt-1", "lifter", "gears-profiles"])
+def test_a_triangle_that_is_left_out_has_no_letters_no_reason_and_no_crossing(name):
+    """What is too short to be drawn has no point, and one letter stands for one point."""
+    sheet = sheets_of(name)[1]
+    labels = {plain(mark.markup) for mark in sheet.left if isinstance(mark, Text)}
+    (said,) = (one for one in told_of(name).said if "is left out" in one.markup)
+    assert {plain(letter) for letter in said.letters} <= labels
+    reasons = " ".join(plain(why) for why in said.why)
+    heights = re.findall(r"([A-Z]\d?[a-z]\d?‴\w*) = v2/(\w+)", reasons)
+    assert len(heights) == len({letter for letter, _ in heights}) == len(said.letters)
+    left_out = re.findall(r"v\w+2/(\w+) \(", plain(said.markup))
+    assert left_out and not {of for _, of in heights} & {*left_out}
+
+
+@pytest.mark.parametrize("kind", [0, 1])
+def test_how_links_turn_is_read_off_for_a_reason(kind):
+    """The angular velocity and acceleration of every link: the steps that had no reason at all."""
+    last = [one for one in told_of("pump").said if one.sheet == kind][-1]
+    (why,) = (plain(why) for why in last.why)
+    assert ("velocity is ω times", "acceleration is ε times")[kind] in why
+    assert "relative to one end of a bar" in why
+
+
+@pytest.mark.parametrize("name", ["stephenson-2-binary", "stephenson-3-crank", "rod-and-wheel"])
+def test_the_reasons_of_a_trial_plan_name_who_moves_and_every_image(name):
+    """Each point that two lines find is named, and of each component whose it is."""
+    for said in (one for one in told_of(name).said if "first trial plan" in one.markup):
+        clauses = [plain(why) for why in said.why]
+        meet = [clause for clause in clauses if "each lies on both lines" in clause]
+        found = re.findall(r"they meet in ([^;]*)", plain(said.markup))
+        alone = [clause for clause in clauses if "each line alone" in clause]
+        assert len(meet) == (len(found) > 1)
+        assert not meet or meet[0].split(": ")[0] == ", ".join(found)
+        assert len(alone) == (len(found) == 1)
+        for clause in clauses:
+            if clause.startswith(("likewise", "and ", "what else")):
+                assert re.match(r"(likewise|and|what else) [A-Z]\S* (goes round|has) ", clause)
+
+
+def test_each_right_triangle_has_its_colour_and_its_reason():
+    told = told_of("pump")
+    (said,) = (one for one in told.said if len(one.letters) == 4)
+    assert [plain(name) for name in said.letters] == ["b‴B", "c‴CA", "c‴CB", "d‴"]
+    assert [told.tints.get(step, 0) for step in said.of] == [0, 1, 2, 3]
+    assert "likewise Cc‴CA = v2/AC" in [plain(why) for why in said.why]
+    assert {told.at[step] for step in told.tints} == {told.said.index(said) + 1}
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_what_hangs_on_a_crossing_of_a_plan_is_of_that_plan_or_read_off_it(name):
+    told, program = told_of(name), sheets_of(name)[0].drawing.trace.program
+    assert told.hangs
+    for step, lines in told.hangs.items():
+        assert program.steps[step].part is not Part.POSITION
+        drawn_to = {line for line in lines if step in program.steps[line].args}
+        assert set(lines) <= behind(program, [step]) | drawn_to
+        assert all(program.steps[line].part is not Part.POSITION for line in lines)
+
+
+def test_a_centre_lies_on_lines_square_to_the_velocities_of_two_pins():
+    told = told_of("pump")
+    letters = {step: plain(name) for step, name in told.letters.items()}
+    named = [tuple(letters[point] for point in points) for points in told.squares.values()]
+    assert sorted(named) == [("A", "o", "a"), ("B", "o", "b")]
+
+
+# --- one safe file -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_every_mark_has_its_own_id_in_the_field_where_it_lies(name):
+    page, sheets = page_of(name), sheets_of(name)
+    ids = re.findall(r' id="([^"]+)"', page)
+    assert len(ids) == len(set(ids))
+    own = {found for found in ids if re.fullmatch(r"m\d+-\d+", found)}
+    captions = {f"m{s}-{k}" for s, sheet in enumerate(sheets) for k in (0, len(sheet.left))}
+    every = {
+        f"m{s}-{k}"
+        for s, sheet in enumerate(sheets)
+        for k in range(len(sheet.left) + len(sheet.right))
+    }
+    assert own == every - captions
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_a_mark_keeps_its_place_in_millimetres_of_the_page(name):
+    page = page_of(name)
+    for s, sheet in enumerate(sheets_of(name)):
+        for k, mark in enumerate((*sheet.left, *sheet.right)):
+            if isinstance(mark, CircleMark):
+                (tag,) = re.findall(rf'<circle id="m{s}-{k}"[^>]*>', page)
+                found = [float(re.search(rf' {at}="([^"]+)"', tag)[1]) for at in ("cx", "cy")]
+                assert found == pytest.approx([mark.cx, mark.cy], abs=1e-4)
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_each_field_shows_its_own_rectangle(name):
+    boxes = re.findall(r'<svg viewBox="([\d. -]+)" role="img"', page_of(name))
+    rects = [r for s in sheets_of(name) for r in (s.layout.mechanism.rect, s.layout.plan.rect)]
+    for box, (left, top, right, bottom) in zip(boxes, rects, strict=True):
+        found = [float(one) for one in box.split()]
+        assert found == pytest.approx([left, top, right - left, bottom - top], abs=1e-3)
+
+
+def hashes(texts: list[str]) -> set[str]:
+    """Texts as a policy names them."""
+    return {f"'sha256-{b64encode(sha256(t.encode()).digest()).decode()}'" for t in texts}
+
+
+def pages() -> list[str]:
+    """Pages of every sort."""
+    nasty = Mechanism(read_text(NASTY, "nasty", None, {}))
+    return [page_of("pump"), task_page(load("pump")), step_page(nasty), task_page(nasty)]
+
+
+@pytest.mark.parametrize("page", pages(), ids=["key", "task", "nasty", "nasty task"])
+def test_nothing_runs_but_what_the_policy_names(page):
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]+)"', page)
+    rules = dict(part.strip().split(" ", 1) for part in policy.split(";"))
+    assert rules["default-src"] == "'none'"
+    scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    styles = re.findall(r"<style>(.*?)</style>", page, re.DOTALL)
+    assert set(rules["script-src"].split()) == (hashes(scripts) or {"'none'"})
+    assert set(rules["style-src"].split()) == hashes(styles)
+    assert "unsafe" not in policy
+    tags = TAG.findall(re.sub(r"<(script|style)>.*?</\1>", "", page, flags=re.DOTALL))
+    assert not [tag for tag in tags if re.search(r"\s(on\w+|style)\s*=", tag)]
+    assert not [tag for tag in tags if re.search(r"""(src|href)\s*=\s*["']?(?!#)\w+:""", tag)]
+    assert not re.search(r"@import|url\((?!data:)", "".join(styles))
+
+
+@pytest.mark.parametrize("make", [step_page, task_page])
+def test_names_and_notes_are_only_text(make):
+    page = make(Mechanism(read_text(NASTY, "nasty", None, {})))
+    assert "alert(1)" in seen(page)
+    assert "<script>alert" not in page
+    assert page.count("</title>") == 1
+    assert f"<h1>{HOSTILE}</h1>" in unescape(page)
+
+
+def test_data_never_end_their_block():
+    block = data_block("run", {"a": "</script><!--&"})
+    assert block.count("<") == 2
+
+
+@pytest.mark.parametrize("bad", ["</SCRIPT>", "</style >", "<!--"])
+def test_a_script_that_would_end_early_is_refused(bad):
+    with pytest.raises(ValueError, match="would end"):
+        offline_page("t", "en", "", ["a{}"], [f"let x = '{bad}'"])
+
+
+# --- what it says --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", sorted(SCENES))
+def test_every_scene_has_a_page_of_moderate_size(name):
+    page = page_of(name)
+    assert len(page) < ALLOWED
+    assert page.count('class="sheet"') == len(sheets_of(name))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_page_speaks_one_language(language):
+    page, spoken = page_of("pump", language), words(language)
+    assert f'<html lang="{language}">' in page
+    text = seen(page)
+    own = {key for key in spoken.sentences if key.startswith("screen.")}
+    for key in own & {"screen.results", "screen.help", "screen.new", "screen.vectors"}:
+        assert spoken(key) in text
+    for other in set(LANGUAGES) - {language}:
+        assert words(other)("screen.help") not in text
+    assert not re.search(r"\{\w*\}|None|\bnan\b|[\ue000\ue001]", text)
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_the_tables_hold_what_the_sheets_hold(name):
+    text = seen(page_of(name))
+    for sheet in sheets_of(name):
+        rows = [*vector_rows(sheet.drawing, empty=False), *turning_rows(sheet.drawing, empty=False)]
+        for row in rows:
+            assert all(cell in text for cell in row.cells[2:3])
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_a_task_gives_nothing_of_the_key_away(name):
+    page = task_page(load(name), "en")
+    given = {mark.name for sheet in screen_sheets(load(name), "en", "task") for mark in sheet.left}
+    text = seen(page)
+    for sheet in sheets_of(name):
+        values = [row.cells[-2:] for row in vector_rows(sheet.drawing, empty=False)]
+        for shown in {cell for cells in values for cell in cells if len(cell) > 3}:
+            assert shown not in page
+        hidden = {mark.name for mark in sheet.left if isinstance(mark, Text)} - given
+        assert hidden
+        assert not [n for n in hidden if f'data-name="{n}"' in page]
+    assert "graphkinMotion" not in page
+    assert 'id="run"' not in page
+    assert 'data-of="' not in page
+    assert words("en")("page.asked") in text
+
+
+def test_black_ink_is_one_ink():
+    inks = set(re.findall(r"(?:stroke|fill):var\(--(\w+)\)", step_page(load("pump"), ink="black")))
+    assert not inks & {"blue", "red", "teal", "purple"}
+
+
+def test_lettering_stays_within_its_field():
+    for sheet in sheets_of("pump"):
+        left, top, right, bottom = sheet.layout.plan.rect
+        for mark in sheet.right[1:]:
+            if isinstance(mark, Text):
+                box = reach(mark)
+                assert left <= box[0] and box[2] <= right and top <= box[1] and box[3] <= bottom
+
+
+def test_the_same_scene_gives_the_same_page():
+    assert step_page(load("pump"), "en") == page_of("pump")
+
+
+def test_a_page_leaves_the_search_for_garbage_as_it_was(monkeypatch):
+    """It is off while the page is made, and on again even after a mistake."""
+    seen = []
+    monkeypatch.setattr(page, "screen_sheets", lambda *_: seen.append(gc.isenabled()) or 1 / 0)
+    for was in (True, False):
+        (gc.enable if was else gc.disable)()
+        with pytest.raises(ZeroDivisionError):
+            page.step_page(load("pump"))
+        assert gc.isenabled() is was
+    gc.enable()
+    assert seen == [False, False]
+
+
+def test_a_vector_that_is_short_where_it_is_drawn_has_on_a_page_a_shaft_like_all_others():
+    """For it may be long elsewhere."""
+    vectors = [LineMark(0, 0, 9, 0, "velocity"), LineMark(0, 0, 3, 0, f"velocity {BRIEF}")]
+    assert ink_sheet(vectors, "colour") == ink_sheet(vectors[:1], "colour")
+
+
+@pytest.mark.parametrize("name", ["page.css", "steps.css", "player.css"])
+def test_what_scrolls_has_columns_of_its_own(name):
+    """Firefox lays the columns of a subgrid out beneath its scrollbar, which cuts the last one."""
+    assert "subgrid" not in part(name)

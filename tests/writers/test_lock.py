@@ -1,0 +1,126 @@
+"""One run at a time: a second is refused with who holds the folder; a dead one holds nothing."""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from graphkin.text.errors import PageError
+from graphkin.writers import lock
+from graphkin.writers.lock import LOCK, ago, alive, locked
+
+ROOT = Path(__file__).resolve().parents[2]
+HOLD = """
+import sys, time
+from pathlib import Path
+from graphkin.writers.lock import locked
+with locked(Path(sys.argv[1])):
+    print("held", flush=True)
+    time.sleep(60)
+"""
+
+
+@pytest.fixture
+def holder(tmp_path):
+    """Another process that holds the folder."""
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-c", HOLD, str(tmp_path)]
+    with subprocess.Popen(command, env=surroundings, stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline().strip() == b"held"
+        yield process
+        process.kill()
+
+
+def test_a_folder_that_another_process_holds_is_refused(tmp_path, holder):
+    with pytest.raises(PageError) as refused, locked(tmp_path):
+        pass
+    words = str(refused.value)
+    assert f"process {holder.pid} on " in words
+    assert re.search(r"begun \d+ s ago", words)
+
+
+def test_one_process_cannot_hold_a_folder_twice(tmp_path):
+    with locked(tmp_path), pytest.raises(PageError, match=str(os.getpid())), locked(tmp_path):
+        pass
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
+def test_a_killed_process_holds_nothing_and_is_told(tmp_path, holder):
+    holder.send_signal(signal.SIGKILL)
+    holder.wait()
+    assert (tmp_path / LOCK).exists()
+    with locked(tmp_path) as left:
+        assert f"process {holder.pid} on " in left
+    with locked(tmp_path) as left:
+        assert left == ""
+
+
+def test_nothing_is_left_behind(tmp_path):
+    with locked(tmp_path) as left:
+        assert left == ""
+        assert (tmp_path / LOCK).exists()
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("said", [b"\xff[1, 2", b"[" * 4096])
+def test_a_lock_that_says_nothing_readable_is_taken(tmp_path, said):
+    (tmp_path / LOCK).write_bytes(said)
+    with locked(tmp_path) as left:
+        assert left == ""
+
+
+def test_ages_are_told_in_the_unit_that_suits():
+    assert [ago(s) for s in (0, 119, 120, 7199, 7200)] == [
+        "0 s ago",
+        "119 s ago",
+        "2 min ago",
+        "119 min ago",
+        "2 h ago",
+    ]
+
+
+def test_a_lock_that_is_waited_for_is_taken_when_it_is_free(tmp_path, monkeypatch):
+    """The second run comes while the first holds the folder, and goes on when that has ended."""
+    first = locked(tmp_path)
+    first.__enter__()
+    waited = []
+
+    def pause(seconds):
+        waited.append(seconds)
+        if len(waited) == 3:
+            first.__exit__(None, None, None)
+
+    monkeypatch.setattr(lock, "sleep", pause)
+    with locked(tmp_path, patience=1000):
+        assert len(waited) == 3
+    with locked(tmp_path), pytest.raises(PageError, match="another run"), locked(tmp_path, 0.0):
+        pass
+
+
+def test_a_folder_without_locks_is_written_all_the_same(tmp_path, monkeypatch):
+    fcntl = pytest.importorskip("fcntl")
+
+    def none(handle, what):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", none)
+    with locked(tmp_path) as left:
+        assert left == ""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes are not asked there")
+def test_processes_that_live_are_known(holder):
+    assert alive(os.getpid())
+    assert alive(holder.pid)
+    holder.kill()
+    holder.wait()
+    assert not alive(holder.pid)
+    assert not alive(10**30)
