@@ -9,8 +9,8 @@ from math import hypot
 from graphkin.construction.centres.centre_words import same_centre
 from graphkin.construction.core.curve_marks import ring
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.plot import TINY
 from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.too_short import TINY
 from graphkin.construction.guides.slide_symbols import places_of
 from graphkin.construction.links.plates import corners_of, farthest
 from graphkin.drawing.field import Field

@@ -10,9 +10,9 @@ from graphkin.construction.core.component import Component, component_of, laid_o
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import SWINGS
 from graphkin.construction.core.naming import drawn_amount, height_above
-from graphkin.construction.core.plot import TINY
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.core.too_short import TINY
 from graphkin.construction.higher_class.closing_words import closing_sentence, idle_sentences
 from graphkin.construction.higher_class.trial_words import (
     share_sentence,

@@ -9,7 +9,8 @@ from typing import Any
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
-from graphkin.construction.core.plot import TINY, above_foot
+from graphkin.construction.core.plot import above_foot
+from graphkin.construction.core.too_short import TINY
 from graphkin.construction.links.mechanism_symbols import stretched
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
 from graphkin.drawing.style import VECTORS

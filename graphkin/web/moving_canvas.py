@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphkin.construction.core.drawn_scene import Drawing
-
-if TYPE_CHECKING:
-    from graphkin.web.visible_steps import VisibleSteps
+from graphkin.web.field_binder import FieldBinder
 
 Ends = tuple[Any, Any]
 
@@ -17,7 +15,7 @@ Ends = tuple[Any, Any]
 class MovingCanvas:
     """What the marks of one step are drawn from: its vector, its legs, and what its line faces."""
 
-    seen: VisibleSteps
+    binder: FieldBinder
     ends: Ends | None = None
     legs: list[Ends] = field(default_factory=list)
     faces: Any = None
@@ -27,15 +25,15 @@ class MovingCanvas:
     @property
     def drawing(self) -> Drawing:
         """The sheet where the scene stands."""
-        return self.seen.binder.places.drawing
+        return self.binder.places.drawing
 
     def value(self, number: int) -> Any:
         """The value of a step while it moves."""
-        return self.seen.value(number)
+        return self.binder.places.values[number]
 
     def size(self, way: Any) -> Any:
         """How long a way of the mechanism is drawn, in mm."""
-        return abs(self.seen.binder.tape.lifted(way)) * self.seen.binder.field.mm
+        return abs(self.binder.tape.lifted(way)) * self.binder.field.mm
 
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
         """A vector between two points that move."""

@@ -12,8 +12,9 @@ from graphkin.construction.centres.centre_marks import STRAIGHT
 from graphkin.construction.centres.parallel_velocities import BEYOND as BEYOND_TIPS
 from graphkin.construction.centres.parallel_velocities import PARALLEL, parallel_velocities
 from graphkin.construction.core.layout import BEYOND, SWEEP
-from graphkin.construction.core.plot import TINY, above_foot
+from graphkin.construction.core.plot import above_foot
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.too_short import TINY
 from graphkin.construction.higher_class.closing_words import ends_of_bar
 from graphkin.construction.higher_class.misclosure_marks import gap_lines
 from graphkin.construction.higher_class.trial_marks import NEAR as SHORTEST

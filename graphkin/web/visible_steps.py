@@ -58,12 +58,12 @@ class VisibleSteps:
         kind = construction(self.step(number))
         if not isinstance(kind, Component) or self.step(number).plane is not Plane.MECHANISM:
             return None
-        return kind.room(MovingCanvas(self))
+        return kind.room(MovingCanvas(self.binder))
 
     def part_of(self, number: int) -> MovingCanvas:
         """What the marks of a step that is part of a construction are drawn from."""
         if number not in self.parts:
-            self.parts[number] = canvas = MovingCanvas(self)
+            self.parts[number] = canvas = MovingCanvas(self.binder)
             step, kind = self.step(number), construction(self.step(number))
             known = self.binder.places.values
             if kind is not None and all(each in known for _, each in kind.given()):

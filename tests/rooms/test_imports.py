@@ -48,7 +48,6 @@ CIRCLED = {
     "structure.decomposition -> structure.higher_groups",
     "drawing.leaders -> drawing.labels",
     "drawing.overflow -> drawing.labels",
-    "construction.core.curve_marks -> construction.core.drawn_scene",
     "motion.counted -> motion.course",
     "motion.counted -> motion.pieces",
     "mechanism -> documents.notebook",

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any, Protocol
 
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
-from graphkin.construction.core.component import Drawn, component_of
+from graphkin.construction.core.component import TriangleChoice, component_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import Trace
 from graphkin.mechanism import Mechanism
@@ -88,7 +88,9 @@ class Original:
     def by_hand(self, number: int) -> int | None:
         """The step that gives a composite one by hand, where the drawing has it."""
         component, hand = component_of(self.program, number), self.program.steps[number].by_hand
-        if component is not None and component.is_computed(Drawn(self.triangles, self.apart)):
+        if component is not None and component.is_computed(
+            TriangleChoice(self.triangles, self.apart)
+        ):
             return None
         return hand if hand is not None and hand in self.trace.values else None
 

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.construction.core.batch import run_batch
-from graphkin.construction.core.component import Drawn, as_drawn
+from graphkin.construction.core.component import TriangleChoice, as_drawn
 from graphkin.construction.core.program import Part, Plane, Step, Target
 from graphkin.construction.core.run import Trace
 from graphkin.documents.scaling import targets_of
@@ -164,7 +164,7 @@ def drawn_steps(
     program = mechanism.program
     needed = program.needed(targets, by_hand=True)
     trace = Trace(program, dict.fromkeys(needed), {})
-    return tuple(as_drawn(trace, Drawn(triangles, float(apart))).values)
+    return tuple(as_drawn(trace, TriangleChoice(triangles, float(apart))).values)
 
 
 def sketches(

@@ -10,8 +10,9 @@ from graphkin.construction.centres.centre_words import same_centre
 from graphkin.construction.centres.parallel_velocities import put_tips
 from graphkin.construction.core.curve_marks import clipped_path, ring
 from graphkin.construction.core.plan_marks import line_name, name_point
-from graphkin.construction.core.plot import TINY, Plot, above_foot, line_ends
+from graphkin.construction.core.plot import Plot, above_foot, line_ends
 from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import clipped
 from graphkin.drawing.labels import Label
 from graphkin.drawing.marks import CircleMark, LineMark

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
-from graphkin.construction.core.plot import TINY
 from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.core.run import Trace
-from graphkin.construction.core.too_short import is_short
+from graphkin.construction.core.too_short import TINY, is_short
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
 
@@ -107,7 +106,7 @@ class Component(Construction):
                 count += number in drawing.trace.values
         return base if count == 1 else own
 
-    def is_computed(self, scales: Scales | Drawn) -> bool:
+    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
         """Whether sheets give it by number: no triangle holds, or has room, at these scales."""
         raise NotImplementedError
 
@@ -275,14 +274,14 @@ def components_on(drawing: Drawing) -> Iterator[Component]:
 # --- drawn, or given by number -------------------------------------------------------------------
 
 
-class Drawn(NamedTuple):
+class TriangleChoice(NamedTuple):
     """What decides which components are drawn, as scales say it: all, where it is left out."""
 
     triangles: bool = True
     apart: float = 0.0
 
 
-def as_drawn(trace: Trace, scales: Scales | Drawn) -> Trace:
+def as_drawn(trace: Trace, scales: Scales | TriangleChoice) -> Trace:
     """A trace without the steps that only the triangles of components given by number need."""
     steps, left = trace.program.steps, dict(trace.values)
     kinds = (each for each in constructions(trace.program, Component))

@@ -11,10 +11,9 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import Polyline
-from graphkin.drawing.scale import Extent, extent_of
 from graphkin.drawing.style import CENTRODES
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.numbers.plane import Circle, cross
+from graphkin.numbers.plane import Circle
 from graphkin.text import Words
 
 if TYPE_CHECKING:
@@ -24,10 +23,6 @@ CHORDS, FINE = 240, 0.02
 """Straight pieces of a small circle, and how far (mm) those of a large one may leave it."""
 UNSEEN = 0.01
 """How far, in mm, a broken line may pass by corners that are left out."""
-ROOMY = 3.5
-"""A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
-STRAIGHT = 1e-6
-"""How far aside, in parts of its length, a curve may lead that counts as straight."""
 
 
 def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
@@ -50,36 +45,6 @@ def clipped_path(
     for part in getattr(found, "geoms", [found]):
         if part.geom_type == "LineString" and len(part.coords) > 1:
             yield Polyline(tuple((x, y) for x, y in part.coords), cls, name, step)
-
-
-def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
-    """The points of curves for which the drawing makes room.
-
-    Paths and centrodes of the mechanism's size are drawn whole; of wider ones, and of straight
-    ones, where they touch. Of a locus what lies in the field will do.
-    """
-    found: list[complex] = []
-    most = ROOMY * max(mechanism.width, mechanism.height)
-    for curve in curves:
-        if curve.kind == "locus":
-            continue
-        points = [point for run in curve.runs for point in run]
-        box = extent_of(points) if points else mechanism
-        whole = max(box.width, box.height) <= most and not is_straight(points)
-        if curve.kind == "trajectory" or whole:
-            found += points
-        elif curve.now is not None and abs(curve.now - mechanism.middle) <= most:
-            found.append(curve.now)
-    return found
-
-
-def is_straight(points: Sequence[complex]) -> bool:
-    """Whether points all lie on one line, as a rail that a wheel rolls on."""
-    if len(points) < 2:
-        return False
-    start, far = points[0], max(points, key=lambda point: abs(point - points[0]))
-    aside = (abs(cross(far - start, point - start)) for point in points)
-    return bool(max(aside) <= STRAIGHT * abs(far - start) ** 2)
 
 
 def draw_curves(board: FieldContent, drawing: Drawing, field: Field, rect: Rect) -> None:

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.construction.core.amounts import OnPaper
-from graphkin.construction.core.curve_marks import shown
+from graphkin.construction.core.curve_extent import shown
 from graphkin.construction.core.link_poses import LinkPoses
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.run import Trace

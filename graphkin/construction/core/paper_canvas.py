@@ -9,8 +9,9 @@ from typing import Any
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND, SWEEP
-from graphkin.construction.core.plot import TINY, Plot, line_ends, middle
+from graphkin.construction.core.plot import Plot, line_ends, middle
 from graphkin.construction.core.program import Step
+from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import XY
 from graphkin.drawing.labels import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark

@@ -9,8 +9,9 @@ from typing import Any
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import way_of
-from graphkin.construction.core.plot import TINY, Plot, line_part, middle, note_tiny
+from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
 from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import XY
 from graphkin.drawing.labels import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark

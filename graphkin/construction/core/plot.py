@@ -13,8 +13,6 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field, clipped
 from graphkin.drawing.labels import FieldContent
 
-TINY = 0.5
-"""Vectors shorter than this, in mm, are named at the foot of their field."""
 EDGE = 3.0
 """How far from a field's edge lines end that would go on, in mm."""
 FOOT = 6.5

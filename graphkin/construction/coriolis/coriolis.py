@@ -12,7 +12,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import Component, Drawn, LaidOff, Measured, OwnSizes, Size
+from graphkin.construction.core.component import (
+    Component,
+    LaidOff,
+    Measured,
+    OwnSizes,
+    Size,
+    TriangleChoice,
+)
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
@@ -195,7 +202,7 @@ class CoriolisComponent(Component):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def is_computed(self, scales: Scales | Drawn) -> bool:
+    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
         """Its triangles give way where they would leave no room for a larger mechanism."""
         return not scales.triangles
 

@@ -14,7 +14,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import Component, Drawn, LaidOff, Measured, OwnSizes, Size
+from graphkin.construction.core.component import (
+    Component,
+    LaidOff,
+    Measured,
+    OwnSizes,
+    Size,
+    TriangleChoice,
+)
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.naming import plan_amount
 from graphkin.construction.core.pen import Pen, Says, about, against, letter, owned
@@ -157,7 +164,7 @@ class NormalComponent(Component):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def is_computed(self, scales: Scales | Drawn) -> bool:
+    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
         """No right triangle gives it where ka is stated by itself."""
         return bool(scales.apart)
 

@@ -1,0 +1,44 @@
+"""How much of the curves over a whole motion a drawing makes room for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from graphkin.construction.core.solution import Curve
+from graphkin.drawing.scale import Extent, extent_of
+from graphkin.numbers.plane import cross
+
+ROOMY = 3.5
+"""A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
+STRAIGHT = 1e-6
+"""How far aside, in parts of its length, a curve may lead that counts as straight."""
+
+
+def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
+    """The points of curves for which the drawing makes room.
+
+    Paths and centrodes of the mechanism's size are drawn whole; of wider ones, and of straight
+    ones, where they touch. Of a locus what lies in the field will do.
+    """
+    found: list[complex] = []
+    most = ROOMY * max(mechanism.width, mechanism.height)
+    for curve in curves:
+        if curve.kind == "locus":
+            continue
+        points = [point for run in curve.runs for point in run]
+        box = extent_of(points) if points else mechanism
+        whole = max(box.width, box.height) <= most and not is_straight(points)
+        if curve.kind == "trajectory" or whole:
+            found += points
+        elif curve.now is not None and abs(curve.now - mechanism.middle) <= most:
+            found.append(curve.now)
+    return found
+
+
+def is_straight(points: Sequence[complex]) -> bool:
+    """Whether points all lie on one line, as a rail that a wheel rolls on."""
+    if len(points) < 2:
+        return False
+    start, far = points[0], max(points, key=lambda point: abs(point - points[0]))
+    aside = (abs(cross(far - start, point - start)) for point in points)
+    return bool(max(aside) <= STRAIGHT * abs(far - start) ** 2)
