@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from hypothesis.errors import NoSuchExample, UnsatisfiedAssumption
 
 from graphkin.construction.core import vocabulary
+from graphkin.construction.normal_component import normal_component
 from graphkin.numbers.plane import (
     Circle,
     Line,
@@ -369,9 +370,9 @@ def normal_within(normal: Callable, spoke: tuple[complex, complex]) -> bool:
 def normal_by_triangle(pivot: complex, pin: complex, image: complex, image_pin: complex) -> complex:
     """The hand's right triangle, in coordinates."""
     tip = vocabulary.set_velocity(pin, image, image_pin, 1.0)
-    edge, line = vocabulary.square_at(tip, pivot), vocabulary.bar_line(pivot, pin)
-    end = vocabulary.turn_over(vocabulary.meet(edge, line), pin)
-    return vocabulary.normal_by_hand(pin, end, 1.0)
+    edge, line = vocabulary.square_at(tip, pivot), normal_component.bar_line(pivot, pin)
+    end = normal_component.turn_over(vocabulary.meet(edge, line), pin)
+    return normal_component.normal_by_hand(pin, end, 1.0)
 
 
 def normal_by_square(pivot: complex, pin: complex, image: complex, image_pin: complex) -> complex:
@@ -386,7 +387,7 @@ def normal_by_square(pivot: complex, pin: complex, image: complex, image_pin: co
 @MANY
 @given(spokes())
 def test_the_normal_component_is_right_to_2_eps(spoke):
-    assert normal_within(vocabulary.normal, spoke)
+    assert normal_within(normal_component.normal, spoke)
 
 
 @pytest.mark.parametrize("wrong", [normal_by_triangle, normal_by_square])
@@ -472,7 +473,7 @@ def dyad_within(sample: tuple[complex, ...]) -> tuple[bool, bool]:
     square, meet = vocabulary.square_to, vocabulary.meet
     image = meet(square(v, p, x), square(w, q, x))
     corners = (
-        (start + vocabulary.normal(end, x, image_end, image))
+        (start + normal_component.normal(end, x, image_end, image))
         for start, end, image_end in ((a, p, v), (b, q, w))
     )
     lines = [square(c, end, x) for c, end in zip(corners, (p, q), strict=True)]

@@ -14,8 +14,10 @@ from graphkin.construction.centres import centre_actions
 from graphkin.construction.core import vocabulary
 from graphkin.construction.core.program import Given, Part, Plane, Program, Step
 from graphkin.construction.core.vocabulary import Action
+from graphkin.construction.coriolis import coriolis
 from graphkin.construction.guides import guide_actions
 from graphkin.construction.higher_class import trial_actions
+from graphkin.construction.normal_component import normal_component
 from graphkin.construction.rolling import wheel_actions
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.kinds import decimal_kind
@@ -24,9 +26,17 @@ from tests.numbers import number_kinds as nk
 
 STEPS = {
     f"{room.__name__.rpartition('.')[2]}.{name}": value
-    for room in (vocabulary, guide_actions, wheel_actions, centre_actions, trial_actions)
+    for room in (
+        vocabulary,
+        normal_component,
+        coriolis,
+        guide_actions,
+        wheel_actions,
+        centre_actions,
+        trial_actions,
+    )
     for name, value in vars(room).items()
-    if isinstance(value, Action)
+    if isinstance(value, Action) and value.value.__module__ == room.__name__
 }
 """Every action, once, under its module and name."""
 DRAWS = 12
@@ -142,7 +152,8 @@ every_step = pytest.mark.parametrize("name", STEPS)
 
 def test_the_vocabulary_is_there():
     assert len(STEPS) > 110
-    assert {"vocabulary.meet", "guides.coriolis", "wheels.rack_at", "closing.share"} <= set(STEPS)
+    assert {"vocabulary.meet", "coriolis.coriolis", "wheel_actions.rack_at"} <= set(STEPS)
+    assert "trial_actions.share" in STEPS
 
 
 @every_step

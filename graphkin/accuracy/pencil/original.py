@@ -88,9 +88,8 @@ class Original:
     def by_hand(self, number: int) -> int | None:
         """The step that gives a composite one by hand, where the drawing has it."""
         component, hand = component_of(self.program, number), self.program.steps[number].by_hand
-        if component is not None and component.is_computed(
-            TriangleChoice(self.triangles, self.apart)
-        ):
+        choice = TriangleChoice(self.triangles, self.apart)
+        if component is not None and component.is_computed(choice):
             return None
         return hand if hand is not None and hand in self.trace.values else None
 
