@@ -86,9 +86,9 @@ def built(name: str) -> tuple[nk.Work, dict[int, str]]:
     extra: list[Any] = []
     for parameter in inspect.signature(action.value).parameters.values():
         if parameter.kind is parameter.VAR_POSITIONAL:
-            many = "rrpp" if name == "closing.reach" else "pp"
+            many = "rrpp" if name == "trial_actions.reach" else "pp"
             args += [builder.leaf(shape) for shape in many]
-            extra += [2] if name == "closing.reach" else []
+            extra += [2] if name == "trial_actions.reach" else []
         elif parameter.annotation in ("int", "float"):
             extra.append(EXTRA[parameter.name])
         else:
