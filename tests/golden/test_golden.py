@@ -1,0 +1,57 @@
+"""What the program gives is what is committed: an eleventh of it here, all by the command."""
+
+import pytest
+
+from tests.golden.kept import STORE, changed, differences, kept, read
+from tests.golden.works import outputs, works
+
+PERIOD = 11
+
+
+def share() -> list[tuple[str, str]]:
+    """Of every kind of work each eleventh subject, from another one on for the next kind."""
+    kinds: dict[str, list[str]] = {}
+    for subject, names in works().items():
+        for work in names:
+            kinds.setdefault(work, []).append(subject)
+    found = []
+    for number, (work, subjects) in enumerate(kinds.items()):
+        period = min(PERIOD, len(subjects))
+        found += [(subject, work) for subject in subjects[number % period :: period]]
+    return found
+
+
+@pytest.mark.parametrize(("subject", "work"), share())
+def test_nothing_changed(subject, work):
+    """Where a change is meant, ``python -m tests.golden`` writes it down."""
+    stored = {
+        name: text for name, text in read(subject).items() if f"{name} ".startswith(f"{work} ")
+    }
+    assert list(differences(stored, kept(outputs(subject, work)))) == []
+
+
+def test_every_subject_is_tried_and_stored():
+    assert {subject for subject, _ in share()} >= {name for name in works() if "class" not in name}
+    assert {path.stem for path in STORE.glob("*.txt")} == {*works()}
+
+
+@pytest.mark.parametrize(
+    ("stored", "fresh", "told"),
+    [
+        ("x 0.3\ny 0\n", "x 0.30000000000004\ny -1e-17\n", ""),
+        ("x 0.3 y 5\n", "x 0.3 y 5.00001\n", "line 1: 5 became 5.00001 in 'x 0.3 y 5'"),
+        ("a\nx 0.3 m\n", "a\nx 0.3 mm\n", "line 2: 'x 0.3 m' became 'x 0.3 mm'"),
+        ("3 pins\n", "4 pins\n", "line 1: 3 became 4 in '3 pins'"),
+    ],
+)
+def test_the_first_number_or_word_that_changed_is_told(stored, fresh, told):
+    assert changed(stored, fresh) == told
+
+
+def test_what_is_drawn_may_differ_in_the_last_bit_alone():
+    page = '<line x1="12.5"/><text>A 7,1·10⁻¹⁶</text>{"v":0.30000000000000004}'
+    first, *others = (
+        kept({"a.html": page.replace(*change).encode()})
+        for change in [("A", "A"), ("04}", "}"), ("7,1", "5,5"), ("12.5", "12.51"), ("A", "B")]
+    )
+    assert [other == first for other in others] == [True, True, False, False]

@@ -1,0 +1,169 @@
+"""What is run: the command line on every lab and scene, and on a made-up class of every lab.
+
+Everything goes through ``python -m graphkin``, in this process, so that nothing here depends on
+what the modules are called. A work is named by its command line without the scene.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import runpy
+import shutil
+import sys
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from unittest.mock import patch
+from zlib import crc32
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENES = {path.parent.name: path.parent.name for path in sorted(ROOT.glob("sheets/*/scene.toml"))}
+CLASSES = {f"class-{lab}": ROOT / "sheets" / lab for lab in SCENES}
+SCENES |= {f"scene-{path.stem}": str(path) for path in sorted(ROOT.glob("examples/scenes/*.toml"))}
+LANGUAGES = ("ro", "en", "it")
+SAID = (
+    "solve",
+    "solve --json",
+    "solve --asked --pencil 0.25 --digits 30",
+    "check",
+    "explain --json",
+)
+SHEETS = [
+    f"sheet --view {view} --lang {language}{kind}"
+    for kind, views in (("", "key task steps overlay"), (" --format html", "key task steps"))
+    for view in views.split()
+    for language in LANGUAGES
+]
+GRADED, PRINTED = 200, 3
+"""How many are marked in a class, and how many get sheets."""
+TIMES = re.compile(r'("(?:median|low|high|rounds)":) [^,\s]+')
+"""What explain measures."""
+
+Files = dict[str, bytes]
+
+
+def works() -> dict[str, list[str]]:
+    """What is run of every lab, scene and class; the slow page of a cycle in one language."""
+    found = {}
+    for subject in SCENES:
+        language = LANGUAGES[crc32(subject.encode()) % 3]
+        found[subject] = [*SAID, *SHEETS, f"cycle --steps 12 --format html --lang {language}"]
+    return found | {subject: ["grade", "print"] for subject in CLASSES}
+
+
+def outputs(subject: str, work: str) -> Files:
+    """Everything that comes of a work, by the work's name and the file's."""
+    with TemporaryDirectory() as name:
+        if subject in SCENES:
+            said, files = ran(subject, work, Path(name))
+        else:
+            said, files = (graded if work == "grade" else printed)(subject, Path(name))
+    return {f"{work} {name}": data for name, data in files.items()} | (
+        {work: said.replace(f"{name}/", "").replace(f"{ROOT}/", "").encode()} if said else {}
+    )
+
+
+def graphkin(*words: object) -> str:
+    """What a command says on both channels, and its status if it has one."""
+    out, err, status = io.StringIO(), io.StringIO(), ""
+    argv = patch.object(sys, "argv", ["graphkin", *map(str, words)])
+    with argv, redirect_stdout(out), redirect_stderr(err):
+        try:
+            runpy.run_module("graphkin", run_name="__main__")
+        except SystemExit as left:
+            status = f"status {left.code}\n" if left.code else ""
+    return TIMES.sub(r"\1 …", out.getvalue()) + err.getvalue() + status
+
+
+def ran(subject: str, work: str, folder: Path) -> tuple[str, Files]:
+    """What a command says of a scene, and its files; of sheets it only lists them."""
+    command, *options = work.split()
+    options += ["-o", str(folder)] if command in ("sheet", "cycle") else []
+    said, stem = graphkin(command, SCENES[subject], *options), subject.removeprefix("scene-")
+    files = {name.removeprefix(f"{stem}-"): data for name, data in tree(folder).items()}
+    return "" if files and command == "sheet" else said, files
+
+
+def made_up(lab: Path, folder: Path, count: int) -> str:
+    """A class whose codes are always the same, and no two of whom have the same data."""
+    shutil.copytree(lab, folder / "lab")
+    for name, old, new in (
+        ("scene.toml", ", step = 1 ", " "),
+        ("lab.toml", '"number"', f'"1 + 29*(number - 1)/{GRADED - 1}"'),
+    ):
+        text = (folder / "lab" / name).read_text(encoding="utf-8")
+        assert old in text
+        (folder / "lab" / name).write_text(text.replace(old, new), encoding="utf-8")
+    numbers = range(1, GRADED + 1, GRADED // count)[:count]
+    rows = [[str(n), f"s{n:03}", f"Ștefan {n}", LANGUAGES[n % 3]] for n in numbers]
+    write_csv(folder / "class.csv", [["number", "id", "name", "language"], *rows])
+    (folder / "class").mkdir()
+    (folder / "class" / "manifest.json").write_text('{"salt": "golden"}')
+    return graphkin(
+        "variants", folder / "lab", folder / "class.csv", "-o", folder / "class", "--force"
+    )
+
+
+def graded(subject: str, folder: Path) -> tuple[str, Files]:
+    """The variants, tolerances, marks and feedback of a class that is often, not always, right."""
+    said = made_up(CLASSES[subject], folder, GRADED)
+    fields = list(tomllib.loads((folder / "lab" / "lab.toml").read_text(encoding="utf-8"))["marks"])
+    write_csv(folder / "none.csv", [["id", *fields]])
+    grade = ("grade", folder / "class", "--jobs", 1)
+    graphkin(*grade, folder / "none.csv", "-o", folder / "keys", "--format", "none")
+    write_csv(folder / "answers.csv", list(answers(folder / "keys" / "tolerances.csv", fields)))
+    said += graphkin(*grade, folder / "answers.csv", "-o", folder / "report", "--format", "html")
+    variants = [folder / "class" / name for name in ("variants.csv", "manifest.json")]
+    return said, tree(folder / "report") | {path.name: path.read_bytes() for path in variants}
+
+
+def answers(tolerances: Path, fields: Sequence[str]) -> Iterator[Sequence[str]]:
+    """A row of answers for every student, made of the program's key; every eighth wrong alike."""
+    keys: dict[str, dict[str, tuple[float, float]]] = {}
+    for row in csv.DictReader(io.StringIO(tolerances.read_text(encoding="utf-8-sig"))):
+        key, allowed = float(row["key"] or 0), float(row["tolerance"] or 0)
+        keys.setdefault(row["id"], {})[row["field"]] = key, allowed
+    yield ["id", *fields]
+    students = list(keys)
+    for i, who in enumerate(students):
+        own = keys[students[i - 1] if i % 8 == 7 else who]  # or the data of another
+        yield [who, *(answer(i, j, field, own) for j, field in enumerate(fields))]
+
+
+def answer(i: int, j: int, field: str, own: Mapping[str, tuple[float, float]]) -> str:
+    """What student i writes into field j: right, or off in a way, far from the tolerance's edge."""
+    key, allowed = own.get(field.removesuffix("_sense"), (0.0, 0.0))
+    way, hit = i % 8, (i // 8 + j) % 3 == 0
+    if way in (1, 2) and hit:
+        return ("", "about 3")[way - 1]
+    if field.endswith("_sense"):
+        return "-" if (key < 0) != (way == 3) else "+"
+    size = key if field.endswith(("_x_mm", "_y_mm")) else abs(key)
+    if way == 4 or (way == 5 and hit):
+        size += (0.7 if way == 4 else 1.3) * allowed
+    if way == 6 and field.startswith(("omega", "epsilon")):
+        size *= 9.5493  # rev/min for rad/s
+    return f"{size:.4g}"
+
+
+def printed(subject: str, folder: Path) -> tuple[str, Files]:
+    """The sheets of a small class, each in the student's language, and those for the printer."""
+    said = made_up(CLASSES[subject], folder, PRINTED)
+    said += graphkin("print", folder / "class", "--jobs", 1, "--format", "pdf,svg,html")
+    return said, tree(folder / "class" / "print")
+
+
+def tree(folder: Path) -> Files:
+    """All files of a folder by name, but for journals."""
+    files = [path for path in folder.rglob("[!.]*") if path.is_file()]
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def write_csv(path: Path, rows: Sequence[Sequence[str]]) -> None:
+    """Write a table."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)
