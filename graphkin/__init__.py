@@ -4,11 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from graphkin.text.hooks import register
+
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism, load
 
 __all__ = ["Mechanism", "load"]
 __version__ = "0.1.0"
+
+register(
+    does_not_close="graphkin.diagnosis.assembly_failure:does_not_close",
+    refuse_touching="graphkin.diagnosis.assembly_failure:refuse_touching",
+    plot="graphkin.documents.notebook:plot",
+    picture="graphkin.documents.notebook:picture",
+)
 
 
 def __getattr__(name: str) -> Any:

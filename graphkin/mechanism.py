@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from graphkin.construction.compile import write
 from graphkin.construction.core.batch import run_blocks
@@ -26,11 +26,13 @@ from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import Group
 from graphkin.tape.batch_runner import LEAST, BatchRunner
 from graphkin.text.errors import Problem, SceneError
+from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from graphkin.documents.notebook import Which
+Which = Literal["mechanism", "velocity", "acceleration"]
+"""The drawings of a mechanism that can be put into axes."""
 
 DECIDED = 1e-6
 """Sine of a crossing below which it is decided without rounding whether there is one."""
@@ -129,13 +131,10 @@ class Mechanism:
             with kind.working():
                 trace = run(program, needed, self.scene.values_in(kind), kind, overrides=overrides)
         except StepFailed as failed:
-            from graphkin.diagnosis.assembly_failure import does_not_close
-
-            raise does_not_close(self.scene, program, needed, failed) from failed
+            explained = service("does_not_close")(self.scene, program, needed, failed)
+            raise explained from failed
         if kind is FLOAT and min(trace.margins.values(), default=1.0) < DECIDED:
-            from graphkin.diagnosis.assembly_failure import refuse_touching
-
-            refuse_touching(self.scene, trace)
+            service("refuse_touching")(self.scene, trace)
         return trace
 
     def solve(self, *, asked: bool = False) -> Solution:
@@ -263,15 +262,12 @@ class Mechanism:
 
     def plot(self, ax: Axes, which: Which = "velocity", **options: Any) -> Axes:
         """Draw the mechanism or one of its plans into axes of matplotlib (see notebook.plot)."""
-        from graphkin.documents.notebook import plot
-
-        return plot(self, ax, which, **options)
+        drawn: Axes = service("plot")(self, ax, which, **options)
+        return drawn
 
     def _repr_svg_(self) -> str:
         """The first sheet, as a notebook shows it."""
-        from graphkin.documents.notebook import picture
-
-        return picture(self)
+        return str(service("picture")(self))
 
 
 def point_of(scene: Scene, name: str) -> str:

@@ -138,8 +138,8 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     """The ranges in which a course closes, from so many positions, evenly spread."""
     import numpy as np
 
-    from graphkin.motion.counted import led_both
     from graphkin.motion.driving import TURN
+    from graphkin.motion.turns_followed import led_both
 
     sweep = course.sweep
     start = TURN * (sweep.start // TURN) if sweep.whole else sweep.low

@@ -12,10 +12,9 @@ from graphkin.construction.core.plan_marks import DOT
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
 from graphkin.drawing.free_space import FreeDisc, Space
-from graphkin.drawing.labels import SMALL, FieldContent, Label, free_ones
-from graphkin.drawing.leaders import segment_of
+from graphkin.drawing.label import SMALL, Label, segment_of
+from graphkin.drawing.labels import HELPERS, FieldContent, free_ones
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, moved
-from graphkin.drawing.overflow import HELPERS
 from graphkin.drawing.place_labels import finished
 from graphkin.drawing.placement import Spot
 from graphkin.drawing.style import VECTORS

@@ -15,7 +15,8 @@ from graphkin.construction.guides.slide_symbols import places_of
 from graphkin.construction.links.plates import corners_of, farthest
 from graphkin.drawing.field import Field
 from graphkin.drawing.free_space import Space
-from graphkin.drawing.labels import FieldContent, Label, free_ones
+from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FieldContent, free_ones
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, box
 from graphkin.drawing.place_labels import spots_on
 from graphkin.drawing.scale import Scales, extent_of, preferred

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING, get_args
 
 from graphkin.documents.scaling import shown
 from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
 from graphkin.drawing.style import Ink
+from graphkin.mechanism import Mechanism, Which
 from graphkin.text.errors import Problem, SceneError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.mechanism import Mechanism
-
-Which = Literal["mechanism", "velocity", "acceleration"]
 
 
 def picture(mechanism: Mechanism) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -11,16 +11,13 @@ from graphkin.drawing import shapes
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY, clipped
+from graphkin.drawing.label import LED, SMALL, Label
 from graphkin.drawing.leaders import with_leaders
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, box, reach
-from graphkin.drawing.overflow import HELPERS, by_need, placed_after
-from graphkin.drawing.placement import Spot, Wish, place
-from graphkin.drawing.richtext import extent, flowed, words_of
+from graphkin.drawing.marks import Mark, Text, reach
+from graphkin.drawing.placement import Spot, place
+from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.shapes import Array, Box
-
-NUMBER = 2.3
-"""Radius of the circle around a link's number, in mm."""
-
+from graphkin.text.errors import PageError, Problem
 
 ROUNDS = 4
 """How often labels are placed anew with more key numbers before a field counts as full."""
@@ -28,102 +25,12 @@ ASIDE = 15
 """How far a note is moved aside at a time, in mm, where it would stand on lines."""
 LEADING = 4.6
 """Distance of lines of notes in mm, so that indices above and below do not meet."""
-SMALL = 1.8
-"""Height of the smallest lettering in mm."""
 KEY = 4
 """Priority of a key number."""
 NEAR = 0.6
 """How near to a note a label may stand, in mm."""
-GAP, LED = 0.9, 3.4
-"""Clear distance of a label from its subject, and of one that always has a leader, in mm."""
-
-
-@dataclass(frozen=True, slots=True)
-class Label:
-    """A text that wants a place at a subject.
-
-    ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader; ``spare``
-    may be left out in a crowd, for the construction and the tables name it too; ``optional`` is
-    drawn only where there is a place for it at once.
-    """
-
-    markup: str
-    cls: str
-    subject: XY | tuple[XY, XY]
-    height: float = 2.5
-    name: str = ""
-    step: int | None = None
-    away: XY | None = None
-    priority: int = 0
-    radius: float = 0.0
-    ring: bool = False
-    led: bool = False
-    spare: bool = False
-    optional: bool = False
-
-    def size(self) -> tuple[float, float]:
-        """Width and height of the label's box."""
-        width, top, bottom = extent(self.markup, self.height)
-        if self.ring:
-            return max(2 * NUMBER, width + NUMBER), 2 * NUMBER
-        return width, bottom - top
-
-    @property
-    def shrinks(self) -> bool:
-        """True for a letter of the construction that may still be made smaller."""
-        return self.cls == "construction" and self.height > SMALL
-
-    def wish(self) -> Wish:
-        """The box that the label needs, and where."""
-        gap = LED if self.led else GAP
-        width, height = self.size()
-        return Wish(
-            width, height, self.subject, self.away, self.priority, gap, self.radius, self.optional
-        )
-
-    def marks(self, spot: Spot) -> Iterable[Mark]:
-        """The label at its place, with its leader or circle."""
-        leader = spot.leader or (self.short_leader(spot) if self.led else None)
-        if leader:
-            style = f"leader {self.cls}".strip()
-            yield LineMark(*leader[0], *leader[1], style, self.name, self.step)
-        if self.ring:
-            yield self.balloon(spot)
-        yield self.text(spot)
-
-    def balloon(self, spot: Spot) -> Mark:
-        """The circle around a link's number, or the frame around its name."""
-        width, height = self.size()
-        style = f"number {self.cls}".strip()
-        if width <= height:
-            return CircleMark(spot.x, spot.y, NUMBER, style, self.name)
-        return box(spot.x - width / 2, spot.y - height / 2, width, height, style)
-
-    def text(self, spot: Spot) -> Text:
-        """The label's text with the middle of its ink at a place."""
-        width, top, bottom = extent(self.markup, self.height)
-        x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
-        style = f"label {self.cls}".strip()
-        return Text(x, y, self.markup, style, self.height, "start", self.name, self.step)
-
-    def area(self, spot: Spot) -> Rect:
-        """The box that the text's ink takes up at a place."""
-        width, top, bottom = extent(self.markup, self.height)
-        high = (bottom - top) / 2
-        return spot.x - width / 2, spot.y - high, spot.x + width / 2, spot.y + high
-
-    def short_leader(self, spot: Spot) -> tuple[XY, XY]:
-        """From the nearest side of the label's box to the point it names."""
-        x, y = self.subject
-        assert isinstance(x, float) and isinstance(y, float)
-        return self.side(spot, x, y)
-
-    def side(self, spot: Spot, x: float, y: float) -> tuple[XY, XY]:
-        """From the nearest side of the label's box, a little off it, to a place."""
-        half_width, half_height = (side / 2 + 0.3 for side in self.size())
-        near_x = min(max(x, spot.x - half_width), spot.x + half_width)
-        near_y = min(max(y, spot.y - half_height), spot.y + half_height)
-        return (near_x, near_y), (x, y)
+HELPERS = ("construction", "trial")
+"""Classes of letters that a drawing can do without where there is no room for them."""
 
 
 @dataclass
@@ -298,3 +205,78 @@ def near(box: Rect, x: float, y: float) -> bool:
     """True when a box lies within reach of a short leader that starts at a place."""
     far = 2 * LED
     return box[0] - far < x < box[2] + far and box[1] - far < y < box[3] + far
+
+
+# --- a field that is too full: what must be named comes first ------------------------------------
+
+
+def by_need(
+    board: FieldContent, wished: Sequence[Label], meanings: Sequence[str]
+) -> tuple[list[Mark], list[Spot]]:
+    """Place letters of points and numbers first, then names of vectors, helping letters last.
+
+    First the labels as they were wished, then as they stand, with what their key numbers mean.
+    The foot of the field is returned with the places. Raises PageError where a letter or a number
+    of a link finds no place even so.
+    """
+    shortened = board.labels
+    try:
+        board.labels = list(wished)
+        return in_turn(board, board.notes)
+    except PageError:
+        board.labels = shortened
+        return in_turn(board, [*board.notes, *meanings])
+
+
+def in_turn(board: FieldContent, notes: Sequence[str]) -> tuple[list[Mark], list[Spot]]:
+    """Place what must be named before what may be left out.
+
+    What finds no place is taken off the board; vectors that stay without a name are noted at the
+    foot. Raises PageError where a letter or a number finds none.
+    """
+    labels = board.labels
+    vectors = [i for i, label in enumerate(labels) if label.spare]
+    helpers = [i for i, label in enumerate(labels) if label.cls in HELPERS]
+    first = [i for i in range(len(labels)) if i not in {*vectors, *helpers}]
+    left_out: list[int] = []
+    while True:
+        names = ", ".join(dict.fromkeys(labels[i].markup for i in left_out))
+        foot = board.footed([*notes, *([f"{board.unnamed} {names}"] if names else [])])
+        found: dict[int, Spot] = {}
+        for which in (first, [i for i in vectors if i not in left_out], helpers):
+            found |= placed_after(board, foot, found, which)
+        refuse_crowds([labels[i] for i in first], [found[i] for i in first])
+        crowded = [i for i in vectors if i in found and not found[i].free]
+        if not crowded:
+            break
+        left_out = sorted([*left_out, *crowded])
+    kept = [i for i in sorted(found) if found[i].free]
+    board.labels = [labels[i] for i in kept]
+    return foot, [found[i] for i in kept]
+
+
+def placed_after(
+    board: FieldContent, foot: Sequence[Mark], found: Mapping[int, Spot], which: Sequence[int]
+) -> dict[int, Spot]:
+    """The places of some labels, clear of those that have theirs."""
+    taken = [m for i, spot in found.items() if spot.free for m in board.labels[i].marks(spot)]
+    spots = board.spots([*foot, *taken], [board.labels[i] for i in which])
+    return dict(zip(which, spots, strict=True))
+
+
+def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:
+    """Raise PageError naming every label for which there was no free place."""
+    crowded = [
+        label.name or plain(label.markup)
+        for label, spot in zip(labels, spots, strict=True)
+        if not spot.free
+    ]
+    if crowded:
+        raise PageError(
+            Problem(
+                "labels",
+                "does not fit: no free place for " + ", ".join(crowded),
+                "room for every name",
+                "ask for less on one sheet, or choose a position in which less falls together",
+            )
+        )

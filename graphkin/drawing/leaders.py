@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import dist
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphkin.drawing.field import XY, clipped
+from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.marks import LineMark, Mark, Polyline
 from graphkin.drawing.placement import CLEAR, Spot
 from graphkin.drawing.style import VECTORS
-
-if TYPE_CHECKING:
-    from graphkin.drawing.labels import Label
 
 BARS, DIRECTIONS = ("link",), ("construction", "trial")
 """Classes of the bars of a mechanism, and of the lines that a plan is constructed by."""
@@ -121,14 +119,6 @@ def rivals(marks: Sequence[Mark]) -> dict[tuple[str, ...], dict[str, Any]]:
             drawn = np.asarray(shapely.multilinestrings(drawn, indices=which))
         found[kinds] = dict(zip(parts, drawn, strict=True))
     return {**found, BARS: {**found.get(BARS, {}), **plates}}
-
-
-def segment_of(label: Label) -> tuple[XY, XY] | None:
-    """The segment that a label names; None for a point."""
-    first, second = label.subject
-    if isinstance(first, tuple) and isinstance(second, tuple):
-        return first, second
-    return None
 
 
 def leader_to(label: Label, spot: Spot) -> tuple[XY, XY]:

@@ -15,8 +15,8 @@ from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
 from graphkin.construction.rolling.wheel_actions import counted_link
-from graphkin.motion.counted import Turned
 from graphkin.motion.sweep import Sweep
+from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.scene.model import Branch, Scene

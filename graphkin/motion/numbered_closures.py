@@ -14,8 +14,8 @@ import numpy as np
 
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
-from graphkin.motion.counted import following
 from graphkin.motion.course import Course, Reals, spread
+from graphkin.motion.turns_followed import following
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.model import Closure
 from graphkin.text.errors import ClosureError, Problem

@@ -14,7 +14,6 @@ import numpy as np
 
 from graphkin.construction.core.program import Target
 from graphkin.motion.change_points import beyond
-from graphkin.motion.counted import led
 from graphkin.motion.course import Branches, Course, Reals
 from graphkin.motion.driving import GRID, TURN
 from graphkin.motion.ends import Event, next_event
@@ -28,6 +27,8 @@ from graphkin.motion.numbered_closures import (
 )
 from graphkin.motion.refine import TOUCH
 from graphkin.motion.sweep import Sweep
+from graphkin.motion.turns_counted import Turned
+from graphkin.motion.turns_followed import led
 from graphkin.numbers.arithmetic import phase
 from graphkin.text.errors import ClosureError, Problem, SceneError
 
@@ -364,3 +365,16 @@ def marched(course: Course, start: float, stop: float) -> Range:
         here = event
     found = f"more than {MOST_PIECES} change points from {start:.6g} to {stop:.6g}"
     raise ClosureError(Problem("the cycle", found, "fewer", "show less with --from and --to"))
+
+
+def through(pieces: Sequence[Piece]) -> Turned | None:
+    """Near which angles links count on the pieces of a range, one after the other.
+
+    None where none counts.
+    """
+    found: Turned | None = None
+    for piece in pieces:
+        if (turned := piece.course.turned) is not None:
+            part = turned.within(piece.low.at, piece.high.at)
+            found = part if found is None else found.joined(part)
+    return found

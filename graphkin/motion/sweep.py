@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from math import pi
 from typing import Any
 
-from graphkin.motion.counted import named_angles
 from graphkin.motion.driving import GRID, TURN, UNITS, What, stated, timed
+from graphkin.motion.turns_counted import named_angles
 from graphkin.motion.window import usual, window
 from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import Branch, Driver, Scene

@@ -9,15 +9,15 @@ from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from graphkin.scene.model import Driver, Scene
-from graphkin.structure.decomposition import (
+from graphkin.structure.groups import Geared, Group, Higher, Tie, TriedLink
+from graphkin.structure.joints import Joint, Joints, partner, taken
+from graphkin.structure.next_group import (
     next_driven,
     next_group,
     next_stretched,
     next_tie,
     settle,
 )
-from graphkin.structure.groups import Geared, Group, Higher, Tie, TriedLink
-from graphkin.structure.joints import Joint, Joints, partner, taken
 from graphkin.structure.pairs import Contact, Pin
 from graphkin.structure.touching_wheels import radius
 

@@ -13,7 +13,8 @@ from dataclasses import dataclass, field, replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
-from graphkin.drawing.labels import GAP, FieldContent, Label
+from graphkin.drawing.label import GAP, Label
+from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.drawing.placement import Spot
 from graphkin.drawing.richtext import extent

@@ -12,9 +12,9 @@ from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.construction.core.run import Trace
 from graphkin.construction.rolling.wheel_actions import counted_link
 from graphkin.mechanism import Mechanism
-from graphkin.motion.counted import Turned, name_of, through
-from graphkin.motion.pieces import followed
+from graphkin.motion.pieces import followed, through
 from graphkin.motion.sweep import sweep_of
+from graphkin.motion.turns_counted import Turned, name_of
 from graphkin.tape.graph import Graph
 from graphkin.tape.tape_outputs import TapeOutputs
 from graphkin.tape.traced import TracedNumber

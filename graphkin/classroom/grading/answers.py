@@ -16,8 +16,8 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
 from graphkin.classroom.roster.read_roster import NAMES
 from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.sheet_rows import SheetRow
 from graphkin.classroom.roster.spreadsheets import (
-    SheetRow,
     Spreadsheet,
     TableProblems,
     columns,

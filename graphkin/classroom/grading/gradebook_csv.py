@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 
 from graphkin.classroom.grading.gradebook import Cell, Gradebook, GradebookError
-from graphkin.classroom.roster.spreadsheets import MOST_CELLS, bytes_of, separator_of, too_large
+from graphkin.classroom.roster.sheet_rows import MOST_CELLS, too_large
+from graphkin.classroom.roster.spreadsheets import bytes_of, separator_of
 from graphkin.text.errors import Problem
 
 BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}

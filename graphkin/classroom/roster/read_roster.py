@@ -10,13 +10,8 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
-from graphkin.classroom.roster.spreadsheets import (
-    SheetRow,
-    Spreadsheet,
-    TableProblems,
-    columns,
-    read_sheet,
-)
+from graphkin.classroom.roster.sheet_rows import SheetRow
+from graphkin.classroom.roster.spreadsheets import Spreadsheet, TableProblems, columns, read_sheet
 from graphkin.classroom.roster.student import Student
 from graphkin.scene.findings import nearest, shown, visible
 from graphkin.text.errors import Problem

@@ -14,33 +14,26 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.sheet_rows import (
+    LAST_ROW,
+    LONGEST,
+    MOST_CELLS,
+    MOST_COLUMNS,
+    MOST_ROWS,
+    SheetRow,
+    too_large,
+)
 from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import Findings, visible
 from graphkin.text.errors import Problem
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
-MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
-"""Rows that are not empty, columns, and characters of one cell."""
-MOST_CELLS, LAST_ROW = 2_000_000, 1 << 20
-"""Cells of a table, rows times columns; the last row that a spreadsheet has."""
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
 ROW = re.compile(r", row (\d+)")
 """How a problem names its row."""
 ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 """First bytes of an XLSX, which is a ZIP file, and of an XLS."""
-
-
-@dataclass(frozen=True, slots=True)
-class SheetRow:
-    """One row: its line in the file, or its row in the sheet, and its cells by column.
-
-    ``numbers`` are the columns of cells that are numbers in the file, without zeros before them.
-    """
-
-    line: int
-    cells: tuple[str, ...]
-    numbers: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,12 +180,6 @@ def broken(message: str) -> tuple[str, str, str]:
     if "field larger" in message:
         return "a cell that is too long", f"at most {LONGEST} characters", "is a quote missing?"
     return f"cannot be read: {message}", "", ""
-
-
-def too_large(name: str, found: str) -> RosterError:
-    """The error for a table beyond the limits, told as soon as it is found to be."""
-    expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells in all"
-    return RosterError(Problem(name, found, expected))
 
 
 def sheet_of(

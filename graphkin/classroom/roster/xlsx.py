@@ -8,14 +8,12 @@ import zipfile
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
 from datetime import date, datetime
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 from warnings import catch_warnings, simplefilter
 
 from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.sheet_rows import LAST_ROW, MOST_CELLS, SheetRow, too_large
 from graphkin.text.errors import GraphkinError, Problem
-
-if TYPE_CHECKING:
-    from graphkin.classroom.roster.spreadsheets import SheetRow
 
 LARGEST, MOST_ELEMENTS = 64 * 1024 * 1024, 1_000_000
 """Bytes and XML elements of an XLSX unpacked; more is a bomb. A cell with a number has two."""
@@ -26,8 +24,6 @@ PADDED = re.compile(r"0+")
 
 def xlsx_rows(data: bytes, name: str) -> Iterator[SheetRow]:
     """The rows of the sheet that was open last; leading zeros that its format shows are kept."""
-    from graphkin.classroom.roster.spreadsheets import SheetRow
-
     with opened(data, name, data_only=True) as book:
         for number, cells in full_rows(open_sheet(book), name):
             bare = frozenset(i for i, cell in enumerate(cells) if is_bare(cell))
@@ -44,8 +40,6 @@ def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
 
     Cells are those as far as the last of the row. Raises RosterError as soon as there are too many.
     """
-    from graphkin.classroom.roster.spreadsheets import LAST_ROW, MOST_CELLS, too_large
-
     sheet.reset_dimensions()  # what a file says of its size may be anything
     count = 0
     for number, cells in enumerate(sheet.iter_rows(), 1):

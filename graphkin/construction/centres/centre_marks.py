@@ -14,7 +14,7 @@ from graphkin.construction.core.plot import Plot, above_foot, line_ends
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import clipped
-from graphkin.drawing.labels import Label
+from graphkin.drawing.label import Label
 from graphkin.drawing.marks import CircleMark, LineMark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import FIXED, head

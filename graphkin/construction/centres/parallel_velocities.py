@@ -9,7 +9,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import Plot, above_foot
 from graphkin.construction.core.program import Plane, Step
 from graphkin.drawing.field import clipped
-from graphkin.drawing.labels import Label
+from graphkin.drawing.label import Label
 from graphkin.drawing.marks import LineMark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import arrow

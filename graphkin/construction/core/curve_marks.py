@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from graphkin.construction.core.solution import Curve
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
-from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Polyline
 from graphkin.drawing.style import CENTRODES
 from graphkin.drawing.symbol_markup import symbol

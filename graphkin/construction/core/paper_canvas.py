@@ -13,7 +13,7 @@ from graphkin.construction.core.plot import Plot, line_ends, middle
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import XY
-from graphkin.drawing.labels import Label
+from graphkin.drawing.label import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import SHORT, arrow, bearing, square_mark

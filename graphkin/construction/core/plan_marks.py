@@ -13,7 +13,7 @@ from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import XY
-from graphkin.drawing.labels import Label
+from graphkin.drawing.label import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import bar, symbol

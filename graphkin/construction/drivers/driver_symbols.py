@@ -11,7 +11,8 @@ from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.guides.slide_symbols import seat, within
 from graphkin.drawing.field import XY, Field
-from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc, LineMark, Mark
 from graphkin.drawing.symbols import BLOCK, across, arrow, head, turned_arrow
 from graphkin.numbers.plane import cross, dot

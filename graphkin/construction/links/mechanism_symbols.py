@@ -26,7 +26,8 @@ from graphkin.construction.rolling.wheel_symbols import (
     number_beside,
 )
 from graphkin.drawing.field import XY, Field, clipped
-from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, polygon
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol

@@ -11,7 +11,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.slide_symbols import ALIKE, REACH, places_of, seat, within
 from graphkin.construction.rolling.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
 from graphkin.drawing.field import XY, Field
-from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, Mark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import across, hatched

@@ -17,7 +17,8 @@ from graphkin.classroom.roster import spreadsheets, xlsx
 from graphkin.classroom.roster.csv_text import NUMBER, csv_text, safe
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
 from graphkin.classroom.roster.roster_errors import RosterError
-from graphkin.classroom.roster.spreadsheets import MOST_CELLS, SEPARATORS, folded, read_sheet
+from graphkin.classroom.roster.sheet_rows import MOST_CELLS
+from graphkin.classroom.roster.spreadsheets import SEPARATORS, folded, read_sheet
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.xlsx import xlsx_rows
 from graphkin.text.errors import Problem
@@ -366,7 +367,7 @@ def test_a_stray_cell_far_below_costs_no_cells_between(packed):
 def test_a_workbook_far_too_large_is_not_read_to_its_end(packed, monkeypatch, rows, words):
     """No more than the cells that a table may have are looked at."""
     seen = []
-    monkeypatch.setattr(spreadsheets, "LAST_ROW", 1000)
+    monkeypatch.setattr(xlsx, "LAST_ROW", 1000)
     monkeypatch.setattr(xlsx, "cell_text", lambda cell: seen.append(cell) or "")
     (found,) = problems(packed(rows))
     assert words in found

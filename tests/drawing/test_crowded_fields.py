@@ -10,9 +10,9 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
-from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FieldContent, in_turn
 from graphkin.drawing.marks import LineMark, Page, Text
-from graphkin.drawing.overflow import in_turn
 from graphkin.drawing.richtext import plain
 from graphkin.numbers.plane import Vector
 from graphkin.text import words

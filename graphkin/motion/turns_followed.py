@@ -1,26 +1,15 @@
-"""How often links have gone round along a sweep, where wheels depend on it.
-
-A position shows which way a link points and not how often it went round since its wheels stood as
-at the start. Along a motion nothing is open: from place to place the angle goes on. So the angles
-near which links count are followed from the place where the scene says them.
-"""
+"""Links followed along a motion: near which angles they count from place to place."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from graphkin.scene.expression import Name
-from graphkin.scene.model import Scene
-from graphkin.scene.quantity import Quantity
-from graphkin.structure.turn_counting import counted_near
-
-if TYPE_CHECKING:
-    from graphkin.motion.course import Course
-    from graphkin.motion.pieces import Piece
+from graphkin.motion.course import Course
+from graphkin.motion.turns_counted import Turned, name_of
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 QUARTER = 90.0
@@ -34,75 +23,6 @@ PARTS = 16
 """Parts into which a way is cut on which a link goes by a larger step."""
 ENOUGH = 1e-9
 """Share of the way below which it is not cut any more: there a link leaps."""
-
-
-def name_of(link: str) -> str:
-    """The name of the angle near which a link counts; no parameter can be called so."""
-    return f"turned {link}"
-
-
-def named_angles(scene: Scene) -> tuple[dict[str, Quantity], dict[str, Any]]:
-    """The angles near which links count as named values in degrees, and those of the scene."""
-    near = counted_near(scene)
-    values = {name_of(link): degrees_of(angle, scene) for link, angle in near.items()}
-    return {link: named_angle(link) for link in near}, values
-
-
-def named_angle(link: str) -> Quantity:
-    """The named angle near which a link counts."""
-    return Quantity(name_of(link), Name(name_of(link)), "deg")
-
-
-def degrees_of(angle: Quantity, scene: Scene) -> Any:
-    """An angle in degrees, exact where it is stated so."""
-    if angle.unit == "deg":
-        return angle.number(scene.values)
-    return float(np.degrees(angle.si(scene.values)))
-
-
-@dataclass(frozen=True, eq=False)
-class Turned:
-    """Near which angles links count: from each of some places u on (N,), rising, degrees (N,)."""
-
-    at: Reals
-    near: Mapping[str, Reals]
-
-    def values(self, at: Any) -> dict[str, Any]:
-        """The named angles at any places; before the first they are those of the first."""
-        here = np.maximum(np.searchsorted(self.at, at, side="right") - 1, 0)
-        return {name_of(link): row[here] for link, row in self.near.items()}
-
-    def joined(self, other: Turned | None) -> Turned:
-        """With the places of another that follow on these."""
-        if other is None:
-            return self
-        both = {link: np.append(row, other.near[link]) for link, row in self.near.items()}
-        return Turned(np.append(self.at, other.at), both)
-
-    def within(self, low: float, high: float) -> Turned:
-        """The part from one place to another."""
-        here = (low < self.at) & (self.at < high)
-        first = self.values(low)
-        near = {link: np.append(first[name_of(link)], row[here]) for link, row in self.near.items()}
-        return Turned(np.append(low, self.at[here]), near)
-
-    def moved(self, by: float, gone: Mapping[str, float]) -> Turned:
-        """The same motion at other places, where links have gone so much farther (degrees)."""
-        near = {link: row + gone[link] for link, row in self.near.items()}
-        return Turned(self.at + by, near)
-
-
-def through(pieces: Sequence[Piece]) -> Turned | None:
-    """Near which angles links count on the pieces of a range, one after the other.
-
-    None where none counts.
-    """
-    found: Turned | None = None
-    for piece in pieces:
-        if (turned := piece.course.turned) is not None:
-            part = turned.within(piece.low.at, piece.high.at)
-            found = part if found is None else found.joined(part)
-    return found
 
 
 class Followed:

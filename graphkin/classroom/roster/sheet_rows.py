@@ -1,0 +1,31 @@
+"""A row of a table, from whatever file it comes, and how large a table may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.text.errors import Problem
+
+MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
+"""Rows that are not empty, columns, and characters of one cell."""
+MOST_CELLS, LAST_ROW = 2_000_000, 1 << 20
+"""Cells of a table, rows times columns; the last row that a spreadsheet has."""
+
+
+@dataclass(frozen=True, slots=True)
+class SheetRow:
+    """One row: its line in the file, or its row in the sheet, and its cells by column.
+
+    ``numbers`` are the columns of cells that are numbers in the file, without zeros before them.
+    """
+
+    line: int
+    cells: tuple[str, ...]
+    numbers: frozenset[int] = frozenset()
+
+
+def too_large(name: str, found: str) -> RosterError:
+    """The error for a table beyond the limits, told as soon as it is found to be."""
+    expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells in all"
+    return RosterError(Problem(name, found, expected))

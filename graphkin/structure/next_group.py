@@ -1,0 +1,200 @@
+"""The next group that what is known lets one construct: driven links, dyads, trains, ties."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from graphkin.scene.model import FRAME, Driver
+from graphkin.structure.groups import (
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Stretched,
+    Tie,
+    Train,
+)
+from graphkin.structure.joints import Joint, Joints, partner, taken
+from graphkin.structure.pairs import Contact, Pin, Sliding
+
+
+def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
+    """The group's links are known now, and its drivers used."""
+    known.update(group.links)
+    if isinstance(group, Higher):
+        for each in group.chain:
+            settle(each, known, waiting)
+        if isinstance(group.last, Driver):
+            waiting.remove(group.last)
+    elif isinstance(group, Crank | Driven | Stretched):
+        waiting.remove(group.driver)
+
+
+def next_driven(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
+    """The first link, as its driver is written, that a known one drives."""
+    for driver in waiting:
+        for link, against in ((driver.link, driver.against), (driver.against, driver.link)):
+            if link in known or against not in known:
+                continue
+            group = driven_by(joints, known, driver, link, against)
+            if group is not None:
+                return group
+    return None
+
+
+def driven_by(
+    joints: Joints, known: Collection[str], driver: Driver, link: str, against: str
+) -> Crank | Driven | None:
+    """The group of one driven link: a crank about any known pin, or along its own guide."""
+    if driver.kind == "turn":
+        pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
+        return Crank(driver, link, pins[0].point) if pins else turned_wheel(joints, driver, link)
+    wanted = Sliding if driver.kind == "slide" else Contact
+    for pair in joints.between(link, (against,)):
+        if isinstance(pair, wanted) and pair.links[0] == driver.link:
+            assert not isinstance(pair, Pin)
+            return Driven(driver, link, pair)
+    return None
+
+
+def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
+    """A wheel that a driver turns against the straight track on which it rolls."""
+    for pair in joints.between(link, (driver.against,)):
+        if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
+            return Driven(driver, link, pair) if link == driver.link and pair.taken == 2 else None
+    return None
+
+
+def next_group(joints: Joints, known: Collection[str]) -> Group | None:
+    """The first dyad or geared wheel, as written, that closes on known links."""
+    for first in joints.unknown(known):
+        left = joints.between(first, known)
+        if not left:
+            continue
+        if geared := geared_of(first, left, known):
+            return geared
+        if dyad := dyad_with(joints, known, first, left):
+            return dyad
+        if train := train_with(joints, known, first, left):
+            return train
+    return None
+
+
+def train_with(
+    joints: Joints, known: Collection[str], arm: str, left: tuple[Joint, ...]
+) -> Train | None:
+    """The arm of a planet that rolls on two known links, such as a sun and a ring."""
+    if len(left) != 1 or not isinstance(left[0], Pin):
+        return None
+    for wheel in joints.neighbours(arm):
+        if wheel in known:
+            continue
+        inner = joints.inner(arm, wheel, known)
+        outer = joints.between(wheel, known)
+        contacts = [pair for pair in outer if isinstance(pair, Contact) and pair.arm == arm]
+        if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
+            return Train(arm, wheel, left[0], inner[0], (contacts[0], contacts[1]))
+    return None
+
+
+def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> Geared | None:
+    """A link with one pair and a contact that takes a single freedom; more of these are idle.
+
+    A contact settles a turning once the arm that keeps its distance is known too.
+    """
+    ones = [pair for pair in joined if isinstance(pair, Contact) and pair.arm in known]
+    twos = [pair for pair in joined if taken(pair) == 2]
+    return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
+
+
+def dyad_with(
+    joints: Joints, known: Collection[str], first: str, left: tuple[Joint, ...]
+) -> Dyad | None:
+    """The dyad of a link with the first of its neighbours that is joined to known links too."""
+    if len(left) != 1 or taken(left[0]) != 2:
+        return None
+    for second in joints.neighbours(first):
+        if second in known:
+            continue
+        inner = joints.inner(first, second, known)
+        right = joints.between(second, known)
+        if len(inner) == len(right) == 1 and taken(inner[0]) == taken(right[0]) == 2:
+            dyad = Dyad((first, second), left[0], inner[0], right[0])
+            if can_close(dyad):
+                return in_order(dyad)
+    return None
+
+
+def can_close(dyad: Dyad) -> bool:
+    """False for three slides, which leave the group loose, and for wheels pinned off centre."""
+    if isinstance(dyad.inner, Contact) or dyad.type == "PPP":
+        return False
+    wheels = [pair for pair in (dyad.left, dyad.right) if isinstance(pair, Contact)]
+    return not wheels or (isinstance(dyad.inner, Pin) and by_centre(dyad.inner, wheels, dyad.links))
+
+
+def by_centre(inner: Pin, wheels: list[Contact], links: tuple[str, str]) -> bool:
+    """Whether a pin is the centre of the wheels of some links."""
+    return all(pair.wheel.centre == inner.point for pair in wheels if pair.links[0] in links)
+
+
+def in_order(dyad: Dyad) -> Dyad:
+    """The dyad read from its pin: RRP rather than PRR, the driver's side first."""
+    turned = Dyad((dyad.links[1], dyad.links[0]), dyad.right, dyad.inner, dyad.left)
+    if not isinstance(dyad.left, Pin) and isinstance(dyad.right, Pin):
+        return turned
+    both = isinstance(dyad.left, Pin) and isinstance(dyad.right, Pin)
+    if both and FRAME in dyad.left.links and FRAME not in dyad.right.links:
+        return turned
+    return dyad
+
+
+def next_stretched(
+    joints: Joints, known: Collection[str], waiting: list[Driver]
+) -> Stretched | None:
+    """The first dyad, as its driver is written, with a driven cylinder for a bar."""
+    for driver in waiting:
+        if driver.kind != "slide" or driver.link in known or driver.against in known:
+            continue
+        for near, far in ((driver.link, driver.against), (driver.against, driver.link)):
+            left = joints.between(near, known)
+            slides = joints.inner(near, far, known)
+            if len(left) == len(slides) == 1 and isinstance(left[0], Pin):
+                slide = slides[0]
+                if isinstance(slide, Sliding) and not joints.between(far, known):
+                    dyad = stretched_dyad(joints, known, near, far, left[0])
+                    if dyad is not None:
+                        return Stretched(driver, near, slide, left[0], dyad)
+    return None
+
+
+def stretched_dyad(
+    joints: Joints, known: Collection[str], near: str, far: str, pin: Pin
+) -> Dyad | None:
+    """The dyad of a cylinder's far link with its neighbour: three pins, or two and a slide."""
+    foot = Pin(f"{pin.point}@{far}", (far, pin.links[1]))
+    for other in joints.neighbours(far):
+        if other in known or other == near or joints.between(near, (other,)):
+            continue
+        inner, right = joints.inner(far, other, known), joints.between(other, known)
+        alone = len(inner) == len(right) == 1
+        if alone and isinstance(inner[0], Pin) and isinstance(right[0], Pin | Sliding):
+            return Dyad((far, other), foot, inner[0], right[0])
+    return None
+
+
+def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
+    """The first link, as written, that two pins or slides join to known links.
+
+    Two slides on one link leave it free to go along them, if it can go at all.
+    """
+    for link in joints.unknown(known):
+        pairs = joints.between(link, known)
+        if len(pairs) == 2 and all(taken(pair) == 2 for pair in pairs):
+            first, second = sorted(pairs, key=lambda pair: not isinstance(pair, Pin))
+            on_two = isinstance(first, Pin) or partner(first, link) != partner(second, link)
+            if on_two and not isinstance(first, Contact) and not isinstance(second, Contact):
+                return Tie(link, first, second)
+    return None
