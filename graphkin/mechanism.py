@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from graphkin.construction.compile import write
 from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.core.results import decided, gathered, product_of_sines, row_of, rows_of
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.solution import Solution, Verdict
@@ -91,18 +92,12 @@ class Mechanism:
 
     def asked(self) -> tuple[Target, ...]:
         """What the scene asks for, as targets of the program; everything when it asks nothing."""
-        ask = self.scene.ask
-        wanted = [("velocity", point_of(self.scene, name)) for name in ask.velocity]
-        wanted += [("acceleration", point_of(self.scene, name)) for name in ask.acceleration]
-        wanted += [("omega", link) for link in ask.omega]
-        wanted += [("epsilon", link) for link in ask.epsilon]
-        wanted += [("centre", name) for name in (*ask.centres, *ask.centrodes, *ask.pairs)]
-        wanted += [("position", point) for point in ask.curves]
-        for what in ("inflection", "inflection centre"):
-            wanted += [(what, link) for link in ask.inflection]
-        wanted += [("pole", link) for link in ask.poles]
-        for block in ask.slides:
-            wanted += [(what, block) for what in ("slide", "slide speed", "slide acceleration")]
+        wanted = [
+            (quantity.target, point_of(self.scene, name))
+            for key, some in ASKED.items()
+            for name in getattr(self.scene.ask, key)
+            for quantity in some
+        ]
         return tuple(target for target in wanted or self.program.answers if self.gives(target))
 
     def gives(self, target: Target) -> bool:

@@ -14,6 +14,7 @@ from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
 from graphkin.cli.report.motion_report import heading, scale_lines, verdict_words
 from graphkin.cli.report.solution_record import Record, motion_of
 from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.quantities import CENTRES, QUANTITIES, RATES, SLIDING, held
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.core.solution import (
@@ -34,23 +35,11 @@ from graphkin.text.plain_table import table
 
 FAR = "at infinity, or too far to tell: not decided"
 NOWHERE = "none: at infinity, or the link is at rest"
-TURNING = ("omega", "epsilon")
-CENTRES = {"instant_centre": "centre", "acceleration_pole": "pole"}
-SLIDES = {"position": "slide", "speed": "slide speed", "acceleration": "slide acceleration"}
-"""Targets of the program by the keys of the record."""
 SECTIONS = {"points": "point", "links": "link", "centres": "links", "slides": "block"}
 """The parts of the record that hold certified digits, with the head of their names."""
-QUANTITIES = {
+CALLED = {
+    **{each.attribute: (each.words, each.unit) for each in QUANTITIES if each.words},
     "": ("centre of both", "m"),
-    "position": ("position", "m"),
-    "velocity": ("velocity", "m/s"),
-    "speed": ("speed", "m/s"),
-    "acceleration": ("acceleration", "m/s²"),
-    "coriolis": ("Coriolis", "m/s²"),
-    "omega": ("ω", "rad/s"),
-    "epsilon": ("ε", "rad/s²"),
-    "instant_centre": ("instantaneous centre", "m"),
-    "acceleration_pole": ("acceleration pole", "m"),
     "inflection": ("inflection circle", "m"),
     "inflection.pole": ("inflection pole", "m"),
     "inflection.centre": ("inflection circle, centre", "m"),
@@ -200,15 +189,15 @@ def point(name: str, entry: Record, solution: Solution, printer: Printer) -> Rec
 def link(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
     """Turning and centres of a link, those of its entry in floats."""
     motion, path = solution.links[name], f"links.{name}"
+    targets = {each.attribute: each for each in (*RATES, *CENTRES)}
     record: Record = {}
     for key in entry:
-        if key in TURNING:
-            record[key] = printer.real(f"{path}.{key}", getattr(motion, key), (key, name))
-        elif key in CENTRES:
-            target = CENTRES[key], name
-            record[key] = printer.centre(f"{path}.{key}", getattr(motion, key), target)
-        else:
+        quantity = targets.get(key)
+        if quantity is None:
             record[key] = inflection(f"{path}.{key}", name, motion, printer)
+            continue
+        printed = printer.real if quantity in RATES else printer.centre
+        record[key] = printed(f"{path}.{key}", held(motion, quantity), (quantity.target, name))
     return record
 
 
@@ -236,8 +225,8 @@ def slide(name: str, solution: Solution, printer: Printer) -> Record:
     """Motion of a block along its guide; a guide that does not turn has no Coriolis vector."""
     motion, path = solution.slides.get(name, SlideMotion()), f"slides.{name}"
     record: Record = {
-        key: printer.real(f"{path}.{key}", getattr(motion, key), (target, name))
-        for key, target in SLIDES.items()
+        q.attribute: printer.real(f"{path}.{q.attribute}", held(motion, q), (q.target, name))
+        for q in SLIDING.values()
     }
     target = "coriolis", name
     still = motion.coriolis is None and target not in printer.targets
@@ -293,7 +282,7 @@ def quantity(path: str, place: str) -> str:
     """What a path in an entry is called, with its unit."""
     *keys, last = path.removeprefix(place).strip(".").split(".")
     axis = [last] if last in ("x", "y") else []
-    words, unit = QUANTITIES[".".join(keys if axis else [*keys, last])]
+    words, unit = CALLED[".".join(keys if axis else [*keys, last])]
     return f"{' '.join([*filter(None, [words]), *axis])}, {unit}"
 
 

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
+from graphkin.construction.core.quantities import (
+    OF_POINTS,
+    OF_SLIDES,
+    RATES,
+    MotionQuantity,
+    Sort,
+    held,
+)
 from graphkin.numbers.plane import Ratio
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
 
 Column = tuple[str, Any]
-POINT = (("position", "", "m"), ("velocity", "v", "m/s"), ("acceleration", "a", "m/s^2"))
-SLIDE = (("position", "s", "m"), ("speed", "v", "m/s"), ("acceleration", "a", "m/s^2"))
 
 
 def cycle_table(cycle: Cycle) -> str:
@@ -64,20 +70,29 @@ def of_points(cycle: Cycle) -> Iterator[Column]:
     for name, motion in cycle.sure.points.items():
         if name in cycle.scene.frame.points:
             continue
-        for quantity, letter, unit in POINT:
-            value = getattr(motion, quantity)
-            if value is not None:
-                yield f"{letter}x_{name} [{unit}]", value.real
-                yield f"{letter}y_{name} [{unit}]", value.imag
+        yield from own(motion, OF_POINTS, name)
+
+
+def own(motion: Any, quantities: Iterable[MotionQuantity], name: str) -> Iterator[Column]:
+    """Some quantities of a motion, those that are not numbers by components."""
+    for quantity in quantities:
+        value, tail = held(motion, quantity), f"_{name} [{quantity.caret_unit}]"
+        if value is None:
+            continue
+        if quantity.sort is Sort.NUMBER:
+            yield quantity.letter + tail, value
+        else:
+            yield f"{quantity.letter}x{tail}", value.real
+            yield f"{quantity.letter}y{tail}", value.imag
 
 
 def of_links(cycle: Cycle) -> Iterator[Column]:
     """Angular velocity and acceleration and the instantaneous centre of every link."""
     for name, motion in cycle.sure.links.items():
-        if motion.omega is not None:
-            yield f"omega_{name} [rad/s]", motion.omega
-        if motion.epsilon is not None:
-            yield f"epsilon_{name} [rad/s^2]", motion.epsilon
+        for rate in RATES:
+            value = held(motion, rate)
+            if value is not None:
+                yield f"{rate.target}_{name} [{rate.caret_unit}]", value
         centre = motion.instant_centre
         if isinstance(centre, Ratio):
             import numpy as np
@@ -91,10 +106,4 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
 def of_slides(cycle: Cycle) -> Iterator[Column]:
     """Coordinate, speed and acceleration of every block along its guide, and Coriolis vector."""
     for name, motion in cycle.sure.slides.items():
-        for quantity, letter, unit in SLIDE:
-            value = getattr(motion, quantity)
-            if value is not None:
-                yield f"{letter}_slide_{name} [{unit}]", value
-        if motion.coriolis is not None:
-            yield f"cx_slide_{name} [m/s^2]", motion.coriolis.real
-            yield f"cy_slide_{name} [m/s^2]", motion.coriolis.imag
+        yield from own(motion, OF_SLIDES, f"slide_{name}")

@@ -9,6 +9,7 @@ from typing import Any
 from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.solution_record import Record, settings_words
 from graphkin.cli.report.unsure_words import digits_words, is_unsure, unsure_words
+from graphkin.construction.core.quantities import CENTRES, OF_POINTS, RATES, SLIDING, Sort, held
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.diagnosis.singularity_words import beside_dead_point
@@ -24,10 +25,11 @@ from graphkin.documents.centre_tables import (
 from graphkin.scene.model import Scene
 from graphkin.text.plain_table import Cell, cleaned, number, table
 
+COLUMNS = {Sort.PLACE: ("x", "y"), Sort.VECTOR: ("x", "y", "")}
+"""The components of each sort, the magnitude last."""
 POINT_HEADS = {
-    "position": ("x, m", "y, m"),
-    "velocity": ("vx, m/s", "vy, m/s", "v, m/s"),
-    "acceleration": ("ax, m/s²", "ay, m/s²", "a, m/s²"),
+    each.attribute: [f"{each.letter}{part}, {each.unit}" for part in COLUMNS[each.sort]]
+    for each in OF_POINTS
 }
 
 
@@ -79,15 +81,15 @@ def components(pair: list[float | None] | None, biggest: float, columns: int) ->
 
 def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
     """ω and ε of each link, with their senses in words; ε beside ω² may be rounding."""
-    turning = largest(link.omega for link in solution.links.values())
-    twist = max(turning**2, largest(link.epsilon for link in solution.links.values()))
+    biggest = 0.0
     heads: list[str] = ["link"]
     columns: list[list[Cell]] = [list(links)]
-    for key, head, biggest in (("omega", "ω, rad/s", turning), ("epsilon", "ε, rad/s²", twist)):
-        values = [link.get(key) for link in links.values()]
+    for rate in RATES:
+        values = [link.get(rate.attribute) for link in links.values()]
+        biggest = max(biggest**2, largest(held(link, rate) for link in solution.links.values()))
         if any(value is not None for value in values):
             clean = [None if value is None else cleaned(value, biggest) for value in values]
-            heads += [head, f"sense of {head[0]}"]
+            heads += [f"{rate.letter}, {rate.unit}", f"sense of {rate.letter}"]
             columns += [list(clean), [sense(value) for value in clean]]
     unsure = {name for name, link in solution.links.items() if is_unsure(link)}
     every = zip(*columns, strict=True)
@@ -105,10 +107,7 @@ def sense(value: float | None) -> str | None:
 def centres_table(scene: Scene, solution: Solution, links: Mapping[str, Record]) -> list[str]:
     """Instantaneous centre and acceleration pole of each link that has them reported."""
     full, breadth = completed(scene, solution), breadth_of(solution)
-    kinds = {
-        "instant_centre": "instantaneous centre, m",
-        "acceleration_pole": "acceleration pole, m",
-    }
+    kinds = {each.attribute: f"{each.words}, {each.unit}" for each in CENTRES}
     known = [key for key in kinds if any(key in link for link in links.values())]
     rows: list[list[Cell]] = []
     for name, link in links.items():
@@ -131,19 +130,12 @@ def acceleration_of(scene: Scene, solution: Solution, link: str) -> complex | No
 
 def slides_table(slides: Mapping[str, Record]) -> list[str]:
     """Motion of each block along its guide, and its Coriolis vector."""
-    heads = [
-        "block",
-        "position, m",
-        "speed, m/s",
-        "acceleration, m/s²",
-        "Coriolis x, m/s²",
-        "y, m/s²",
-    ]
-    keys = ("position", "speed", "acceleration")
+    heads = [f"{each.words}, {each.unit}" for each in SLIDING.values()]
+    keys = [each.attribute for each in SLIDING.values()]
     rows: list[list[Any]] = [
         [name, *(slide[key] for key in keys), *slide["coriolis"]] for name, slide in slides.items()
     ]
-    return table(heads, rows) if rows else []
+    return table(["block", *heads, "Coriolis x, m/s²", "y, m/s²"], rows) if rows else []
 
 
 def scale_lines(scales: Mapping[str, float | None]) -> list[str]:

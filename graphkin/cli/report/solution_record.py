@@ -7,6 +7,14 @@ from fractions import Fraction
 from math import isfinite
 from typing import Any, Protocol
 
+from graphkin.construction.core.quantities import (
+    CENTRES,
+    OF_POINTS,
+    RATES,
+    SLIDING,
+    MotionQuantity,
+    held,
+)
 from graphkin.construction.core.solution import (
     LinkMotion,
     PointMotion,
@@ -18,7 +26,7 @@ from graphkin.documents.centre_tables import breadth_of, completed, place_of
 from graphkin.scene.model import Scene
 
 Record = dict[str, Any]
-Wanted = Callable[[str, str], bool]
+Wanted = Callable[[MotionQuantity, str], bool]
 """Whether a quantity of a point, link or block is to be reported."""
 
 
@@ -73,21 +81,7 @@ def drawn_at(scales: ReportedScales | None, verdict: Verdict | None) -> Record:
 
 def wanted_of(scene: Scene, asked: bool) -> Wanted:
     """Everything, or only what [ask] asks."""
-    if not asked:
-        return lambda quantity, of: True
-    ask = scene.ask
-    names = {
-        "position": ask.curves,
-        "velocity": ask.velocity,
-        "acceleration": ask.acceleration,
-        "omega": ask.omega,
-        "epsilon": ask.epsilon,
-        "instant_centre": ask.centres,
-        "acceleration_pole": ask.poles,
-        "inflection": ask.inflection,
-        "slide": ask.slides,
-    }
-    return lambda quantity, of: of in names.get(quantity, ())
+    return lambda quantity, of: not asked or of in getattr(scene.ask, quantity.asked_by[0])
 
 
 def point_names(scene: Scene, solution: Solution) -> list[str]:
@@ -116,28 +110,21 @@ def named(names: Any, entry: Callable[[str], Record]) -> Record:
 
 def point(name: str, motion: PointMotion | None, wanted: Wanted) -> Record:
     """Position, velocity and acceleration of a point, those that are wanted and known."""
-    assert motion is not None
-    found = {
-        "position": motion.position,
-        "velocity": motion.velocity,
-        "acceleration": motion.acceleration,
-    }
-    return {
-        key: pair(value) for key, value in found.items() if value is not None and wanted(key, name)
-    }
+    found = {q.attribute: held(motion, q) for q in OF_POINTS if wanted(q, name)}
+    return {key: pair(value) for key, value in found.items() if value is not None}
 
 
 def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Record:
     """Turning of a link, and its centres or null where they are at infinity."""
-    turning = {"omega": motion.omega, "epsilon": motion.epsilon}
-    centres = {
-        "instant_centre": place_of(motion.instant_centre, breadth),
-        "acceleration_pole": place_of(motion.acceleration_pole, breadth),
+    *places, circle = CENTRES
+    found: Record = {
+        **{q.attribute: real(held(motion, q)) for q in RATES if wanted(q, name)},
+        **{
+            q.attribute: pair(place_of(held(motion, q), breadth)) for q in places if wanted(q, name)
+        },
     }
-    found: Record = {key: real(value) for key, value in turning.items() if wanted(key, name)}
-    found |= {key: pair(value) for key, value in centres.items() if wanted(key, name)}
-    if motion.inflection_pole is not None and wanted("inflection", name):
-        found["inflection"] = inflection(motion, breadth)
+    if motion.inflection_pole is not None and wanted(circle, name):
+        found[circle.target] = inflection(motion, breadth)
     return found
 
 
@@ -160,14 +147,8 @@ def centres(scene: Scene, solution: Solution) -> Record:
 
 def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
     """Motion of a block along its guide; a guide that does not turn has no Coriolis vector."""
-    if not wanted("slide", name):
-        return {}
-    return {
-        "position": real(motion.position),
-        "speed": real(motion.speed),
-        "acceleration": real(motion.acceleration),
-        "coriolis": pair(motion.coriolis if motion.coriolis is not None else 0j),
-    }
+    found = {q.attribute: real(held(motion, q)) for q in SLIDING.values() if wanted(q, name)}
+    return found and found | {"coriolis": pair(motion.coriolis or 0j)}
 
 
 def witness(verdict: Verdict | None) -> Record:

@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 from graphkin.construction.core.program import CONTACT, Part
+from graphkin.construction.core.quantities import QUANTITIES, Whose
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
 from graphkin.numbers.arithmetic import Real, least
@@ -14,43 +15,40 @@ from graphkin.numbers.plane import Ratio
 
 TOUCHING = 8
 """Sine of a crossing, in roots of eps, at which two loci count as touching in a batch."""
-POINT = ("position", "velocity", "acceleration")
-LINK = ("omega", "epsilon", "centre", "pole", "inflection")
-SLIDE = ("slide", "slide speed", "slide acceleration", "coriolis")
 ALL = -1
 """Where a merged trace has the product of its sines, beside the smallest of them."""
 
 
 def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
     """The solution that a trace holds, links in the given order; what was not run is None."""
-    motions = {name: found for name, found in of_kind(trace, LINK) if "-" not in name}
-    centres = {name: trace.value("centre", name) for name, _ in of_kind(trace, ("centre",))}
+    turning = motions(trace, Whose.LINK)
+    pairs = {name: turning.pop(name)["instant_centre"] for name in [*turning] if "-" in name}
     return Solution(
-        points={name: PointMotion(*found) for name, found in of_kind(trace, POINT)},
-        links={n: link_motion(trace, n, motions[n]) for n in links or motions if n in motions},
-        slides={name: SlideMotion(*found) for name, found in of_kind(trace, SLIDE)},
+        points={name: PointMotion(**own) for name, own in motions(trace, Whose.POINT).items()},
+        links={n: LinkMotion(**turning[n]) for n in links or turning if n in turning},
+        slides={name: SlideMotion(**own) for name, own in motions(trace, Whose.SLIDE).items()},
         margin=smallest_margin(trace),
-        centres={name: found for name, found in centres.items() if "-" in name},
+        centres=pairs,
     )
 
 
-def link_motion(trace: Trace, link: str, found: list[Any]) -> LinkMotion:
-    """The motion of a link; the centre on its inflection circle is its instantaneous centre."""
-    motion = LinkMotion(*found)
-    if motion.instant_centre is None:
-        return replace(motion, instant_centre=trace.value("inflection centre", link))
-    return motion
+def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
+    """What is known of each point, link or block of which anything is.
 
-
-def of_kind(trace: Trace, quantities: tuple[str, ...]) -> Iterable[tuple[str, list[Any]]]:
-    """The values of some quantities of each point or link that has any of them."""
-    names = dict.fromkeys(of for quantity, of in trace.program.targets if quantity in quantities)
-    for name in names:
-        if name.startswith(CONTACT):
-            continue
-        found = [trace.value(quantity, name) for quantity in quantities]
-        if any(value is not None for value in found):
-            yield name, found
+    Of two ways to one, such as the centre on an inflection circle, the first that is known counts.
+    """
+    ways = {each.target: each.attribute for each in reversed(QUANTITIES) if each.whose is whose}
+    names = dict.fromkeys(of for target, of in trace.program.targets if target in ways)
+    found = {
+        name: {
+            attribute: value
+            for target, attribute in ways.items()
+            if (value := trace.value(target, name)) is not None
+        }
+        for name in names
+        if not name.startswith(CONTACT)
+    }
+    return {name: own for name, own in found.items() if own}
 
 
 def merged(trace: Trace) -> Trace:

@@ -1,0 +1,141 @@
+"""The quantities of a motion: whose each is, how it is written, on which sheet it is found.
+
+Every table of quantities is made from these: what [ask] asks for, what a solution holds, what
+reports, forms and measurements on paper call it, and in which unit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from graphkin.construction.core.program import Plane
+
+KINDS = ("position", "velocity", "acceleration")
+"""The derivatives; the last two are also the plans and the sheets that show them."""
+PLANES = dict(zip(KINDS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS), strict=True))
+
+
+class Whose(Enum):
+    """What has a quantity, by the part of a solution that holds it."""
+
+    POINT = "points"
+    LINK = "links"
+    SLIDE = "slides"
+
+
+class Sort(Enum):
+    """What sort of value it is: a vector of a plan, a number, or a place on the mechanism."""
+
+    VECTOR = "vector"
+    NUMBER = "number"
+    PLACE = "place"
+
+
+@dataclass(frozen=True, slots=True)
+class MotionQuantity:
+    """One quantity: ``target`` is its name in a program, ``attribute`` that in a solution.
+
+    ``kind`` is the derivative that it is, or by which a centre is found; ``asked_by`` are the keys
+    of [ask], the first of which has it reported. What has no ``words`` is there for another.
+    """
+
+    target: str
+    whose: Whose
+    attribute: str
+    kind: str
+    sort: Sort
+    letter: str
+    unit: str
+    words: str
+    asked_by: tuple[str, ...]
+
+    @property
+    def plane(self) -> Plane:
+        """The drawing in which it is measured."""
+        return Plane.MECHANISM if self.sort is Sort.PLACE else PLANES[self.kind]
+
+    @property
+    def caret_unit(self) -> str:
+        """The unit as heads of columns and marked-up text write it: m/s^2."""
+        return self.unit.replace("²", "^2")
+
+
+def of_point(kind: str, sort: Sort, letter: str, unit: str, key: str) -> MotionQuantity:
+    """A quantity of points, which is called alike everywhere."""
+    return MotionQuantity(kind, Whose.POINT, kind, kind, sort, letter, unit, kind, (key,))
+
+
+def of_link(
+    target: str, attribute: str, kind: str, letter: str, unit: str, words: str, *keys: str
+) -> MotionQuantity:
+    """A rate of links, or a place (in m) that belongs to one."""
+    sort = Sort.PLACE if unit == "m" else Sort.NUMBER
+    return MotionQuantity(target, Whose.LINK, attribute, kind, sort, letter, unit, words, keys)
+
+
+def of_slide(target: str, attribute: str, kind: str, letter: str, unit: str) -> MotionQuantity:
+    """The motion of blocks along their guides."""
+    more = (Sort.NUMBER, letter, unit, attribute, ("slides",))
+    return MotionQuantity(target, Whose.SLIDE, attribute, kind, *more)
+
+
+QUANTITIES = (
+    of_point("velocity", Sort.VECTOR, "v", "m/s", "velocity"),
+    of_point("acceleration", Sort.VECTOR, "a", "m/s²", "acceleration"),
+    of_link("omega", "omega", "velocity", "ω", "rad/s", "ω", "omega"),
+    of_link("epsilon", "epsilon", "acceleration", "ε", "rad/s²", "ε", "epsilon"),
+    of_link(
+        *("centre", "instant_centre", "velocity", "I", "m", "instantaneous centre"),
+        *("centres", "pairs", "centrodes"),
+    ),
+    of_point("position", Sort.PLACE, "", "m", "curves"),
+    of_link("pole", "acceleration_pole", "acceleration", "J", "m", "acceleration pole", "poles"),
+    of_link(
+        *("inflection", "inflection_pole", "acceleration", "W", "m", "inflection pole"),
+        "inflection",
+    ),
+    of_link("inflection centre", "instant_centre", "velocity", "I", "m", "", "inflection"),
+    of_slide("slide", "position", "position", "s", "m"),
+    of_slide("slide speed", "speed", "velocity", "v", "m/s"),
+    of_slide("slide acceleration", "acceleration", "acceleration", "a", "m/s²"),
+    MotionQuantity(
+        *("coriolis", Whose.SLIDE, "coriolis", "acceleration", Sort.VECTOR),
+        *("c", "m/s²", "Coriolis", ()),
+    ),
+)
+"""All of them, in the order in which they are asked for."""
+BY_TARGET = {each.target: each for each in QUANTITIES}
+ASKED = {
+    key: tuple(each for each in QUANTITIES if key in each.asked_by)
+    for key in dict.fromkeys(key for each in QUANTITIES for key in each.asked_by)
+}
+"""What each key of [ask] asks for."""
+
+
+def those(whose: Whose, *sorts: Sort) -> tuple[MotionQuantity, ...]:
+    """The reported quantities of points, links or blocks, of some sorts, by their derivatives."""
+    found = [each for each in QUANTITIES if each.whose is whose and each.sort in sorts]
+    return tuple(sorted(filter(lambda q: q.words, found), key=lambda q: KINDS.index(q.kind)))
+
+
+OF_POINTS = those(Whose.POINT, *Sort)
+RATES = those(Whose.LINK, Sort.NUMBER)
+CENTRES = those(Whose.LINK, Sort.PLACE)
+OF_SLIDES = those(Whose.SLIDE, *Sort)
+MOTION = {each.kind: each for each in OF_POINTS}
+RATE = {each.kind: each for each in RATES}
+SLIDING = {each.kind: each for each in OF_SLIDES if each.sort is Sort.NUMBER}
+"""The quantity of points, of links and of blocks that each sheet is about."""
+
+
+def held(motion: Any, quantity: MotionQuantity) -> Any:
+    """The value that a motion has of a quantity; None where it is not known."""
+    return getattr(motion, quantity.attribute)
+
+
+def found_on(sheet: str) -> tuple[str, ...]:
+    """The targets that can be asked of one sheet."""
+    every = (each for each in QUANTITIES if each.words and each.asked_by)
+    return tuple(each.target for each in every if each.kind == sheet)
