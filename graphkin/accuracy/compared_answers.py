@@ -16,14 +16,13 @@ import numpy as np
 
 from graphkin.accuracy.compared_positions import ComparedPositions
 from graphkin.construction.core.program import CONTACT, Program, Target
+from graphkin.construction.core.quantities import KINDS, SLIDING
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.motion.course import Reals
 from graphkin.numbers.arithmetic import is_ball, is_decimal
 from graphkin.numbers.kinds import ball_kind
 from graphkin.text.errors import GraphkinError, Problem, WitnessError
 
-QUANTITIES = ("position", "velocity", "acceleration")
-OF_BLOCKS = ("slide", "slide speed", "slide acceleration")
 BITS = 640
 """Bits of the reference: some two hundred more than any method has."""
 ROOM = 64
@@ -55,10 +54,10 @@ def answers_of(program: Program) -> ComparedTargets:
     """
     known = program.targets
     found: list[tuple[Target, ...]] = []
-    points = of_all(known, QUANTITIES)
-    blocks = of_all(known, OF_BLOCKS)
-    for mine, theirs in zip(QUANTITIES, OF_BLOCKS, strict=True):
-        found.append((*((mine, p) for p in points), *((theirs, b) for b in blocks)))
+    theirs = [SLIDING[kind].target for kind in KINDS]
+    points, blocks = of_all(known, KINDS), of_all(known, theirs)
+    for mine, other in zip(KINDS, theirs, strict=True):
+        found.append((*((mine, p) for p in points), *((other, b) for b in blocks)))
     return ComparedTargets(tuple(found))
 
 
@@ -181,7 +180,7 @@ def size(value: Any) -> float:
 
 def sizes_of(found: Found, answers: ComparedTargets) -> list[float]:
     """Largest distance of two points, largest speed, largest acceleration of one position."""
-    places = [found[t] for t in answers.targets[0] if t[0] == QUANTITIES[0]]
+    places = [found[t] for t in answers.targets[0] if t[0] == "position"]
     spread = max((size(p - q) for p, q in combinations(places, 2)), default=0.0)
     rest = [max((size(found[t]) for t in some), default=0.0) for some in answers.targets[1:]]
     return [spread or max((size(p) for p in places), default=0.0), *rest]

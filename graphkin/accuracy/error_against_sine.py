@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.accuracy.compared_answers import QUANTITIES
 from graphkin.accuracy.error_against_time import A4
 from graphkin.accuracy.flattening import LAW, LOST, Flattening
 from graphkin.accuracy.pencil_rows import FINE
 from graphkin.accuracy.point_names import GREY, PointName, name_points
 from graphkin.accuracy.study import Study
+from graphkin.construction.core.quantities import KINDS
 from graphkin.motion.course import Reals
 from graphkin.writers.plot_style import COLOURS, INK, PALE, heading, new_figure, titled
 
@@ -44,7 +44,7 @@ def slopes(study: Study, machine: str) -> Figure | None:
     titled(figure, title_of(study), fontweight="bold", fontsize=12.5)
     for n, ax in enumerate(panels):
         ends = panel(ax, study, n)
-        heading(ax, TITLES[n] if to_end else QUANTITIES[n].capitalize())
+        heading(ax, TITLES[n] if to_end else KINDS[n].capitalize())
         ax.set_xlabel(along_words(found))
         ax.text(
             0.02, 0.02, told(study, n), transform=ax.transAxes, ha="left", va="bottom",

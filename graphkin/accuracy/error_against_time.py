@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from math import isfinite, log10
 from typing import TYPE_CHECKING, Any
 
-from graphkin.accuracy.compared_answers import QUANTITIES
 from graphkin.accuracy.methods import MethodRow
 from graphkin.accuracy.pencil_rows import PENCILS
 from graphkin.accuracy.point_names import GREY, PointName, name_points
 from graphkin.accuracy.study import Study
+from graphkin.construction.core.quantities import KINDS
 from graphkin.writers.plot_style import COLOURS, INK, heading, new_figure, titled
 
 if TYPE_CHECKING:
@@ -105,8 +105,8 @@ def footnote(figure: Figure, study: Study, which: int, machine: str) -> None:
     """How it was measured, below the panels."""
     reference = study.reference
     words = (
-        f"Error: the largest {QUANTITIES[which]} error of all points over "
-        f"{len(reference.places.at)} positions, in parts of the largest {QUANTITIES[which]}, "
+        f"Error: the largest {KINDS[which]} error of all points over "
+        f"{len(reference.places.at)} positions, in parts of the largest {KINDS[which]}, "
         f"against Arb balls whose own radius is {reference.radius:.0e}.\n"
         f"Time: median and quartiles of one position; batches of "
         f"{max(row.variants for row in study.rows):,}. {machine}"

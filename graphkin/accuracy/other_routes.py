@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.accuracy.compared_answers import OF_BLOCKS, QUANTITIES, Reference, rows_of
+from graphkin.accuracy.compared_answers import Reference, rows_of
 from graphkin.accuracy.methods import (
     Method,
     MethodRow,
@@ -23,6 +23,7 @@ from graphkin.accuracy.methods import (
 )
 from graphkin.accuracy.stopwatch import Effort
 from graphkin.construction.core.program import Target
+from graphkin.construction.core.quantities import BY_TARGET, KINDS, MOTION
 from graphkin.construction.core.results import gathered
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import Motion
@@ -148,10 +149,11 @@ def columns_of(motion: Motion | Rounding, reference: Reference) -> dict[Target, 
     found: dict[Target, Any] = {}
     for targets in reference.answers.targets:
         for what, name in targets:
-            if what in QUANTITIES:
-                found[what, name] = motion.point(name)[QUANTITIES.index(what)]
+            place = KINDS.index(BY_TARGET[what].kind)
+            if what in MOTION:
+                found[what, name] = motion.point(name)[place]
             elif (guide := motion.loops.guide_index(name)) is not None:
-                found[what, name] = motion.slide(guide)[OF_BLOCKS.index(what)]
+                found[what, name] = motion.slide(guide)[place]
     return found
 
 

@@ -9,19 +9,17 @@ from graphkin.accuracy.compared_answers import Reference
 from graphkin.accuracy.methods import batch_work, can_be_emitted, variants_of
 from graphkin.accuracy.stopwatch import Effort, Stopwatch, Work
 from graphkin.construction.core.program import Target
+from graphkin.construction.core.quantities import BY_TARGET, KINDS, Sort, Whose
 from graphkin.construction.core.run import run
 from graphkin.construction.core.timing import Timing
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.tape.batch_runner import Way
 
-SCOPES = (
-    ("position", ("position", "slide")),
-    ("+ velocity", ("velocity", "omega", "slide speed")),
-    ("+ acceleration", ("acceleration", "epsilon", "slide acceleration", "coriolis")),
-    ("+ centres, poles", ("centre", "pole", "inflection", "inflection centre")),
-)
-"""Each scope adds these quantities to those before it."""
+SCOPES = dict(zip(KINDS, ("position", "+ velocity", "+ acceleration"), strict=True))
+"""What each derivative adds to those before it."""
+CENTRES = "+ centres, poles"
+"""What is added last: the places in links."""
 ASKED = "asked only"
 
 
@@ -43,8 +41,8 @@ def scopes(mechanism: Mechanism, reference: Reference, watch: Stopwatch) -> tupl
     program = reference.places.course.program
     wanted: list[Target] = []
     known: dict[str, tuple[Target, ...]] = {}
-    for name, quantities in SCOPES:
-        new = [target for target in program.answers if target[0] in quantities]
+    for name in (*SCOPES.values(), CENTRES):
+        new = [target for target in program.answers if scope_of(target) == name]
         wanted += new
         if new:
             known[name] = tuple(wanted)
@@ -56,6 +54,15 @@ def scopes(mechanism: Mechanism, reference: Reference, watch: Stopwatch) -> tupl
         Scope(name, len(program.needed(some)), *pair)
         for (name, some), pair in zip(known.items(), pairs, strict=True)
     )
+
+
+def scope_of(target: Target) -> str | None:
+    """The scope that adds a target; None for what is no quantity of a motion."""
+    quantity = BY_TARGET.get(target[0])
+    if quantity is None:
+        return None
+    in_link = quantity.whose is Whose.LINK and quantity.sort is Sort.PLACE
+    return CENTRES if in_link else SCOPES[quantity.kind]
 
 
 def ways(

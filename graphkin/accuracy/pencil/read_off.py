@@ -4,24 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from enum import Enum
 from math import isfinite
 from typing import Any
 
 from graphkin.accuracy.pencil.original import Original
-from graphkin.construction.core.program import Plane, Step, Target
+from graphkin.construction.core.program import Step, Target
+from graphkin.construction.core.quantities import BY_TARGET, RATES, MotionQuantity, Sort
 from graphkin.numbers.plane import Ratio
 
 FAR = 10.0
 """Metres of paper beyond which a centre counts as at infinity: no hand draws it."""
-
-
-class Sort(Enum):
-    """What sort of answer it is."""
-
-    VECTOR = "vector"
-    NUMBER = "number"
-    PLACE = "place"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,62 +46,36 @@ class DrawnQuantity:
         return self.of(found) - self.value
 
 
-UNITS = {
-    "position": "m",
-    "velocity": "m/s",
-    "acceleration": "m/s²",
-    "omega": "rad/s",
-    "epsilon": "rad/s²",
-    "slide": "m",
-    "slide speed": "m/s",
-    "slide acceleration": "m/s²",
-    "coriolis": "m/s²",
-}
-"""The unit of each quantity; centres and poles are places, in m."""
-VECTORS = ("velocity", "acceleration", "coriolis")
-PLANES = {
-    "m": Plane.MECHANISM,
-    "m/s": Plane.VELOCITIES,
-    "m/s²": Plane.ACCELERATIONS,
-    "rad/s": Plane.VELOCITIES,
-    "rad/s²": Plane.ACCELERATIONS,
-}
-"""The drawing in which a quantity of each unit is measured."""
-LONG_NAMES = {"inflection centre"}
-"""Quantities that are there for others."""
-
-
 def answers(original: Original) -> Iterator[DrawnQuantity]:
     """The answers that hang on what is drawn, in the order asked; places at infinity are left out.
 
-    A rate that is given, or nought because nothing turns, is no answer of the drawing.
+    A rate that is given, or nought because nothing turns, is no answer of the drawing, nor is what
+    the program finds for others, such as the angle through which a wheel has turned.
     """
     moved = frozenset(original.order)
     for target in original.targets:
         number = original.program.targets[target]
-        if number not in moved or target[0] in LONG_NAMES:
+        quantity = BY_TARGET.get(target[0])
+        if number not in moved or quantity is None or not quantity.words:
             continue
-        found = answer(original, target, number)
+        found = answer(original, target, quantity, number)
         if found is not None:
             yield found
 
 
-def answer(original: Original, target: Target, number: int) -> DrawnQuantity | None:
+def answer(
+    original: Original, target: Target, quantity: MotionQuantity, number: int
+) -> DrawnQuantity | None:
     """One answer; None for a place that no drawing shows."""
-    quantity, _ = target
     value = original.trace.values[number]
-    unit = UNITS.get(quantity, "m")
-    mm = original.paper.millimetre(PLANES[unit])
-    if isinstance(value, Ratio) or quantity not in UNITS or quantity == "position":
-        place = placed(value)
-        if place is None or not isfinite(abs(place)) or abs(place) > FAR * 1000 * mm:
+    mm = original.paper.millimetre(quantity.plane)
+    if quantity.sort is Sort.PLACE:
+        value = placed(value)
+        if value is None or not isfinite(abs(value)) or abs(value) > FAR * 1000 * mm:
             return None
-        return DrawnQuantity(target, number, Sort.PLACE, place, unit, mm)
-    if quantity in VECTORS:
-        return DrawnQuantity(target, number, Sort.VECTOR, value, unit, mm)
-    if unit.startswith("rad"):
+    elif quantity in RATES:
         mm = mm / bar_of(original, original.program.steps[number])
-    return DrawnQuantity(target, number, Sort.NUMBER, value, unit, mm)
+    return DrawnQuantity(target, number, quantity.sort, value, quantity.unit, mm)
 
 
 def bar_of(original: Original, step: Step) -> float:

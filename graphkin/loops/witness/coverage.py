@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import fields, replace
 
+from graphkin.construction.core.quantities import QUANTITIES, held
 from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
 from graphkin.loops.closing_groups import Group, stages
 from graphkin.loops.equations import Equations
@@ -65,14 +66,11 @@ def owners_of(loops: Equations, point: str) -> list[str]:
 
 def has_acceleration(solution: Solution) -> bool:
     """Whether a solution holds anything that hangs on accelerations."""
-    return (
-        any(point.acceleration is not None for point in solution.points.values())
-        or any(slide.acceleration is not None for slide in solution.slides.values())
-        or any(
-            value is not None
-            for link in solution.links.values()
-            for value in (link.epsilon, link.acceleration_pole, link.inflection_pole)
-        )
+    return any(
+        held(motion, quantity) is not None
+        for quantity in QUANTITIES
+        if quantity.kind == "acceleration"
+        for motion in getattr(solution, quantity.whose.value).values()
     )
 
 

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from graphkin.construction.core.quantities import (
+    KINDS,
+    OF_POINTS,
+    OF_SLIDES,
+    RATES,
+    MotionQuantity,
+    held,
+)
 from graphkin.construction.core.solution import Solution
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import LoopSolution
@@ -23,8 +31,8 @@ LEAST_LIMIT = 1e-9
 """Difference that is always allowed."""
 MOST_DIGITS = 15
 """Digits that a double has."""
-POINT = ("position", "velocity", "acceleration")
-SLIDE = ("position", "speed", "acceleration", "coriolis")
+KINDS_OF = {each.attribute: each.kind for each in (*OF_POINTS, *RATES, *OF_SLIDES)}
+"""Of which derivative each quantity is; centres have none."""
 
 
 class Difference(NamedTuple):
@@ -121,12 +129,23 @@ Pairs = Iterator[tuple[str, Any, Reals | Complexes, Reals, Reals]]
 
 def of_points(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
     """Position, velocity and acceleration of every point."""
-    sizes = scales.length, scales.speed, scales.acceleration
     for name, point in solution.points.items():
-        ours = point.position, point.velocity, point.acceleration
-        theirs, bounds = solved.motion.point(name), solved.rounding.point(name)
-        for n, key in enumerate(POINT):
-            yield f"points.{name}.{key}", ours[n], theirs[n], bounds[n], sizes[n]
+        found = solved.motion.point(name), solved.rounding.point(name)
+        yield from paired(f"points.{name}", point, OF_POINTS, *found, scales)
+
+
+def paired(
+    name: str,
+    ours: object,
+    quantities: Sequence[MotionQuantity],
+    theirs: Sequence[Any],
+    bounds: Sequence[Any],
+    scales: Magnitudes,
+) -> Pairs:
+    """Some quantities of a point or a block, which the loops give in the same order."""
+    sizes = dict(zip(KINDS, (scales.length, scales.speed, scales.acceleration), strict=True))
+    for each, *pair in zip(quantities, theirs, bounds, strict=True):
+        yield f"{name}.{each.attribute}", held(ours, each), *pair, sizes[each.kind]
 
 
 def of_links(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
@@ -134,34 +153,19 @@ def of_links(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pa
     motion, bounds = solved.motion, solved.rounding
     for name, link in solution.links.items():
         i = motion.index[name]
-        omega, epsilon = motion.omega[:, i], motion.epsilon[:, i]
-        yield f"links.{name}.omega", link.omega, omega, bounds.omega[:, i], scales.omega
-        yield f"links.{name}.epsilon", link.epsilon, epsilon, bounds.epsilon[:, i], scales.epsilon
+        for rate in RATES:
+            theirs, bound = held(motion, rate)[:, i], held(bounds, rate)[:, i]
+            path = f"links.{name}.{rate.attribute}"
+            yield path, held(link, rate), theirs, bound, held(scales, rate)
 
 
 def of_slides(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
     """Coordinate, speed, acceleration and Coriolis vector of every block."""
-    sizes = scales.length, scales.speed, scales.acceleration, scales.acceleration
     for name, slide in solution.slides.items():
         j = solved.loops.guide_index(name)
-        if j is None:
-            continue
-        ours = slide.position, slide.speed, slide.acceleration, slide.coriolis
-        theirs, bounds = solved.motion.slide(j), solved.rounding.slide(j)
-        for n, key in enumerate(SLIDE):
-            yield f"slides.{name}.{key}", ours[n], theirs[n], bounds[n], sizes[n]
-
-
-KINDS = {
-    "position": "position",
-    "velocity": "velocity",
-    "omega": "velocity",
-    "speed": "velocity",
-    "acceleration": "acceleration",
-    "epsilon": "acceleration",
-    "coriolis": "acceleration",
-}
-"""Of which derivative each quantity is; centres have none."""
+        if j is not None:
+            found = solved.motion.slide(j), solved.rounding.slide(j)
+            yield from paired(f"slides.{name}", slide, OF_SLIDES, *found, scales)
 
 
 def digits_of(differences: Differences) -> dict[str, int]:
@@ -171,7 +175,7 @@ def digits_of(differences: Differences) -> dict[str, int]:
     """
     found: dict[str, int] = {}
     for name, each in differences.items():
-        kind = KINDS.get(name.rpartition(".")[2])
+        kind = KINDS_OF.get(name.rpartition(".")[2])
         if kind is not None:
             digits = sure_digits(float(each.share[0]))
             found[kind] = min(found.get(kind, MOST_DIGITS), digits)
