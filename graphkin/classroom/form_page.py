@@ -18,6 +18,7 @@ from graphkin.classroom.grading.answer_numbers import LONGEST, MISTYPED, NUMBER,
 from graphkin.classroom.lab.items import items as fields_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import advice, why
+from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import part
@@ -39,11 +40,6 @@ class Identity:
     name: str = ""
 
 
-SHEETS = {
-    "velocity": ("velocity", "omega", "slide speed", "centre"),
-    "acceleration": ("acceleration", "epsilon", "slide acceleration", "pole", "inflection"),
-}
-"""The quantities that are read off each sheet; an arrow is of the sheet that its letter names."""
 KINDS = {"segment": "answers.measured", "value": "answers.computed", "place": "answers.placed"}
 """What is said beside the symbol of each kind of field."""
 TURNING, ALONG = ("ccw", "cw"), ("forward", "backward")
@@ -129,10 +125,9 @@ def owner(words: Words, identity: Identity) -> Iterator[str]:
 
 
 def sheet_of(item: Item) -> str:
-    """The sheet off which an item is read."""
-    for sheet, quantities in SHEETS.items():
-        if item.quantity in quantities:
-            return sheet
+    """The sheet off which an item is read; for an arrow the one that its letter names."""
+    if item.quantity in BY_TARGET:
+        return BY_TARGET[item.quantity].kind
     return "velocity" if item.of.startswith("v") else "acceleration"
 
 
@@ -175,7 +170,7 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> I
 
 def senses(item: Item, words: Words) -> Iterator[str]:
     """The senses of a field to choose from, and none."""
-    turning = item.quantity in ("omega", "epsilon")
+    turning = BY_TARGET.get(item.quantity) in RATES
     keys = ("anticlockwise", "clockwise") if turning else ("forward", "backward")
     yield f'<option value="">{escape(words("answers.none"))}</option>'
     for value, key in zip(TURNING if turning else ALONG, keys, strict=True):

@@ -15,6 +15,7 @@ from itertools import islice, takewhile
 from graphkin.construction.core.component import as_drawn, may_give_way
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, Target
+from graphkin.construction.core.quantities import SHEETS, is_found_on
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.solution import Curve, Solution, Verdict
 from graphkin.documents.scale_check import refuse_dots
@@ -34,11 +35,6 @@ from graphkin.scene.quantity import Quantity
 from graphkin.text import Words, words
 from graphkin.text.errors import PageError, Problem, SceneError
 
-WANTED = {
-    "velocity": ("velocity", "omega", "centre", "slide speed"),
-    "acceleration": ("acceleration", "epsilon", "pole", "inflection", "slide acceleration"),
-}
-"""The sheet on which each quantity is asked."""
 SIZES = (0.2, 1.2)
 """How large plans are drawn beside the mechanism where no crank says it: at least, at most."""
 LADDER = 5
@@ -65,9 +61,8 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
     Velocities that the sheet of accelerations takes up are drawn on the first, asked or not.
     """
     ask = mechanism.scene.ask
-    asked = [target for target in mechanism.asked() if target[0] in WANTED[kind]]
+    asked = [target for target in mechanism.asked() if is_found_on(kind, target)]
     if kind == "velocity":
-        asked += [("centre", link) for link in ask.centrodes if mechanism.gives(("centre", link))]
         later = targets_of(mechanism, "acceleration")
         asked += mechanism.program.also_found(later, ("velocity", "omega"), asked)
     if not asked and not (kind == "velocity" and (ask.curves or ask.centrodes)):
@@ -80,7 +75,7 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
 
 def shown(mechanism: Mechanism) -> Solution:
     """The motion that the sheets show: where everything stands, and of the rest what is asked."""
-    targets = dict.fromkeys(t for kind in WANTED for t in targets_of(mechanism, kind))
+    targets = dict.fromkeys(t for kind in SHEETS for t in targets_of(mechanism, kind))
     return gathered(mechanism.trace(targets or None), mechanism.scene.links)
 
 
@@ -247,9 +242,9 @@ def extents(trials: list[Drawing]) -> list[tuple[Extent, Extent]]:
 
 def trials_of(mechanism: Mechanism, curves: tuple[Curve, ...], scales: Scales) -> list[Drawing]:
     """The material of each sheet at full size, a velocity drawn as its way in some time."""
-    asked = {kind: targets_of(mechanism, kind) for kind in WANTED}
+    asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
     if not any(asked.values()):
-        asked = dict.fromkeys(WANTED, mechanism.program.answers)
+        asked = dict.fromkeys(SHEETS, mechanism.program.answers)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return [
         drawing(mechanism, kind, found, replace(scales, kL=1.0), nobody, words("en"), curves)

@@ -13,6 +13,7 @@ from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import called
 from graphkin.construction.core.plan_marks import put_pole
 from graphkin.construction.core.plot import Plot, above_foot
+from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.higher_class.closing_words import draw_closing_arcs
@@ -224,26 +225,12 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
 def asked(drawing: Drawing) -> list[str]:
     """What a sheet asks for, in words."""
     words, ask = drawing.words, drawing.scene.ask
-    first = drawing.kind == "velocity"
-    groups = {
-        "velocity": ask.velocity if first else (),
-        "omega": ask.omega if first else (),
-        "centres": ask.centres if first else (),
-        "pairs": ask.pairs if first else (),
-        "centrodes": ask.centrodes if first else (),
-        "curves": ask.curves if first else (),
-        "acceleration": () if first else ask.acceleration,
-        "epsilon": () if first else ask.epsilon,
-        "poles": () if first else ask.poles,
-        "inflection": () if first else ask.inflection,
-        f"slides_{drawing.kind}": ask.slides,
-    }
-    found = [
-        words(
-            f"ask.{what}" + ("_many" if len(names) > 1 else ""),
-            list=words("list_mark").join(symbol(lettered(name)) for name in names),
-        )
-        for what, names in groups.items()
-        if names
-    ]
+    shown = {drawing.kind, "position" if drawing.kind == "velocity" else drawing.kind}
+    found = []
+    for key, some in ASKED.items():
+        names: tuple[str, ...] = getattr(ask, key)
+        if names and any(each.kind in shown for each in some if each.words):
+            what = f"slides_{drawing.kind}" if key == "slides" else key
+            mentioned = words("list_mark").join(symbol(lettered(name)) for name in names)
+            found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
     return found or ([words("ask.for_accelerations")] if any(ask) else [])

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.diagnosis.singularity_words import beside_dead_point
-from graphkin.documents.scaling import WANTED, drawing, scales, shown, targets_of
+from graphkin.documents.scaling import drawing, scales, shown, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.motion_curves import curves_of
@@ -43,7 +44,7 @@ def hand_out(
     from graphkin.documents.calculation import calculation
 
     spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
-    if mechanism.scene.sheet.sheets != len(WANTED):
+    if mechanism.scene.sheet.sheets != len(SHEETS):
         raise SceneError(
             Problem("sheet.sheets", "one sheet for both plans is not drawn yet", "2, or left out")
         )
@@ -120,7 +121,7 @@ def disagreements(scene: Scene, verdict: Verdict) -> Iterator[Problem]:
 
 def nearly_singular(mechanism: Mechanism) -> Problem:
     """The problem of lines that cross too flatly to be drawn: where, and what is nearly in line."""
-    targets = dict.fromkeys(t for kind in WANTED for t in targets_of(mechanism, kind))
+    targets = dict.fromkeys(t for kind in SHEETS for t in targets_of(mechanism, kind))
     margins = mechanism.trace(targets or None).margins
     number = min(margins, key=lambda step: float(margins[step]))
     return Problem(
@@ -140,7 +141,7 @@ def drawings_of(
     chosen = held or scales(mechanism, curves)
     drawings = [
         drawing(mechanism, kind, found, chosen, verdict, spoken, curves)
-        for kind in WANTED
+        for kind in SHEETS
         if (found := targets_of(mechanism, kind))
     ]
     drawings[1:] = [replace(later, again=True) for later in drawings[1:]]

@@ -11,6 +11,7 @@ from itertools import product
 
 import numpy as np
 
+from graphkin.construction.core.quantities import KINDS
 from graphkin.motion.course import Branches, Course
 from graphkin.motion.ends import Event
 from graphkin.scene.model import Branch, Closure, Side
@@ -49,13 +50,12 @@ def predict(course: Course, before: float, after: float) -> Mapping[tuple[str, s
     way = (after - before) * course.sweep.per_unit
     targets = course.program.targets
     names = [of for what, of in targets if what == "position"]
-    quantities = ("position", "velocity", "acceleration")
-    wanted = [(what, of) for what in quantities for of in names if (what, of) in targets]
+    wanted = [(what, of) for what in KINDS for of in names if (what, of) in targets]
     found = course.columns(np.array([before]), wanted, geometric=True)
     return {
         ("position", of): sum(
             complex(found[what, of][0]) * factor
-            for what, factor in zip(quantities, (1.0, way, way * way / 2), strict=True)
+            for what, factor in zip(KINDS, (1.0, way, way * way / 2), strict=True)
             if (what, of) in found
         )
         for of in names

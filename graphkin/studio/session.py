@@ -11,6 +11,7 @@ from threading import Condition, Lock
 from typing import Any
 
 from graphkin.classroom.lab.new_lab import START
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import tables_of
 from graphkin.studio.folder import ENDING, Folder, completed, shipped, shipped_text, stem_of
@@ -34,7 +35,6 @@ from graphkin.text.errors import GraphkinError, SceneError
 
 TABS = 8
 """Pages whose last drawing is remembered."""
-KINDS = ("velocity", "acceleration")
 FIRST = "graphkin ="
 """How the first line of a scene begins."""
 
@@ -105,7 +105,7 @@ class Session:
             stem_of(order.text("name")),
             order.choice("language", LANGUAGES),
             order.settings(),
-            order.choice("mechanism", KINDS),
+            order.choice("mechanism", SHEETS),
             order.flag("quick"),
         )
         self.arrived(tab, number)

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import Verdict
-from graphkin.documents.scaling import WANTED, drawing, natural_seconds, targets_of
+from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN, stated
@@ -187,7 +188,7 @@ def moment_at(cycle: Cycle, place: float, words: Words) -> Frame | None:
         scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
         drawings = {
             kind: made(mechanism, kind, targets, scales, words)
-            for kind in WANTED
+            for kind in SHEETS
             if (targets := targets_of(mechanism, kind))
         }
         positions = [t for t in mechanism.program.targets if t[0] == "position"]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, spans
-from graphkin.documents.scaling import WANTED, natural_seconds, targets_of
+from graphkin.construction.core.quantities import SHEETS
+from graphkin.documents.scaling import natural_seconds, targets_of
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
@@ -90,7 +91,7 @@ def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
     """The fields of a motion as they stand where the scene does, the mechanism on the first."""
     mechanism = set_up.motion.cycle.mechanism
     scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
-    kinds = [kind for kind in WANTED if targets_of(mechanism, kind)]
+    kinds = [kind for kind in SHEETS if targets_of(mechanism, kind)]
     found = []
     for place, kind in enumerate(kinds or ["velocity"]):
         drawing = drawing_of(mechanism, kind, scales, set_up.words)

@@ -8,6 +8,7 @@ from math import isfinite, pi
 from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.grading.senses import sense_of
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.construction.core.quantities import TURNING
 
 NUMBER = re.compile(
     r"(?P<sign>[+\-\u2212]?)(?P<digits>[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)"
@@ -43,8 +44,6 @@ UNITS: dict[str, dict[str, float]] = {
     "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
 }
 """What units stand for in the unit of the field."""
-TURNING = ("omega", "epsilon")
-"""The quantities whose sense is that of a turning; others slide along a guide."""
 
 
 def read_answer(text: str, item: Item) -> Answer:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isnan
 
-from graphkin.classroom.grading.answer_numbers import TURNING, shown
+from graphkin.classroom.grading.answer_numbers import shown
 from graphkin.classroom.grading.graded import EarnedMark, Graded, Status
 from graphkin.classroom.lab.slip_names import NAMES
+from graphkin.construction.core.quantities import TURNING
 from graphkin.drawing.glyphs import advance
 from graphkin.drawing.richtext import escape
 from graphkin.text import Words

@@ -16,9 +16,9 @@ from typing import Any
 from graphkin.classroom.grading.answer_numbers import rounding
 from graphkin.classroom.grading.form_relations import Following, Own, computed, si
 from graphkin.classroom.grading.graded import BLANK, Answer
-from graphkin.classroom.grading.probes import RATES
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.component import component_of
+from graphkin.construction.core.quantities import TURNING
 
 EASY = 0.1
 """Part of the right value below which an own value, or what follows from it, is too easy."""
@@ -184,11 +184,11 @@ def closing(
     probe = standard.by_field[field]
     step = standard.mechanism.program.steps[probe.step]
     key = step.action.key if step.action is not None else ""
-    if probe.vector or probe.item.what != "value" or key not in (*RATES, "part-along"):
+    if probe.vector or probe.item.what != "value" or key not in (*TURNING, "part-along"):
         return
     *line, tail, tip = step.args
     start = standard.exact.tails.get(probe.step, tail)
-    bar = abs(found[line[1]] - found[line[0]]) if key in RATES else 1.0
+    bar = abs(found[line[1]] - found[line[0]]) if key in TURNING else 1.0
     length = float(abs(found[tip] - found[start]) / bar)
     yield length if told >= 0 else -length
 
@@ -213,7 +213,7 @@ def put_in_place(standard: Standard, field: str, value: float) -> dict[int, Any]
         first, last = min(probe.steps), max(probe.steps)
         arrow = values[last] - values[first]
         return {last: values[first] + arrow * (si(standard, field, value) / abs(arrow))}
-    if probe.item.quantity not in (*RATES, "slide speed"):
+    if probe.item.quantity not in (*TURNING, "slide speed"):
         return {}
     ratio = value / values[probe.step]
     return {probe.step: value, **components_with(standard, probe.step, ratio)}

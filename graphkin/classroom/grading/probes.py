@@ -7,17 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphkin.accuracy.pencil.pencil_marks import Paper
+from graphkin.classroom.lab.items import ARROW, UNITS
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.program import Plane, Program, Target
+from graphkin.construction.core.quantities import BY_TARGET, VECTORS
 from graphkin.mechanism import Mechanism, point_of
 from graphkin.numbers.plane import Ratio
 from graphkin.text.errors import Problem, SceneError
-
-VECTORS = {"velocity": Plane.VELOCITIES, "acceleration": Plane.ACCELERATIONS}
-ARROW = "arrow"
-"""The quantity of a field that is an arrow of a plan, known by its symbol."""
-RATES = {"omega": Plane.VELOCITIES, "epsilon": Plane.ACCELERATIONS}
-SLIDES = ("slide", "slide speed", "slide acceleration")
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,16 +92,15 @@ def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
         ends = vector_ends(mechanism, item)
         return None if ends is None else Probe(item, ends, plane, vector=True)
     number = program.targets.get((item.quantity, item.of))
-    planes = RATES | {"slide": Plane.MECHANISM, "slide speed": Plane.VELOCITIES}
-    way = planes.get(item.quantity, Plane.ACCELERATIONS)
-    return None if number is None else Probe(item, (number,), way)
+    return None if number is None else Probe(item, (number,), BY_TARGET[item.quantity].plane)
 
 
 def plane_of(item: Item) -> Plane | None:
     """The plan in which a field's vector lies; None where it is no vector."""
     if item.quantity == ARROW:
         return Plane.VELOCITIES if item.field.startswith("v") else Plane.ACCELERATIONS
-    return VECTORS.get(item.quantity)
+    quantity = BY_TARGET[item.quantity]
+    return quantity.plane if quantity in VECTORS else None
 
 
 def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, int] | None:
@@ -117,7 +112,7 @@ def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, int] | None:
     if target not in program.targets:
         return None
     steps = enumerate(program.steps)
-    pole = next(n for n, step in steps if is_pole(step, VECTORS[item.quantity]))
+    pole = next(n for n, step in steps if is_pole(step, BY_TARGET[item.quantity].plane))
     return pole, program.targets[target]
 
 
@@ -129,8 +124,7 @@ def is_pole(step: Any, plane: Plane) -> bool:
 def arrow_ends(program: Program, symbol: str) -> tuple[int, int] | None:
     """The ends of the arrow of a symbol."""
     for step in program.steps:
-        plans = step.arrow and step.plane in VECTORS.values()
-        if plans and step.says.get("symbol") == symbol:
+        if step.arrow and step.plane in UNITS and step.says.get("symbol") == symbol:
             return step.args[0], step.args[1]
     return None
 

@@ -6,24 +6,16 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from graphkin.classroom.lab.drawing_extents import VariantSheet
-from graphkin.classroom.lab.items import ARROW, SLIDES, VECTORS, arrow_steps
+from graphkin.classroom.lab.items import arrow_steps
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of
 from graphkin.construction.core.program import Part
+from graphkin.construction.core.quantities import BY_TARGET, RATES, Sort
 from graphkin.construction.normal_component.normal_component import NormalComponent
 from graphkin.numbers.plane import Vector
 
 Array = Any
-KIND = {
-    "velocity": "velocity",
-    "omega": "velocity",
-    "slide speed": "velocity",
-    "acceleration": "acceleration",
-    "epsilon": "acceleration",
-    "slide acceleration": "acceleration",
-}
-"""The sheet on which each quantity is measured."""
 
 
 def crossing_angles(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
@@ -60,16 +52,17 @@ def measured(sheet: VariantSheet, item: Item) -> Array | None:
     A rate is read by the relative velocity, or its tangential acceleration, over the bar.
     """
     trace, program = sheet.trace, sheet.trace.program
-    twin = item.quantity == ARROW or item.quantity in VECTORS
-    if item.what == "sense" or (item.what == "value" and twin):
+    quantity = BY_TARGET.get(item.quantity)
+    twin = quantity is None or quantity.sort is Sort.VECTOR
+    if item.what in ("sense", "place") or (item.what == "value" and twin):
         return None
-    if item.quantity == ARROW:
+    if quantity is None:
         value = trace.values.get(arrow_steps(program).get(item.of, -1))
         return value.tip - value.tail if isinstance(value, Vector) else None
     number = program.targets.get((item.quantity, item.of), -1)
-    if number not in trace.values or sheet.kind != KIND.get(item.quantity):
+    if number not in trace.values or sheet.kind != quantity.kind:
         return None
-    if item.quantity in VECTORS or item.quantity in SLIDES:
+    if quantity not in RATES:
         return trace.values[number]
     args = program.steps[number].args
     if len(args) != 4:

@@ -13,20 +13,24 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.classroom.lab.lab_model import Item, Lab
-from graphkin.construction.core.program import Plane, Program
+from graphkin.construction.core.program import Program
+from graphkin.construction.core.quantities import (
+    CENTRES,
+    RATES,
+    SHEETS,
+    SLIDING,
+    VECTORS,
+    MotionQuantity,
+    names_asked,
+)
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism, point_of
 
-VECTORS = {"velocity": ("v", "m/s"), "acceleration": ("a", "m/s²")}
-RATES = {"omega": ("ω", "rad/s"), "epsilon": ("ε", "rad/s²")}
-SLIDES = {"slide speed": ("v", "m/s"), "slide acceleration": ("a", "m/s²")}
-PLACES = {"centre": "I", "pole": "J", "inflection": "W"}
-"""Quantities of places, and the letter that the sheets give them."""
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
 ARROW = "arrow"
 """The quantity of a field that is an arrow of a plan, known by its symbol (Item.of)."""
-UNITS = {Plane.VELOCITIES: "m/s", Plane.ACCELERATIONS: "m/s²"}
+UNITS = {each.plane: each.unit for each in VECTORS}
 ARROW_SYMBOL = re.compile(r"([av])_([^¹²]+?)(?:\^([^¹²]))?")
 """The symbols that vectors of the plans bear: v_BA, a_BA^ν."""
 
@@ -72,18 +76,17 @@ def asked(mechanism: Mechanism) -> Iterator[Item]:
     ask, scene = mechanism.scene.ask, mechanism.scene
     nothing = not any(ask)
     for quantity in VECTORS:
-        points = [point_of(scene, name) for name in getattr(ask, quantity)]
+        points = [point_of(scene, name) for name in names_asked(ask, quantity)]
         for point in moving_points(mechanism) if nothing else points:
             yield from vector_items(quantity, point)
     for quantity in RATES:
-        for link in scene.links if nothing else getattr(ask, quantity):
+        for link in scene.links if nothing else names_asked(ask, quantity):
             yield from rate_items(quantity, link)
     for block in ask.slides:
         yield from slide_items(block, scene.links[block].slides[0].on)
-    centres = (*ask.centres, *ask.pairs)
-    for quantity, links in zip(PLACES, (centres, ask.poles, ask.inflection), strict=True):
-        for link in links:
-            if mechanism.gives((quantity, link)):
+    for quantity in CENTRES:
+        for link in names_asked(ask, quantity):
+            if mechanism.gives((quantity.target, link)):
                 yield from place_items(quantity, link)
 
 
@@ -91,11 +94,11 @@ def moving(mechanism: Mechanism) -> Iterator[Item]:
     """The motions of every point and link of a scene."""
     for quantity in VECTORS:
         for point in moving_points(mechanism):
-            if mechanism.gives((quantity, point)):
+            if mechanism.gives((quantity.target, point)):
                 yield from vector_items(quantity, point)
     for quantity in RATES:
         for link in mechanism.scene.links:
-            if mechanism.gives((quantity, link)):
+            if mechanism.gives((quantity.target, link)):
                 yield from rate_items(quantity, link)
 
 
@@ -128,41 +131,41 @@ def arrow_steps(program: Program) -> Mapping[str, int]:
     return found
 
 
-def vector_items(quantity: str, point: str) -> Iterator[Item]:
+def vector_items(quantity: MotionQuantity, point: str) -> Iterator[Item]:
     """The segment of a vector in its plan, and its true size."""
-    letter, unit = VECTORS[quantity]
+    letter, what = quantity.letter, quantity.target
     name, sign = f"{letter}_{plain(point)}", symbol(f"{letter}_{lettered(point)}")
-    yield Item(f"{name}_mm", "segment", sign, "mm", quantity, point)
-    yield Item(name, "value", sign, unit, quantity, point)
+    yield Item(f"{name}_mm", "segment", sign, "mm", what, point)
+    yield Item(name, "value", sign, quantity.unit, what, point)
 
 
-def rate_items(quantity: str, link: str) -> Iterator[Item]:
+def rate_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
     """An angular velocity or acceleration, and its sense."""
-    letter, unit = RATES[quantity]
-    name = f"{quantity}_{plain(link)}"
-    yield from with_sense(name, symbol(f"{letter}_{link}"), unit, quantity, link)
+    sign = symbol(f"{quantity.letter}_{link}")
+    yield from with_sense(f"{quantity.target}_{plain(link)}", sign, quantity, link)
 
 
 def slide_items(block: str, guide: str) -> Iterator[Item]:
     """The speed and the acceleration of a block along its guide, each with its sense."""
-    for quantity, (letter, unit) in SLIDES.items():
+    for sheet in SHEETS:
+        letter = SLIDING[sheet].letter
         sign = f"*{letter}*_{{{escape(block)}/{escape(guide)}}}"
-        yield from with_sense(f"{letter}_slide_{plain(block)}", sign, unit, quantity, block)
+        yield from with_sense(f"{letter}_slide_{plain(block)}", sign, SLIDING[sheet], block)
 
 
-def with_sense(name: str, sign: str, unit: str, quantity: str, of: str) -> Iterator[Item]:
+def with_sense(name: str, sign: str, quantity: MotionQuantity, of: str) -> Iterator[Item]:
     """A magnitude and its sense."""
-    yield Item(name, "value", sign, unit, quantity, of)
-    yield Item(f"{name}_sense", "sense", sign, "", quantity, of)
+    yield Item(name, "value", sign, quantity.unit, quantity.target, of)
+    yield Item(f"{name}_sense", "sense", sign, "", quantity.target, of)
 
 
-def place_items(quantity: str, link: str) -> Iterator[Item]:
+def place_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
     """The coordinates of a centre or a pole on paper, from the first fixed pivot."""
-    letter = PLACES[quantity]
+    letter = quantity.letter
     for axis in ("x", "y"):
         name = f"{letter}_{plain(link)}_{axis}_mm"
         sign = f"*{axis}*({symbol(f'{letter}_{link}')})"
-        yield Item(name, "place", sign, "mm", quantity, link)
+        yield Item(name, "place", sign, "mm", quantity.target, link)
 
 
 def plain(name: str) -> str:

@@ -14,6 +14,7 @@ from graphkin.construction.core.quantities import (
     SLIDING,
     MotionQuantity,
     held,
+    names_asked,
 )
 from graphkin.construction.core.solution import (
     LinkMotion,
@@ -81,7 +82,7 @@ def drawn_at(scales: ReportedScales | None, verdict: Verdict | None) -> Record:
 
 def wanted_of(scene: Scene, asked: bool) -> Wanted:
     """Everything, or only what [ask] asks."""
-    return lambda quantity, of: not asked or of in getattr(scene.ask, quantity.asked_by[0])
+    return lambda quantity, of: not asked or of in names_asked(scene.ask, quantity)
 
 
 def point_names(scene: Scene, solution: Solution) -> list[str]:

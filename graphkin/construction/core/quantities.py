@@ -10,10 +10,13 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from graphkin.construction.core.program import Plane
+from graphkin.construction.core.program import Plane, Target
+from graphkin.scene.model import Ask
 
 KINDS = ("position", "velocity", "acceleration")
-"""The derivatives; the last two are also the plans and the sheets that show them."""
+"""The derivatives."""
+SHEETS = KINDS[1:]
+"""Those that have a plan, and a sheet that shows it."""
 PLANES = dict(zip(KINDS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS), strict=True))
 
 
@@ -38,7 +41,7 @@ class MotionQuantity:
     """One quantity: ``target`` is its name in a program, ``attribute`` that in a solution.
 
     ``kind`` is the derivative that it is, or by which a centre is found; ``asked_by`` are the keys
-    of [ask], the first of which has it reported. What has no ``words`` is there for another.
+    of [ask] that need it. What has no ``words`` is there for another.
     """
 
     target: str
@@ -121,10 +124,12 @@ def those(whose: Whose, *sorts: Sort) -> tuple[MotionQuantity, ...]:
 
 
 OF_POINTS = those(Whose.POINT, *Sort)
+VECTORS = those(Whose.POINT, Sort.VECTOR)
 RATES = those(Whose.LINK, Sort.NUMBER)
 CENTRES = those(Whose.LINK, Sort.PLACE)
 OF_SLIDES = those(Whose.SLIDE, *Sort)
 MOTION = {each.kind: each for each in OF_POINTS}
+TURNING = tuple(each.target for each in RATES)
 RATE = {each.kind: each for each in RATES}
 SLIDING = {each.kind: each for each in OF_SLIDES if each.sort is Sort.NUMBER}
 """The quantity of points, of links and of blocks that each sheet is about."""
@@ -135,7 +140,13 @@ def held(motion: Any, quantity: MotionQuantity) -> Any:
     return getattr(motion, quantity.attribute)
 
 
-def found_on(sheet: str) -> tuple[str, ...]:
-    """The targets that can be asked of one sheet."""
-    every = (each for each in QUANTITIES if each.words and each.asked_by)
-    return tuple(each.target for each in every if each.kind == sheet)
+def names_asked(ask: Ask, quantity: MotionQuantity) -> tuple[str, ...]:
+    """The points, links or pairs of which [ask] names the quantity itself, not a curve by it."""
+    keys = (key for key in quantity.asked_by if key != "centrodes")
+    return tuple(name for key in keys for name in getattr(ask, key))
+
+
+def is_found_on(sheet: str, target: Target) -> bool:
+    """Whether a target can be asked of a sheet."""
+    found = BY_TARGET.get(target[0])
+    return found is not None and bool(found.words and found.asked_by) and found.kind == sheet

@@ -8,8 +8,9 @@ from graphkin import load
 from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, Rubric
 from graphkin.classroom.lab.rules import Settings
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import Verdict
-from graphkin.documents.scaling import WANTED, drawing, scales, targets_of
+from graphkin.documents.scaling import drawing, scales, targets_of
 from graphkin.mechanism import Mechanism
 from graphkin.text import words
 
@@ -29,7 +30,7 @@ def sheets_of(mechanism: Mechanism) -> list[Drawing]:
     chosen = scales(mechanism)
     return [
         drawing(mechanism, kind, found, chosen, NOBODY, words("en"))
-        for kind in WANTED
+        for kind in SHEETS
         if (found := targets_of(mechanism, kind))
     ]
 
