@@ -6,8 +6,9 @@ from graphkin.construction.core.component import Component, LaidOff
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.coriolis.coriolis import CoriolisComponent
 from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.rolling.rolling_normal import RollingNormal
 
-COMPONENTS: tuple[type[Component], ...] = (NormalComponent, CoriolisComponent)
+COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
 """The components of accelerations that follow from velocities."""
 KINDS: tuple[type[Construction], ...] = (*COMPONENTS, LaidOff)
 """All kinds."""

@@ -30,7 +30,6 @@ from graphkin.construction.rolling.rolling_words import (
     arc_rolled,
     is_moving_track,
     radius_to,
-    rolling_rate,
     track_line,
     turned_by,
 )
@@ -143,13 +142,6 @@ def on_plan(
         case "driven-tangential":
             found["vector"] = symbol(f"a_{index_of(drawing, says)}^τ")
             found["epsilon"] = rate_of(drawing, step, says, "ε")
-        case "lay-off":
-            found["vector"] = symbol(f"a_{says['i']}^ν")
-            if step.name:
-                drawn = drawn_between(drawing, step.args[0], number, step.plane)
-                rates = drawing.trace.program.steps[step.args[1]].args[2:]
-                found["drawn"] = in_mm(drawing.words, drawn)
-                found["omega"] = rolling_rate(drawing, *rates)
         case "along-bar":
             found["bar"] = bar(says["p"], says["q"])
         case "similar-point":

@@ -16,11 +16,11 @@ from graphkin.construction.centres.centre_words import (
 from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import SWINGS
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import beyond, is_driven
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.zero_vectors import falls_key
 from graphkin.construction.rolling.rolling_words import (
-    is_first_roll,
     is_halfway,
     is_moving_track,
     untold_track,
@@ -34,7 +34,6 @@ LINES = (
     "parallel-to",
     "compass",
     "ray",
-    "lay-off",
     "along-bar",
     "shifted",
     "guide-back",
@@ -69,6 +68,9 @@ WHOLE = (
 
 def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
     """Through what lines a point is found, and how they find it."""
+    kind = construction(step)
+    if kind is not None:
+        return kind.point_sentence(drawing, step.role)
     by_hand = step.by_hand is not None and step.by_hand in drawing.trace.values
     last = drawing.trace.program.steps[step.by_hand] if by_hand and step.by_hand else step
     assert step.action is not None
@@ -216,8 +218,6 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
         return "similar-in-line"
     if key == "centripetal" and not step.name:
         return "lay-off-none" if has_no_length(drawing, number) else "lay-off-computed"
-    if key == "lay-off" and step.name:
-        return "lay-off-rolling" if is_first_roll(drawing, step) else "lay-off-named"
     alone = key == "driven-tangential" and has_no_length(drawing, step.args[0])
     if key in LAID_OFF and has_no_length(drawing, number):
         at_end = not step.says["s"] or (key == "driven-tangential" and not alone)

@@ -16,7 +16,7 @@ from graphkin.construction.core.naming import drawn_between, drawn_in, scale_of,
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
-from graphkin.construction.guides.sliding_relations import of_rolling, of_slides
+from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.misclosure import Misclosure, driver_of, misses
 from graphkin.construction.higher_class.trial_lengths import of_trial_lengths
 from graphkin.construction.rate_relations import FINE, of_sum, of_turning, within
@@ -80,13 +80,11 @@ def sections_of(drawing: Drawing) -> list[Section]:
             ("slides", list(of_slides(drawing))),
             ("centres", list(of_centres(drawing))),
         ]
-    normal, *others = (
-        (kind.section(drawing.scales), list(of_components(drawing, kind))) for kind in COMPONENTS
-    )
     return [
-        normal,
-        ("normals_turning", list(of_rollings(drawing))),
-        *others,
+        *(
+            (kind.section(drawing.scales), list(of_components(drawing, kind)))
+            for kind in COMPONENTS
+        ),
         ("accelerations", plan),
         ("spinning", turning),
         ("slides", list(of_slides(drawing))),
@@ -217,13 +215,6 @@ def of_components(drawing: Drawing, kind: type[Component]) -> Iterator[Relation]
     """Each component of a kind, in the order of the work."""
     found = (each for each in components_on(drawing) if isinstance(each, kind))
     yield from (component.relation(drawing) for component in found)
-
-
-def of_rollings(drawing: Drawing) -> Iterator[Relation]:
-    """Each normal component of a rolling point of contact, whose wheel's turning is known."""
-    for _, step, value in drawing.steps(Plane.NUMBERS):
-        if step.action is not None and step.action.key == "rolling-normal":
-            yield of_rolling(drawing, step, drawing.settled(abs(value)))
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:

@@ -92,7 +92,9 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
         if component is not None:
             first = type(component) not in shown and component.is_drawn(drawing)
             shown |= {type(component)} if first else set()
-            yield Sentence(number, *component.sentence(drawing, first=first))
+            name, markup = component.sentence(drawing, first=first)
+            if markup:
+                yield Sentence(number, name, markup)
         elif number in drawing.tags:
             yield from trial_sentence(drawing, number)
         elif laid is not None:

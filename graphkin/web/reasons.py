@@ -35,7 +35,6 @@ WHY = {
     (Part.CENTRE, "instant-centre"): "why.centre",
     (Part.CENTRE, "kennedy-line"): "why.kennedy",
     (Part.ACCELERATION, "centripetal"): "why.normal",
-    (Part.ACCELERATION, "lay-off"): "why.normal",
     (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
     (Part.ACCELERATION, "square-to"): "why.tangential",
     (Part.ACCELERATION, "parallel-to"): "why.along_acceleration",

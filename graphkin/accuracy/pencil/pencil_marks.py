@@ -38,7 +38,6 @@ LAID = {
     "centripetal",
     "driven-slide",
     "driven-tangential",
-    "lay-off",
     "rack-at",
     "similar-point",
     "turned-velocity",

@@ -44,6 +44,10 @@ class Construction(Roles):
         letters = {each: steps[number].name for each, number in self.given()}
         return self.lines.get(role, "").format_map({**vars(self), **letters})
 
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """How the point of a role is found; nothing for other roles."""
+        return ""
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the step of a role."""
 

@@ -7,29 +7,9 @@ from collections.abc import Iterator
 from graphkin.construction.core.component import laid_off as component_laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import vector_of
-from graphkin.construction.core.program import Step
-from graphkin.construction.core.relation import Relation, answer, figure, length_of
-from graphkin.construction.core.too_short import laid_off
+from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.result_tables import slid, slide_sense
-from graphkin.construction.rolling.rolling_words import rolling_rate
-from graphkin.drawing.symbol_markup import bar, symbol
-
-
-def of_rolling(drawing: Drawing, step: Step, size: float) -> Relation:
-    """The acceleration of a rolling point of contact against its track: to the wheel's centre."""
-    says, values = step.says, drawing.trace.values
-    p, q = says["p"], says["q"]
-    length = length_of(drawing, p, q)
-    wheel, track = (float(values[arg]) for arg in step.args[2:])
-    return Relation(
-        symbol(f"a_{says['i']}^ν"),
-        f"{rolling_rate(drawing, *step.args[2:])}^2·{bar(p, q)}",
-        f"{figure(drawing, abs(wheel - track))}^2·{figure(drawing, length)}",
-        answer(drawing, size),
-        "m/s^2",
-        laid_off(drawing, "laid_off", size, p=symbol(q), q=symbol(p)),
-        over=(p, q),
-    )
+from graphkin.drawing.symbol_markup import symbol
 
 
 def of_slides(drawing: Drawing) -> Iterator[Relation]:

@@ -6,7 +6,7 @@ from math import degrees
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.line_words import straight
-from graphkin.construction.core.naming import drawn_amount, rate_symbol
+from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.sentence import Sentence, together
 from graphkin.drawing.richtext import escape
@@ -52,19 +52,6 @@ def is_halfway(drawing: Drawing, where: Step) -> bool:
 def arc_rolled(drawing: Drawing, step: Step) -> str:
     """The arc by which a rack has moved since the start, as long as it is drawn."""
     return drawn_amount(drawing, abs(float(drawing.trace.values[step.args[-1]])))
-
-
-def rolling_rate(drawing: Drawing, wheel: int, track: int) -> str:
-    """How fast a wheel turns against its track, by the steps of both their rates."""
-    own, other = rate_symbol(drawing, wheel), rate_symbol(drawing, track)
-    return f"({own} − {other})" if drawing.trace.values[track] else own
-
-
-def is_first_roll(drawing: Drawing, step: Step) -> bool:
-    """True for the first point of contact whose acceleration follows from rolling."""
-    steps = drawing.trace.program.steps
-    actions = ((number, steps[number].action) for number in drawing.trace.values)
-    return step.args[1] == next(n for n, a in actions if a and a.key == "rolling-normal")
 
 
 def turned_by(drawing: Drawing, link: str) -> str:

@@ -146,10 +146,3 @@ def between_tracks(
 def speed_rolled(rate: Real, radius: Real) -> Real:
     """The speed at which a wheel's centre moves along its track when it turns at a rate."""
     return -rate * radius
-
-
-@action("rolling-normal")
-def rolling_normal(centre: Point, contact: Point, omega: Real, omega_track: Real) -> Point:
-    """The acceleration of a wheel's point of contact against its straight track: to the centre."""
-    relative = omega - omega_track
-    return (centre - contact) * (relative * relative)

@@ -28,8 +28,6 @@ from graphkin.construction.core.vocabulary import (
     driven_tangential,
     epsilon,
     in_proportion,
-    join,
-    lay_off,
     meet,
     omega,
     parallel_to,
@@ -45,8 +43,9 @@ from graphkin.construction.normal_component.normal_component import (
     square,
 )
 from graphkin.construction.rolling.rolling import radius_of
+from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
-from graphkin.construction.rolling.wheel_actions import rolling_normal, speed_rolled
+from graphkin.construction.rolling.wheel_actions import speed_rolled
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
@@ -248,21 +247,11 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     link, contact, point = group.link, group.contact, pen.bases[group.link].start
     name, wheel, centre = contact_name(contact), contact.links[0], contact.wheel.centre
     start = carried(pen, wheel, name, "acceleration")
-    ends = pen.the("position", name), pen.the("position", centre)
-    rates = omega_of(pen, wheel), omega_of(pen, link)
-    says: Says = {"p": centre, "q": letter(name), "s": named(pen, start)}
-    says["i"] = letter(name) + centre
-    with pen.on(Part.NORMAL, Plane.NUMBERS):
-        vector = pen.draw(rolling_normal, *ends, *rates, name=f"a_{says['i']}^ν", **says)
-    called = second_image(under(name, link))
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = pen.draw(lay_off, start, vector, name=called, **says)
-        rolling_arrow(pen, start, corner, says)
-    pen.want("acceleration", under(name, link), corner)
+    rates, rim = (omega_of(pen, wheel), omega_of(pen, link)), under(name, link)
+    corner = rolled_image(pen, start, rim, (centre, name), rates)
     ends = pen.the("position", name), pen.the("position", point)
     turning, twist = omega_of(pen, link), omega_of(pen, link, "epsilon")
-    rim = under(name, link)
-    says = {"p": letter(rim), "q": point, "s": called, "k": link}
+    says: Says = {"p": letter(rim), "q": point, "s": named(pen, corner), "k": link}
     says |= {"i": about(pen, point, rim), "x": owned(rim)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         end = pen.draw(centripetal, corner, *ends, turning, **says)
@@ -281,24 +270,15 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
     for contact in (own, group.contact):
         name, known = contact_name(contact), partner(contact, link)
         start = carried(pen, known, name, "acceleration")
-        ends = pen.the("position", centre), pen.the("position", name)
         rates = omega_of(pen, link), omega_of(pen, known)
-        says: Says = {"p": letter(name), "q": centre, "s": named(pen, start)}
-        says["i"] = letter(name) + centre
-        with pen.on(Part.NORMAL, Plane.NUMBERS):
-            vector = pen.draw(rolling_normal, *ends, *rates, name=f"a_{says['i']}^ν", **says)
-        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            named_ = second_image(under(name, link))
-            images.append(pen.draw(lay_off, start, vector, name=named_, **says))
-            rolling_arrow(pen, start, images[-1], says)
-        pen.want("acceleration", under(name, link), images[-1])
+        images.append(rolled_image(pen, start, under(name, link), (name, centre), rates))
         names.append(name)
         starts.append(start)
     places = [pen.the("position", each) for each in (*names, centre)]
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         ratio = pen.draw(in_proportion, *places)
     rims = [under(name, link) for name in names]
-    says = {"p": letter(rims[0]), "q": letter(rims[1]), "r": centre}
+    says: Says = {"p": letter(rims[0]), "q": letter(rims[1]), "r": centre}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         found = pen.draw(similar_point, *images, ratio, name=second_image(centre), **says)
         if not any(pen.turns(partner(contact, link)) for contact in (own, group.contact)):
@@ -308,9 +288,3 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
     says["i"] = about(pen, rims[1], rims[0])
     with pen.on(Part.RESULT, Plane.NUMBERS):
         pen.want("epsilon", link, pen.draw(epsilon, *places[:2], *images, name=link, **says))
-
-
-def rolling_arrow(pen: Pen, start: int, end: int, says: Says) -> None:
-    """The arrow of the acceleration of a rolling point of contact against its track."""
-    symbol = f"a_{says['i']}^ν"
-    pen.arrow(join, start, end, name=symbol, symbol=symbol, kind="ν", q=says["q"], p=says["p"])

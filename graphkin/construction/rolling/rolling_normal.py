@@ -1,0 +1,173 @@
+"""The acceleration of a rolling point of contact against what it rolls on: ω²·r, to the centre."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.amounts import in_mm
+from graphkin.construction.core.component import (
+    Component,
+    OwnSizes,
+    Size,
+    TriangleChoice,
+    components_on,
+)
+from graphkin.construction.core.naming import drawn_between, rate_symbol
+from graphkin.construction.core.pen import Pen, letter, second_image
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.too_short import laid_off
+from graphkin.construction.core.vocabulary import action, join, lay_off
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point, Real
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.drawing.scale import Scales
+
+
+@action("rolling-normal")
+def rolling_normal(centre: Point, contact: Point, omega: Real, omega_track: Real) -> Point:
+    """The acceleration of a wheel's point of contact against its straight track: to the centre."""
+    relative = omega - omega_track
+    return (centre - contact) * (relative * relative)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollingNormal(Component):
+    """a_ν = ω²·r of a point of contact against the one that it rolls on, laid off by number.
+
+    It leads along the radius from the point ``p`` to ``q``, whose places are ``foot`` and ``head``;
+    the link of the point turns by ``omega``, what it rolls on by ``omega_track``. From the image
+    ``start`` of the point that is touched it ends in the ``image`` of the one that rolls.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("vector", "image")
+    sign: ClassVar[str] = "ν"
+    look: ClassVar[str] = "normal"
+    reasons: ClassVar[Mapping[str, str]] = {"image": "why.normal"}
+    laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+
+    p: str
+    q: str
+    head: int
+    foot: int
+    omega: int
+    omega_track: int
+    start: int
+    image: int
+
+    def symbols(self) -> Mapping[str, str]:
+        """The ends of the radius."""
+        return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
+
+    def is_hidden(self, drawing: Drawing) -> bool:
+        """It has no triangle that could be too small."""
+        return False
+
+    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
+        """No triangle gives it: the turning of the wheel is known."""
+        return True
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def rate(self, drawing: Drawing) -> str:
+        """How fast it turns against what it rolls on."""
+        own, other = (rate_symbol(drawing, each) for each in (self.omega, self.omega_track))
+        return f"({own} − {other})" if drawing.trace.values[self.omega_track] else own
+
+    def formula(self, drawing: Drawing) -> str:
+        """ω²·r."""
+        return f"{self.rate(drawing)}^2·{bar(self.p, self.q)}"
+
+    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+        """Nothing by itself: the image in which it ends tells of it."""
+        return "", ""
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """How it is laid off; why it is the whole acceleration, the first time."""
+        steps = drawing.trace.program.steps
+        first = next(each for each in components_on(drawing) if isinstance(each, RollingNormal))
+        return drawing.words(
+            "step.lay-off-rolling" if self is first else "step.lay-off-named",
+            s=symbol(steps[self.start].name),
+            name=symbol(steps[self.image].name),
+            vector=self.symbol,
+            omega=self.rate(drawing),
+            drawn=in_mm(
+                drawing.words, drawn_between(drawing, self.start, self.image, drawing.plane)
+            ),
+            **self.symbols(),
+        )
+
+    @classmethod
+    def section(cls, scales: Scales) -> str:
+        """The section of the calculation that holds its relations."""
+        return "normals_turning"
+
+    def relation(self, drawing: Drawing) -> Relation:
+        """Square of the relative turning times the radius, and its drawn length."""
+        values, size = drawing.trace.values, drawing.settled(self.size(drawing))
+        rate = abs(float(values[self.omega]) - float(values[self.omega_track]))
+        return Relation(
+            self.symbol,
+            self.formula(drawing),
+            f"{figure(drawing, rate)}^2·{figure(drawing, length_of(drawing, self.p, self.q))}",
+            answer(drawing, size),
+            "m/s^2",
+            laid_off(drawing, "laid_off", size, p=symbol(self.q), q=symbol(self.p)),
+            over=(self.p, self.q),
+        )
+
+    # --- marking it ------------------------------------------------------------------------------
+
+    def sizes(self, own: OwnSizes) -> Iterator[Size]:
+        """ω²·r of own values; none against a track that turns, for own rates have no sense."""
+        if any(track.size for track in own.turnings(self.omega_track)):
+            return
+        radius = own.length(self.foot, self.head)
+        for omega in own.turnings(self.omega):
+            yield Size((omega, omega), omega.size**2 * radius, radius)
+
+    def power_of(self, args: tuple[int, ...]) -> int:
+        """It follows by itself: it is computed from the steps of the rates."""
+        return 0
+
+
+# --- planning it ---------------------------------------------------------------------------------
+
+
+def rolled_image(
+    pen: Pen, start: int, rolls: str, ends: tuple[str, str], rates: tuple[int, int]
+) -> int:
+    """The second image of a point that ``rolls``, from that of the point which it touches.
+
+    Its acceleration against it leads from the first of the ``ends`` to the second; ``rates`` are
+    the steps of the turning of its link and of what it rolls on.
+    """
+    foot, head = (pen.the("position", end) for end in ends)
+    p, q = map(letter, ends)
+    index = letter(rolls) + (q if letter(rolls) == p else p)
+    name = f"a_{index}^ν"
+    with pen.on(Part.NORMAL, Plane.NUMBERS):
+        vector = pen.draw(rolling_normal, head, foot, *rates, name=name)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        image = pen.draw(lay_off, start, vector, name=second_image(rolls))
+        pen.arrow(join, start, image, name=name, symbol=name, kind="ν", q=q, p=p)
+    pen.make(
+        RollingNormal(
+            index=index,
+            p=p,
+            q=q,
+            head=head,
+            foot=foot,
+            omega=rates[0],
+            omega_track=rates[1],
+            vector=vector,
+            start=start,
+            image=image,
+        )
+    )
+    return pen.want("acceleration", rolls, image)
