@@ -26,14 +26,7 @@ from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.zero_vectors import rate_at_rest
 from graphkin.construction.higher_class.closing_words import found_place
 from graphkin.construction.higher_class.misclosure import tried_link
-from graphkin.construction.rolling.rolling_words import (
-    arc_rolled,
-    is_moving_track,
-    radius_to,
-    track_line,
-    turned_by,
-)
-from graphkin.drawing.richtext import escape
+from graphkin.construction.rolling.rolling_words import turned_by
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.model import FRAME, Driver
 
@@ -67,12 +60,6 @@ def on_mechanism(
         case "ray" if "k" in says:
             driver = next(d for d in drawing.scene.drivers if d.link == says["k"])
             return {"angle": angle_of(drawing, driver)} | against(drawing, driver, says["p"])
-        case "ray" if is_moving_track(step):
-            return {"line": track_line(drawing, step)}
-        case "contact-of-wheels":
-            return radius_to(drawing, step)
-        case "rack-at":
-            return {"arc": arc_rolled(drawing, step)}
         case "compass":
             return {"bar": fields["bar"] + derived(drawing, step.args[1])}
         case "arcs-meet":
@@ -81,8 +68,6 @@ def on_mechanism(
         case "arc-cuts-line":
             sense = step.extra[0] if step.extra else values[step.args[2]]
             return {"side": words(f"page.{heading(values[step.args[0]].along * sense)}")}
-        case "contact-on-track":
-            return {"g": escape(says["g"])}
         case "guide-back":
             angle = words.fixed(degrees(phase(values[drawing.number_of(step)].along)), 1)
             return {"q": symbol(drawing.scene.links[says["g"]].points[0]), "angle": angle}

@@ -20,14 +20,8 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import beyond, is_driven
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.zero_vectors import falls_key
-from graphkin.construction.rolling.rolling_words import (
-    is_halfway,
-    is_moving_track,
-    untold_track,
-)
 from graphkin.construction.sentence_fields import LAID_OFF, fields_of
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.model import FRAME
 
 LINES = (
     "square-to",
@@ -37,7 +31,6 @@ LINES = (
     "along-bar",
     "shifted",
     "guide-back",
-    "radius-along",
     "velocity-normal",
     "centripetal",
     "line-through",
@@ -45,12 +38,7 @@ LINES = (
     "inflection-square",
 )
 """Actions that are said within the sentence of the point that they help to find."""
-FOLLOWING = (
-    "square-to",
-    "parallel-to",
-    "shifted",
-    "radius-along",
-)
+FOLLOWING = ("square-to", "parallel-to", "shifted")
 """Those of them that begin where another one ended."""
 WHOLE = (
     "acceleration-pole",
@@ -58,9 +46,6 @@ WHOLE = (
     "arm",
     "pin-centre",
     "guide-centre",
-    "contact-on-track",
-    "contact-of-wheels",
-    "rack-at",
     "set-back",
 )
 """Actions whose own sentence says all that the hand does."""
@@ -70,14 +55,14 @@ def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
     """Through what lines a point is found, and how they find it."""
     kind = construction(step)
     if kind is not None:
-        return kind.point_sentence(drawing, step.role)
+        before = kind.said_before(drawing, step.role)
+        parts = [clause for arg in before for clause in clauses(drawing, arg, step.plane)]
+        return "; ".join([*parts, kind.point_sentence(drawing, step.role)])
     by_hand = step.by_hand is not None and step.by_hand in drawing.trace.values
     last = drawing.trace.program.steps[step.by_hand] if by_hand and step.by_hand else step
     assert step.action is not None
     if step.action.key in WHOLE:
-        track = untold_track(drawing, step)
-        parts = [phrase(drawing, track, "", track)] if track else []
-        return "; ".join([*parts, phrase(drawing, step, step.name, step)])
+        return phrase(drawing, step, step.name, step)
     parts = [clause for arg in last.args for clause in clauses(drawing, arg, last.plane)]
     parts.append(phrase(drawing, last, step.name, step))
     return "; ".join(parts)
@@ -85,11 +70,13 @@ def point_sentence(drawing: Drawing, number: int, step: Step) -> str:
 
 def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
     """The clause of a line or an arc of a drawing, after that of the vector laid off before it."""
-    step, laid = drawing.trace.program.steps[number], laid_off(drawing.trace.program, number)
-    if laid is not None:
-        if not laid.is_short(drawing) and step.plane is plane:
-            yield from clauses(drawing, laid.start, plane) if laid.component.follows else ()
-            yield laid.clause(drawing)
+    step = drawing.trace.program.steps[number]
+    kind = construction(step)
+    if kind is not None:
+        if step.plane is plane and (said := kind.clause(drawing, step.role)):
+            for before in kind.said_before(drawing, step.role):
+                yield from clauses(drawing, before, plane)
+            yield said
         return
     if step.action is None or step.action.key not in LINES or step.name:
         return
@@ -167,8 +154,6 @@ def centre_key(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, s
 def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, str]) -> str:
     """The key of the sentence of a step that draws the mechanism."""
     scene, steps = drawing.scene, drawing.trace.program.steps
-    if key == "ray" and is_moving_track(step):
-        return "track-of"
     if key in ("ray", "along-bar") and "g" in step.says:
         ways = sum(len(link.slides) + len(link.rolls) for link in scene.links.values())
         return "guide" if ways == 1 and scene.links[step.says["g"]].slides else "guide-named"
@@ -178,16 +163,12 @@ def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, s
         return "guide-back-found"
     if key == "beside" and not scene.links[step.says["g"]].slides:
         return "beside-rolled" if "turned" in fields else "beside-turned"
-    if key == "contact-on-track" and step.says["g"] != FRAME:
-        return "contact-on-track-of"
     if key == "mark-off" and is_lever(drawing, step.args[0]):
         return "mark-off-lever"
     if key == "step-along" and beyond(drawing, step):
         return "step-along-beyond"
     if key in ("set-at", "arm") and is_tried(steps[step.args[1]]):
         return f"{key}-found"
-    if key == "set-at" and is_halfway(drawing, steps[step.args[1]]):
-        return "set-halfway"
     return f"{key}.say" if key == "arcs-meet" else key
 
 

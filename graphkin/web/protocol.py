@@ -7,8 +7,10 @@ from dataclasses import dataclass, replace
 
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.rolling.contact_points import PointOfContact
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.sentences import sentences
@@ -31,8 +33,6 @@ STOPS = (
 """The parts of the work to whose beginnings one may go."""
 GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
-CONTACTS = ("contact-on-track", "contact-of-wheels")
-"""The steps that find where a wheel touches its track."""
 SAME = 1e-6
 """Millimetres between places that are one."""
 DETAIL = "detail"
@@ -253,8 +253,7 @@ def contacts(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
     """The marks of the contacts of wheels and their letters, each with the step that finds it."""
     steps, field = sheet.drawing.trace.program.steps, sheet.layout.mechanism
     for number, at in sheet.drawing.trace.values.items():
-        action = steps[number].action
-        if action is None or action.key not in CONTACTS:
+        if not isinstance(construction(steps[number]), PointOfContact):
             continue
         place = complex(*field(at))
         for mark in sheet.left:

@@ -20,8 +20,6 @@ from graphkin.text import Words
 from graphkin.web.label_names import as_labelled
 
 WHY = {
-    (Part.POSITION, "contact-of-wheels"): "why.touch",
-    (Part.POSITION, "contact-on-track"): "why.touch",
     (Part.POSITION, "arcs-meet"): "why.arcs",
     (Part.POSITION, "arc-cuts-line"): "why.arc",
     (Part.POSITION, "swing-through"): "why.lever",
@@ -128,14 +126,12 @@ def gaps(words: Words, key: str) -> Iterator[str]:
 
 def fields(step: Step) -> dict[str, str]:
     """The letters of a step as markup, each empty where the step has none."""
-    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "t", "bar", "letter"), "")
+    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "bar", "letter"), "")
     kind = construction(step)
     if kind is not None:
         known |= kind.symbols()
     says = {key: lettered(str(name)) for key, name in step.says.items() if name}
     known |= names_in(says)
-    if says.get("k") and step.name:
-        known["t"] = symbol(lettered(f"{step.name}@{step.says['k']}"))
     if "p" in says and "q" in says:
         known["bar"] = bar(says["p"], says["q"])
         known["letter"] = symbol(says["q"].lower())

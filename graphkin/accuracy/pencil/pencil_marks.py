@@ -38,7 +38,6 @@ LAID = {
     "centripetal",
     "driven-slide",
     "driven-tangential",
-    "rack-at",
     "similar-point",
     "turned-velocity",
 }

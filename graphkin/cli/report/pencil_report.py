@@ -36,7 +36,6 @@ LINES = {
     "line-through": "the line of the trials",
     "parallel-to": "∥ guide {g}",
     "pole-ray": "the ray at {p}",
-    "radius-along": "the path of the centre of {k}",
     "ray": "the line through {p}",
     "square-to": "⊥ {p}{q}",
     "velocity-normal": "⊥ velocity of {p}",

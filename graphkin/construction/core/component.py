@@ -204,8 +204,14 @@ class LaidOff(Construction):
         """The letters of its component."""
         return self.component.symbols()
 
-    def clause(self, drawing: Drawing) -> str:
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The component that it follows."""
+        return (self.start,) if self.component.follows else ()
+
+    def clause(self, drawing: Drawing, role: str) -> str:
         """What is said of it within the sentence of the point that is found from its end."""
+        if self.is_short(drawing):
+            return ""
         start = drawing.trace.program.steps[self.start]
         before = construction(start)
         if self.component.follows and isinstance(before, LaidOff) and before.is_short(drawing):

@@ -44,6 +44,19 @@ class Construction(Roles):
         letters = {each: steps[number].name for each, number in self.given()}
         return self.lines.get(role, "").format_map({**vars(self), **letters})
 
+    @property
+    def leads(self) -> str:
+        """The block or wheel that its line leads, as its guide or track; nothing for others."""
+        return ""
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The steps of the lines that are told before the step of a role."""
+        return ()
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """What is said of a role's line within the sentence of the point that it helps to find."""
+        return ""
+
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How the point of a role is found; nothing for other roles."""
         return ""
@@ -59,6 +72,12 @@ class Construction(Roles):
 def construction(step: Step) -> Construction | None:
     """The construction that a step is part of; None for a step by itself."""
     return step.of if isinstance(step.of, Construction) else None
+
+
+def guided_by(step: Step) -> str:
+    """The block or wheel that a line leads, as its guide or track; nothing for other steps."""
+    kind = construction(step)
+    return kind.leads if kind is not None else str(step.says.get("g", ""))
 
 
 def constructions(program: Program, kind: type[K]) -> Iterator[K]:

@@ -65,12 +65,12 @@ def guide_line(pen: Pen, shapes: LinkShapes, slide: Slide | Rolling, on: str, na
     through = slide.through
     assert through is not None
     turn = direction_on(pen, shapes, on, pen.given("direction", slide.angle))
-    says: Says = {"g": name} if isinstance(slide, Slide) else {"g": name, "h": on}
     if isinstance(through, str):
-        start = pen.the("position", through)
-        return pen.draw(ray, start, turn, p=through, **says)
-    start = point_on(pen, shapes, on, pen.given("point", *through))
-    return pen.draw(ray, start, turn, p="", **says)
+        start, p = pen.the("position", through), through
+    else:
+        start, p = point_on(pen, shapes, on, pen.given("point", *through)), ""
+    says: Says = {"p": p, "g": name} if isinstance(slide, Slide) else {}
+    return pen.draw(ray, start, turn, **says)
 
 
 def point_on(pen: Pen, shapes: LinkShapes, link: str, local: int) -> int:

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.construction.core.bases import contact_name, no_construction, under
 from graphkin.construction.core.pen import Pen, Says, letter
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import coordinate, difference, sum_of
+from graphkin.construction.core.vocabulary import Action, coordinate, difference, sum_of
 from graphkin.construction.guides.guide_actions import placed, set_at
 from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.rolling.contact_points import (
+    CentrePath,
+    ContactOfWheels,
+    ContactOnTrack,
+    CountedTurn,
+    RackPoint,
+    RollerCentre,
+    Track,
+    counted_link,
+)
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.rolling.wheel_actions import (
     arm_between,
@@ -19,7 +28,6 @@ from graphkin.construction.rolling.wheel_actions import (
     between_tracks,
     contact_of_wheels,
     contact_on_track,
-    counted_link,
     counted_near,
     less_axis,
     opposite,
@@ -46,8 +54,9 @@ def track_of(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
     if key not in pen.shared:
         wheel, on = contact.links
         with pen.on(Part.POSITION, Plane.MECHANISM):
-            pen.shared[key] = guide_line(pen, shapes, contact.rolling, on, wheel)
-        pen.want("track", wheel, pen.shared[key])
+            line = guide_line(pen, shapes, contact.rolling, on, wheel)
+        pen.make(Track(wheel=wheel, rolling=contact.rolling, line=line))
+        pen.shared[key] = pen.want("track", wheel, line)
     return pen.shared[key]
 
 
@@ -66,9 +75,11 @@ def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
 @by_contact
 def path_of_centre(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
     """The line on which a wheel's centre moves along a straight track."""
-    line = track_of(pen, shapes, contact)
+    track = track_of(pen, shapes, contact)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        return pen.draw(radius_along, line, radius_of(pen, contact), k=contact.links[0])
+        line = pen.draw(radius_along, track, radius_of(pen, contact))
+    pen.make(CentrePath(wheel=contact.links[0], track=track, line=line))
+    return line
 
 
 def start_turn(pen: Pen, contact: Contact, link: str) -> int:
@@ -103,9 +114,9 @@ def touch_and_turn(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
     """A wheel whose centre stands: its contact with the straight track, and its axis."""
     wheel, on = contact.links
     line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
-    touch = mark_contact(
-        pen, contact, lambda: pen.draw(contact_on_track, line, centre, **named(contact))
-    )
+    touch, is_new = mark_contact(pen, contact, contact_on_track, line, centre)
+    if is_new:
+        pen.make(ContactOnTrack(track=line, point=touch, **named(contact)))
     with pen.on(Part.POSITION, Plane.NUMBERS):
         way = pen.draw(coordinate, line, touch)
     pen.want("rolled", wheel, way)
@@ -118,20 +129,22 @@ def touch_and_turn(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
     pen.want("turned from", wheel, start)
 
 
-def named(contact: Contact) -> Says:
+def named(contact: Contact) -> dict[str, str]:
     """The name of a contact and the links that touch there."""
-    return {"name": letter(contact_name(contact)), "k": contact.links[0], "g": contact.links[1]}
+    wheel, on = contact.links
+    return {"name": letter(contact_name(contact)), "wheel": wheel, "on": on}
 
 
-def mark_contact(pen: Pen, contact: Contact, draw: Callable[[], int]) -> int:
-    """The place of a contact, known under its name and as a point of either link."""
+def mark_contact(pen: Pen, contact: Contact, action: Action, *args: int) -> tuple[int, bool]:
+    """The place of a contact, known under its name and as a point of either link; drawn once."""
     name = contact_name(contact)
-    if not pen.has("position", name):
+    is_new = not pen.has("position", name)
+    if is_new:
         with pen.on(Part.POSITION, Plane.MECHANISM):
-            pen.want("position", name, draw())
+            point = pen.want("position", name, pen.draw(action, *args, name=letter(name)))
         for link in contact.links:
-            pen.want("position", under(name, link), pen.the("position", name))
-    return pen.the("position", name)
+            pen.want("position", under(name, link), point)
+    return pen.the("position", name), is_new
 
 
 @by_contact
@@ -183,7 +196,10 @@ def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
     side = seen_from(pen, contact, link)
     ends = pen.the("position", side.track.centre), pen.the("position", side.own.centre)
     radii = side.track_radius, side.radius
-    mark_contact(pen, contact, lambda: pen.draw(contact_of_wheels, *ends, *radii, **named(contact)))
+    touch, is_new = mark_contact(pen, contact, contact_of_wheels, *ends, *radii)
+    if is_new:
+        at = named(contact)
+        pen.make(ContactOfWheels(point=touch, centre=ends[0], radius=radii[0], **at))
 
 
 def roll_round(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> None:
@@ -251,8 +267,9 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
         near = pen.near.get(link, exact(0, "deg"))
         ends = pen.given("direction", near, k=link), pen.given("number", near, k=link)
-        says: Says = {"k": link} if pen.turns(link) else {}
-        found = pen.draw(counted_near, axis(pen, shapes, link), *ends, **says)
+        found = pen.draw(counted_near, axis(pen, shapes, link), *ends)
+        if pen.turns(link):
+            pen.make(CountedTurn(link=link, heading=ends[0], radians=ends[1], turn=found))
         return pen.want("turned", link, found)
 
 
@@ -308,7 +325,8 @@ def roller(pen: Pen, shapes: LinkShapes, group: Geared, own: Contact) -> None:
     path = path_of_centre(pen, shapes, own)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         centre = own.wheel.centre
-        found = pen.draw(set_at, path, where, name=centre, q=centre, k=group.link)
+        found = pen.draw(set_at, path, where, name=centre)
+    pen.make(RollerCentre(path=path, lean=lean, radii=radii, where=where, centre=found))
     pen.want("position", centre, found)
     for each in (own, other):
         touch_and_turn(pen, shapes, each)
@@ -337,5 +355,6 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
     centre = pen.the("position", contact.wheel.centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         where = centre, axis_, *ends, shapes.local(link, point), radius, way
-        pen.want("position", point, pen.draw(rack_at, *where, name=point, q=point, g=link))
+        found = pen.want("position", point, pen.draw(rack_at, *where, name=point))
+    pen.make(RackPoint(rack=link, way=way, point=found))
     touch_and_turn(pen, shapes, contact)

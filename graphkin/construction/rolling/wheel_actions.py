@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action
 from graphkin.numbers.arithmetic import Point, Real, at, below, phase, pick, turn_by
 from graphkin.numbers.plane import Line, dot
@@ -75,14 +74,6 @@ def counted_near(axis: Point, heading: Point, angle: Real) -> Real:
     quarter = phase(at(size * 0.0, size))
     since = phase(way)
     return angle + pick(below(since, ROUND - 2 * quarter), since + 4 * quarter, since)
-
-
-def counted_link(step: Step) -> str | None:
-    """The link whose whole turns a step says, its pins leaving them open; None for other steps.
-
-    The last two of the step's arguments are the angle near which it counts: heading and radians.
-    """
-    return step.says.get("k") if step.action is counted_near else None
 
 
 @action("turned-to")

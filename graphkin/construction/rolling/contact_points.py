@@ -1,0 +1,205 @@
+"""Where wheels touch what they roll on, and where they put it: tracks, contacts, racks, rollers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.line_words import straight
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.naming import drawn_amount, way_of
+from graphkin.construction.core.program import Step
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.model import FRAME, Rolling
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+SAME = 1e-9
+"""Radii and angles nearer than this, in parts of themselves or in radians, are the same."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Track(Construction):
+    """The ``line`` of a straight track, on which a ``wheel`` rolls as ``rolling`` says."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+
+    wheel: str
+    rolling: Rolling
+    line: int
+
+    @property
+    def leads(self) -> str:
+        """The wheel."""
+        return self.wheel
+
+    def line_name(self, steps: Sequence[Step], role: str) -> str:
+        """By the point that it is drawn through, or its wheel."""
+        through = self.rolling.through
+        return f"the line through {through}" if isinstance(through, str) else f"guide {self.wheel}"
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """That of the frame is there; that of a moving link is drawn through a point of it."""
+        if self.rolling.on == FRAME:
+            return drawing.words("step.guide-named", guide=way_of(drawing, self.wheel))
+        line = straight(drawing, self.rolling, on_paper=True)
+        names = {"g": escape(self.wheel), "h": escape(self.rolling.on)}
+        return drawing.words("step.track-of", line=line, **names)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CentrePath(Construction):
+    """The ``line`` on which the centre of a ``wheel`` moves, beside its straight ``track``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+    lines: ClassVar[Mapping[str, str]] = {"line": "the path of the centre of {wheel}"}
+
+    wheel: str
+    track: int
+    line: int
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The track."""
+        return (self.track,)
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """Parallel to the track at the radius."""
+        return drawing.words("step.radius-along", k=escape(self.wheel))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointOfContact(Construction):
+    """The ``point``, called ``name``, in which a ``wheel`` touches what it rolls ``on``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("point",)
+    reasons: ClassVar[Mapping[str, str]] = {"point": "why.touch"}
+
+    name: str
+    wheel: str
+    on: str
+    point: int
+
+    def symbols(self) -> Mapping[str, str]:
+        """Its letter, that of the wheel's point, and both links."""
+        own = symbol(lettered(f"{self.name}@{self.wheel}"))
+        both = {"k": escape(self.wheel), "g": escape(self.on)}
+        return {"name": symbol(self.name), "t": own, **both}
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactOnTrack(PointOfContact):
+    """The foot of the perpendicular from the wheel's centre to its straight ``track``."""
+
+    track: int
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The track of a moving link, where no path of the centre tells of it."""
+        steps, users = drawing.trace.program.steps, drawing.children.get(self.track, ())
+        told = any(isinstance(construction(steps[user]), CentrePath) for user in users)
+        return () if told or self.on == FRAME else (self.track,)
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By the perpendicular."""
+        key = "contact-on-track" if self.on == FRAME else "contact-on-track-of"
+        return drawing.words(f"step.{key}", **self.symbols())
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactOfWheels(PointOfContact):
+    """On the line of the centres, at the ``radius`` of one wheel from its ``centre``."""
+
+    centre: int
+    radius: int
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By the radius, of a gear from its module and number of teeth."""
+        where = drawing.trace.values[self.centre]
+        size = abs(float(drawing.trace.values[self.radius]))
+        discs = drawing.standing.discs
+        disc = min(discs, key=lambda each: abs(each.centre - where) + abs(each.radius - size))
+        count = " = *m*·*z*/2" if disc.module else ""
+        return drawing.words(
+            "step.contact-of-wheels",
+            radius=f"{symbol(f'r_{disc.link}')}{count} ({drawn_amount(drawing, size)})",
+            o=symbol(disc.wheel.centre),
+            **self.symbols(),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RackPoint(Construction):
+    """A ``point`` of a ``rack``, from the wheel that has rolled a ``way`` along it."""
+
+    gives: ClassVar[tuple[str, ...]] = ("point",)
+    laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+
+    rack: str
+    way: int
+    point: int
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By the arc that the wheel has turned through."""
+        return drawing.words(
+            "step.rack-at",
+            name=symbol(drawing.trace.program.steps[self.point].name),
+            g=escape(self.rack),
+            arc=drawn_amount(drawing, abs(float(drawing.trace.values[self.way]))),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollerCentre(Construction):
+    """The ``centre`` of a roller between two tracks, on its ``path`` along the first of them.
+
+    ``where`` is its coordinate there, from how much farther the one track has the roller turned at
+    its zero, ``lean``, and the ``radii`` on both tracks.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("where", "centre")
+
+    path: int
+    lean: int
+    radii: tuple[int, int]
+    where: int
+    centre: int
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """Its path."""
+        return (self.path,)
+
+    def is_halfway(self, drawing: Drawing) -> bool:
+        """Whether it has rolled as far on one of its tracks as on the other."""
+        lean, one, two = (float(drawing.trace.values[n]) for n in (self.lean, *self.radii))
+        return abs(lean) < SAME and abs(abs(one) - abs(two)) < SAME * abs(one)
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By its coordinate, or halfway."""
+        name = symbol(drawing.trace.program.steps[self.centre].name)
+        if self.is_halfway(drawing):
+            return drawing.words("step.set-halfway", name=name)
+        what = drawn_amount(drawing, float(drawing.trace.values[self.where]))
+        return drawing.words("step.set-at", name=name, what=what)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CountedTurn(Construction):
+    """The ``turn`` of a ``link`` whose pins leave whole turns open, within half a turn of an angle.
+
+    Two steps hold that angle: its ``heading`` and its ``radians``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("turn",)
+
+    link: str
+    heading: int
+    radians: int
+    turn: int
+
+
+def counted_link(step: Step) -> str | None:
+    """The link whose whole turns a step says, its pins leaving them open; None for other steps."""
+    return step.of.link if isinstance(step.of, CountedTurn) else None
