@@ -6,9 +6,28 @@ from graphkin.construction.core.component import Component, LaidOff
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.coriolis.coriolis import CoriolisComponent
 from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.rolling.contact_points import (
+    CentrePath,
+    ContactOfWheels,
+    ContactOnTrack,
+    RackPoint,
+    RollerCentre,
+    Track,
+)
+from graphkin.construction.rolling.counted_turn import CountedTurn
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
 """The components of accelerations that follow from velocities."""
-KINDS: tuple[type[Construction], ...] = (*COMPONENTS, LaidOff)
+KINDS: tuple[type[Construction], ...] = (
+    *COMPONENTS,
+    LaidOff,
+    Track,
+    CentrePath,
+    ContactOnTrack,
+    ContactOfWheels,
+    RackPoint,
+    RollerCentre,
+    CountedTurn,
+)
 """All kinds."""

@@ -13,7 +13,7 @@ import pytest
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.rolling import wheel_actions
+from graphkin.construction.rolling import contact_points, counted_turn, wheel_actions
 from graphkin.diagnosis.effects import (
     BY_COMMAND,
     BY_HAND,
@@ -42,6 +42,7 @@ from tests.diagnosis.scope import (
 
 EVERY = pytest.mark.parametrize("name", FILES)
 CORIOLIS = {"coriolis", "lay-off-coriolis", "lay-back-coriolis"}
+OF_WHEELS = {room.__name__ for room in (contact_points, counted_turn, wheel_actions)}
 OF_ACCELERATION = {"centripetal", "driven-tangential", "normal", "epsilon", "rolling-normal"}
 OF_ACCELERATION |= CORIOLIS | {"acceleration-pole", "turned-pole"}
 OUT_WITH_ACCELERATION = (
@@ -161,7 +162,7 @@ def test_rolling_and_gears_only_where_wheels_touch(name):
     of_wheels = [
         step
         for step in mechanism.program.steps
-        if step.action and step.action.value.__module__ == wheel_actions.__name__
+        if step.action and step.action.value.__module__ in OF_WHEELS
     ]
     assert bool(counts[Effect.ROLLING] or counts[Effect.GEARS]) == has_wheels
     assert bool(of_wheels) == has_wheels

@@ -18,7 +18,12 @@ from graphkin.construction.coriolis import coriolis
 from graphkin.construction.guides import guide_actions
 from graphkin.construction.higher_class import trial_actions
 from graphkin.construction.normal_component import normal_component
-from graphkin.construction.rolling import wheel_actions
+from graphkin.construction.rolling import (
+    contact_points,
+    counted_turn,
+    rolling_normal,
+    wheel_actions,
+)
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.kinds import decimal_kind
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
@@ -32,6 +37,9 @@ STEPS = {
         coriolis,
         guide_actions,
         wheel_actions,
+        contact_points,
+        counted_turn,
+        rolling_normal,
         centre_actions,
         trial_actions,
     )
@@ -152,7 +160,7 @@ every_step = pytest.mark.parametrize("name", STEPS)
 
 def test_the_vocabulary_is_there():
     assert len(STEPS) > 110
-    assert {"vocabulary.meet", "coriolis.coriolis", "wheel_actions.rack_at"} <= set(STEPS)
+    assert {"vocabulary.meet", "coriolis.coriolis", "contact_points.rack_at"} <= set(STEPS)
     assert "trial_actions.share" in STEPS
 
 

@@ -10,16 +10,67 @@ from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.line_words import straight
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import drawn_amount, way_of
-from graphkin.construction.core.program import Step
+from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real, at
+from graphkin.numbers.plane import Line, dot
 from graphkin.scene.model import FRAME, Rolling
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.construction.core.program import Step
 
 SAME = 1e-9
 """Radii and angles nearer than this, in parts of themselves or in radians, are the same."""
+
+# --- their values --------------------------------------------------------------------------------
+
+
+@action("radius-along")
+def radius_along(line: Line, radius: Real) -> Line:
+    """The line on which the centre of a wheel moves that rolls to the left of its track."""
+    return Line(line.point + 1j * line.along * (radius / abs(line.along)), line.along)
+
+
+@action("contact-on-track")
+def contact_on_track(line: Line, centre: Point) -> Point:
+    """The foot of the perpendicular from a wheel's centre to its straight track."""
+    unit = line.along / abs(line.along)
+    return line.point + unit * dot(unit, centre - line.point)
+
+
+@action("contact-of-wheels")
+def contact_of_wheels(track_centre: Point, centre: Point, track: Real, wheel: Real) -> Point:
+    """The point of the line of centres where two wheels touch; a ring's radius is negative."""
+    return track_centre + (centre - track_centre) * (track / (track + wheel))
+
+
+@action("rack-at")
+def rack_at(
+    centre: Point, axis: Point, here: Point, there: Point, point: Point, radius: Real, way: Real
+) -> Point:
+    """A point of a rack from the wheel that has rolled a way along its track (here to there)."""
+    line = there - here
+    along = axis * (line / abs(line))
+    return centre - along * at(way, radius) + axis * (point - here)
+
+
+@action("between-tracks")
+def between_tracks(
+    own: Line, other: Line, lean: Real, radius: Real, other_radius: Real, way: int
+) -> Real:
+    """Where between two parallel tracks a roller stands on the first, from how it turned.
+
+    On both tracks the way rolled gives the same turning; ``lean`` is how much farther the one has
+    the roller turned at its zero, way the sense of the second track against the first.
+    """
+    unit = own.along / abs(own.along)
+    shift = dot(unit, own.point - other.point)
+    return -(lean * other_radius + way * shift) / (way - other_radius / radius)
+
+
+# --- what they are -------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +124,10 @@ class CentrePath(Construction):
 
 @dataclass(frozen=True, kw_only=True)
 class PointOfContact(Construction):
-    """The ``point``, called ``name``, in which a ``wheel`` touches what it rolls ``on``."""
+    """The ``point``, called ``name``, in which a ``wheel`` touches what it rolls ``on``.
+
+    ``found_from`` are the steps of the values that give it.
+    """
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.touch"}
@@ -81,6 +135,7 @@ class PointOfContact(Construction):
     name: str
     wheel: str
     on: str
+    found_from: tuple[int, ...]
     point: int
 
     def symbols(self) -> Mapping[str, str]:
@@ -92,15 +147,14 @@ class PointOfContact(Construction):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactOnTrack(PointOfContact):
-    """The foot of the perpendicular from the wheel's centre to its straight ``track``."""
-
-    track: int
+    """The foot of the perpendicular from the wheel's centre to its straight track."""
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The track of a moving link, where no path of the centre tells of it."""
-        steps, users = drawing.trace.program.steps, drawing.children.get(self.track, ())
+        track, _ = self.found_from
+        steps, users = drawing.trace.program.steps, drawing.children.get(track, ())
         told = any(isinstance(construction(steps[user]), CentrePath) for user in users)
-        return () if told or self.on == FRAME else (self.track,)
+        return () if told or self.on == FRAME else (track,)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the perpendicular."""
@@ -110,17 +164,14 @@ class ContactOnTrack(PointOfContact):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactOfWheels(PointOfContact):
-    """On the line of the centres, at the ``radius`` of one wheel from its ``centre``."""
-
-    centre: int
-    radius: int
+    """On the line of the centres, at the radius of one wheel from its centre."""
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the radius, of a gear from its module and number of teeth."""
-        where = drawing.trace.values[self.centre]
-        size = abs(float(drawing.trace.values[self.radius]))
+        centre, _, radius, _ = (drawing.trace.values[number] for number in self.found_from)
+        size = abs(float(radius))
         discs = drawing.standing.discs
-        disc = min(discs, key=lambda each: abs(each.centre - where) + abs(each.radius - size))
+        disc = min(discs, key=lambda each: abs(each.centre - centre) + abs(each.radius - size))
         count = " = *m*·*z*/2" if disc.module else ""
         return drawing.words(
             "step.contact-of-wheels",
@@ -183,23 +234,3 @@ class RollerCentre(Construction):
             return drawing.words("step.set-halfway", name=name)
         what = drawn_amount(drawing, float(drawing.trace.values[self.where]))
         return drawing.words("step.set-at", name=name, what=what)
-
-
-@dataclass(frozen=True, kw_only=True)
-class CountedTurn(Construction):
-    """The ``turn`` of a ``link`` whose pins leave whole turns open, within half a turn of an angle.
-
-    Two steps hold that angle: its ``heading`` and its ``radians``.
-    """
-
-    gives: ClassVar[tuple[str, ...]] = ("turn",)
-
-    link: str
-    heading: int
-    radians: int
-    turn: int
-
-
-def counted_link(step: Step) -> str | None:
-    """The link whose whole turns a step says, its pins leaving them open; None for other steps."""
-    return step.of.link if isinstance(step.of, CountedTurn) else None

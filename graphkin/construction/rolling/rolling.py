@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.construction.core.bases import contact_name, no_construction, under
@@ -15,24 +16,23 @@ from graphkin.construction.rolling.contact_points import (
     CentrePath,
     ContactOfWheels,
     ContactOnTrack,
-    CountedTurn,
+    PointOfContact,
     RackPoint,
     RollerCentre,
     Track,
-    counted_link,
+    between_tracks,
+    contact_of_wheels,
+    contact_on_track,
+    rack_at,
+    radius_along,
 )
+from graphkin.construction.rolling.counted_turn import CountedTurn, counted_link, counted_near
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.rolling.wheel_actions import (
     arm_between,
     axis_turned,
-    between_tracks,
-    contact_of_wheels,
-    contact_on_track,
-    counted_near,
     less_axis,
     opposite,
-    rack_at,
-    radius_along,
     rolled_on_track,
     rolled_on_wheel,
     turned_to,
@@ -114,9 +114,7 @@ def touch_and_turn(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
     """A wheel whose centre stands: its contact with the straight track, and its axis."""
     wheel, on = contact.links
     line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
-    touch, is_new = mark_contact(pen, contact, contact_on_track, line, centre)
-    if is_new:
-        pen.make(ContactOnTrack(track=line, point=touch, **named(contact)))
+    touch = mark_contact(pen, contact, ContactOnTrack, contact_on_track, line, centre)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         way = pen.draw(coordinate, line, touch)
     pen.want("rolled", wheel, way)
@@ -129,22 +127,18 @@ def touch_and_turn(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
     pen.want("turned from", wheel, start)
 
 
-def named(contact: Contact) -> dict[str, str]:
-    """The name of a contact and the links that touch there."""
-    wheel, on = contact.links
-    return {"name": letter(contact_name(contact)), "wheel": wheel, "on": on}
-
-
-def mark_contact(pen: Pen, contact: Contact, action: Action, *args: int) -> tuple[int, bool]:
-    """The place of a contact, known under its name and as a point of either link; drawn once."""
-    name = contact_name(contact)
-    is_new = not pen.has("position", name)
-    if is_new:
+def mark_contact(
+    pen: Pen, contact: Contact, kind: Callable[..., PointOfContact], action: Action, *args: int
+) -> int:
+    """The place of a contact, known under its name and as a point of either link."""
+    name, (wheel, on) = contact_name(contact), contact.links
+    if not pen.has("position", name):
         with pen.on(Part.POSITION, Plane.MECHANISM):
             point = pen.want("position", name, pen.draw(action, *args, name=letter(name)))
+        pen.make(kind(name=letter(name), wheel=wheel, on=on, found_from=args, point=point))
         for link in contact.links:
             pen.want("position", under(name, link), point)
-    return pen.the("position", name), is_new
+    return pen.the("position", name)
 
 
 @by_contact
@@ -196,10 +190,7 @@ def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
     side = seen_from(pen, contact, link)
     ends = pen.the("position", side.track.centre), pen.the("position", side.own.centre)
     radii = side.track_radius, side.radius
-    touch, is_new = mark_contact(pen, contact, contact_of_wheels, *ends, *radii)
-    if is_new:
-        at = named(contact)
-        pen.make(ContactOfWheels(point=touch, centre=ends[0], radius=radii[0], **at))
+    mark_contact(pen, contact, ContactOfWheels, contact_of_wheels, *ends, *radii)
 
 
 def roll_round(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> None:

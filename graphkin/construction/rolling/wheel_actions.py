@@ -1,32 +1,9 @@
-"""Wheels that roll without slip: contact points, turning, and the contact's image in the plans."""
+"""Wheels that roll without slip: how far they have turned, and how far along their tracks."""
 
 from __future__ import annotations
 
 from graphkin.construction.core.vocabulary import action
-from graphkin.numbers.arithmetic import Point, Real, at, below, phase, pick, turn_by
-from graphkin.numbers.plane import Line, dot
-
-ROUND = 1e-9
-"""Radians by which rounding may put half a turn on its other side."""
-
-
-@action("contact-on-track")
-def contact_on_track(line: Line, centre: Point) -> Point:
-    """The foot of the perpendicular from a wheel's centre to its straight track."""
-    unit = line.along / abs(line.along)
-    return line.point + unit * dot(unit, centre - line.point)
-
-
-@action("contact-of-wheels")
-def contact_of_wheels(track_centre: Point, centre: Point, track: Real, wheel: Real) -> Point:
-    """The point of the line of centres where two wheels touch; a ring's radius is negative."""
-    return track_centre + (centre - track_centre) * (track / (track + wheel))
-
-
-@action("radius-along")
-def radius_along(line: Line, radius: Real) -> Line:
-    """The line on which the centre of a wheel moves that rolls to the left of its track."""
-    return Line(line.point + 1j * line.along * (radius / abs(line.along)), line.along)
+from graphkin.numbers.arithmetic import Point, Real, phase, turn_by
 
 
 @action("rolled-on-track")
@@ -47,33 +24,10 @@ def less_axis(turn: Real, axis: Point) -> Real:
     return turn - phase(axis)
 
 
-@action("rack-at")
-def rack_at(
-    centre: Point, axis: Point, here: Point, there: Point, point: Point, radius: Real, way: Real
-) -> Point:
-    """A point of a rack from the wheel that has rolled a way along its track (here to there)."""
-    line = there - here
-    along = axis * (line / abs(line))
-    return centre - along * at(way, radius) + axis * (point - here)
-
-
 @action("opposite")
 def opposite(number: Real) -> Real:
     """A number with the other sign."""
     return -number
-
-
-@action("counted-near")
-def counted_near(axis: Point, heading: Point, angle: Real) -> Real:
-    """The angle in radians of an axis, within half a turn of that of a heading.
-
-    An axis turned just half round from it, but for rounding, has turned ahead and not back.
-    """
-    way = axis * heading.conjugate()
-    size = abs(way)
-    quarter = phase(at(size * 0.0, size))
-    since = phase(way)
-    return angle + pick(below(since, ROUND - 2 * quarter), since + 4 * quarter, since)
 
 
 @action("turned-to")
@@ -117,20 +71,6 @@ def arm_between(
 def axis_turned(turn: Real) -> Point:
     """Axis of a link at an angle in radians."""
     return turn_by(turn)
-
-
-@action("between-tracks")
-def between_tracks(
-    own: Line, other: Line, lean: Real, radius: Real, other_radius: Real, way: int
-) -> Real:
-    """Where between two parallel tracks a roller stands on the first, from how it turned.
-
-    On both tracks the way rolled gives the same turning; ``lean`` is how much farther the one has
-    the roller turned at its zero, way the sense of the second track against the first.
-    """
-    unit = own.along / abs(own.along)
-    shift = dot(unit, own.point - other.point)
-    return -(lean * other_radius + way * shift) / (way - other_radius / radius)
 
 
 @action("speed-rolled")
