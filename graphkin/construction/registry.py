@@ -5,6 +5,8 @@ from __future__ import annotations
 from graphkin.construction.core.component import Component, LaidOff
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.coriolis.coriolis import CoriolisComponent
+from graphkin.construction.links.counted_turn import CountedTurn
+from graphkin.construction.links.placed_point import PlacedPoint
 from graphkin.construction.normal_component.normal_component import NormalComponent
 from graphkin.construction.rolling.contact_points import (
     CentrePath,
@@ -14,7 +16,6 @@ from graphkin.construction.rolling.contact_points import (
     RollerCentre,
     Track,
 )
-from graphkin.construction.rolling.counted_turn import CountedTurn
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
@@ -29,5 +30,6 @@ KINDS: tuple[type[Construction], ...] = (
     RackPoint,
     RollerCentre,
     CountedTurn,
+    PlacedPoint,
 )
 """All kinds."""

@@ -26,7 +26,6 @@ from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.zero_vectors import rate_at_rest
 from graphkin.construction.higher_class.closing_words import found_place
 from graphkin.construction.higher_class.misclosure import tried_link
-from graphkin.construction.rolling.rolling_words import turned_by
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.model import FRAME, Driver
 
@@ -78,11 +77,6 @@ def on_mechanism(
             return {"angle": words.fixed(degrees(phase(way)), 1)}
         case "step-along":
             return {"start": symbol(beyond(drawing, step))}
-        case "beside":
-            way = drawing.standing.spot(step.name) - drawing.standing.spot(says["p"])
-            found = {"angle": words.fixed(degrees(phase(way)), 1)}
-            turned = turned_by(drawing, says["g"])
-            return found | ({"turned": turned} if turned else {})
         case "inflection-point":
             away = abs(values[drawing.number_of(step)] - values[step.args[0]])
             names = {"a": symbol(f"a_{says['p']}"), "omega": symbol(f"ω_{says['k']}")}

@@ -42,7 +42,6 @@ FOLLOWING = ("square-to", "parallel-to", "shifted")
 """Those of them that begin where another one ended."""
 WHOLE = (
     "acceleration-pole",
-    "beside",
     "arm",
     "pin-centre",
     "guide-centre",
@@ -161,8 +160,6 @@ def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, s
         return "ray-produced" if "produced" in fields else "ray-against"
     if key == "guide-back" and is_tried(steps[step.args[1]]):
         return "guide-back-found"
-    if key == "beside" and not scene.links[step.says["g"]].slides:
-        return "beside-rolled" if "turned" in fields else "beside-turned"
     if key == "mark-off" and is_lever(drawing, step.args[0]):
         return "mark-off-lever"
     if key == "step-along" and beyond(drawing, step):

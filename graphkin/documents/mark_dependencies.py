@@ -32,7 +32,7 @@ def ground_of(drawing: Drawing, field: Field) -> Mapping[Mark, tuple[Target, ...
         about = tuple(("position", links[block].points[0]) for block in blocks)
         found |= dict.fromkeys(marks, about)
     for touch, marks in straight_tracks(drawing, field):
-        if touch.rolling.on == FRAME:
+        if touch.on == FRAME:
             found |= dict.fromkeys(marks, (("position", touch.disc.wheel.centre),))
     return found
 

@@ -19,8 +19,8 @@ from graphkin.construction.higher_class.trial_words import (
     trial_sentence,
     with_trials_together,
 )
+from graphkin.construction.links.placed_point import with_starts_together
 from graphkin.construction.normal_component.component_words import with_normals_together
-from graphkin.construction.rolling.rolling_words import with_starts_together
 from graphkin.construction.step_sentences import point_sentence
 from graphkin.documents.indices import with_indices
 from graphkin.documents.step_numbers import READ_OFF

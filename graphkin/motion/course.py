@@ -14,7 +14,7 @@ from graphkin.construction.core.batch import BLOCK, run_batch, run_blocks
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
-from graphkin.construction.rolling.counted_turn import counted_link
+from graphkin.construction.links.counted_turn import counted_link
 from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind

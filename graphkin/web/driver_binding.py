@@ -107,7 +107,7 @@ def ways_of(binder: FieldBinder, driver: Driver) -> Iterator[DriverAxis]:
                 )
         return
     for touch in standing.touches:
-        mine = touch.disc.link == driver.link and touch.rolling.on == driver.against
+        mine = touch.disc.link == driver.link and touch.on == driver.against
         if mine and touch.zero is not None:
             pose = places.touch(touch)
             yield DriverAxis(places.carried(driver.against, touch.zero), *pose, pose.origin)

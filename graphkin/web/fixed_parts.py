@@ -80,9 +80,7 @@ def guide(rail: Rail, others: Sequence[Rail], field: Field) -> Iterator[Mark]:
 def lines_of(drawing: Drawing) -> list[Touch]:
     """Where wheels without teeth touch straight tracks of the frame."""
     touches = drawing.standing.touches
-    return [
-        t for t in touches if t.zero is not None and t.rolling.on == FRAME and not t.disc.module
-    ]
+    return [t for t in touches if t.zero is not None and t.on == FRAME and not t.disc.module]
 
 
 def line(drawings: Sequence[Drawing], place: int, touch: Touch, field: Field) -> Iterator[Mark]:
@@ -94,5 +92,5 @@ def line(drawings: Sequence[Drawing], place: int, touch: Touch, field: Field) ->
         ends += [moved + end for end in track_ends(drawing, field, here)]
     at, way = field(touch.at), field.way(touch.along)
     start, end = across(at, way, min(ends), 0), across(at, way, max(ends), 0)
-    both = (start, end) if touch.rolling.side > 0 else (end, start)
+    both = (start, end) if touch.side > 0 else (end, start)
     yield from within(hatched(*both), field.rect)

@@ -176,7 +176,7 @@ class TracedBodies:
         """Where a block of the frame is drawn: at its point, but clear of a wheel on its link."""
         found = self.tape.lifted(point)
         for touch in reversed(self.drawing.standing.touches):
-            if touch.rolling.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
+            if touch.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
                 continue
             gap, clear = dot(point - self.touch(touch).origin, way.along), CLEAR * touch.disc.radius
             aside = point + (pick(gap < 0, -clear, clear) - gap) * way.along
@@ -187,7 +187,7 @@ class TracedBodies:
         """Where a wheel touches its track, and the way from its centre to there."""
         centre = self.positions[touch.disc.wheel.centre]
         if touch.zero is not None:
-            on = touch.rolling.on
+            on = touch.on
             zero, along = self.carried(on, touch.zero), self.turned(on, touch.along)
             return BodyPose(zero + along * dot(centre - zero, along), along)
         other = touch.other
@@ -207,7 +207,7 @@ class TracedBodies:
         """A gear's outline, whose teeth are drawn where it meshes: as the wheel turns they pass
         there, each taking the place of the one before it."""
         found, centre = self.touch(touch), self.positions[disc.wheel.centre]
-        way = found.way if touch.zero is None else self.turned(touch.rolling.on, 1 + 0j)
+        way = found.way if touch.zero is None else self.turned(touch.on, 1 + 0j)
         mesh = way * complex(self.tape.now(way)).conjugate()
         against = self.turn_of(disc.link) * mesh.conjugate()
         angle = self.tape.lifted(against).imag.do("atan2", self.tape.lifted(against).real)

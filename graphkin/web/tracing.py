@@ -10,7 +10,7 @@ from typing import Any
 
 from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.construction.core.run import Trace
-from graphkin.construction.rolling.counted_turn import counted_link
+from graphkin.construction.links.counted_turn import counted_link
 from graphkin.mechanism import Mechanism
 from graphkin.motion.pieces import followed, through
 from graphkin.motion.sweep import sweep_of

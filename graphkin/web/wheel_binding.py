@@ -55,7 +55,7 @@ def of_track(binder: FieldBinder, touch: Touch, pose: BodyPose) -> Told:
     """A straight track about its contact: of the frame its strokes stay, of a link its teeth go
     along with it."""
     places, field = binder.places, binder.field
-    drawing, mm, on = places.drawing, field.mm, touch.rolling.on
+    drawing, mm, on = places.drawing, field.mm, touch.on
     low, high = span_of(binder, touch, pose)
     page = binder.pose(pose)
     moved = dot(pose.origin - places.carried(on, touch.zero or 0j), pose.way) * mm
@@ -75,11 +75,11 @@ def of_track(binder: FieldBinder, touch: Touch, pose: BodyPose) -> Told:
         elif mark.cls == "ground":
             found[mark] = binder.on(teeth)
         elif mark.cls == "guide" and not touch.disc.module:
-            reach = (low, high) if touch.rolling.side > 0 else (high, low)
+            reach = (low, high) if touch.side > 0 else (high, low)
             first, last = (page.origin + page.way * end for end in reach)
             found[mark] = binder.joining(first, last, binder.room)
         elif mark.cls == "guide":
-            side, back = touch.rolling.side, rack_back(touch, mm)
+            side, back = touch.side, rack_back(touch, mm)
             reach = body if side > 0 else body[::-1]
             first, last = (page.origin + page.way * (end + 1j * back) for end in reach)
             found[mark] = binder.joining(first, last, binder.room)
@@ -124,13 +124,13 @@ def direction(line: Mark) -> complex:
 
 def rack_back(touch: Touch, mm: float) -> float:
     """How far the back of a rack lies beside its pitch line, in mm."""
-    side = touch.rolling.side
+    side = touch.side
     return side * ROOT * touch.disc.module * mm + side * BASE
 
 
 def span_of(binder: FieldBinder, touch: Touch, pose: BodyPose) -> tuple[Any, Any]:
     """The drawn part of a straight track in mm from the contact, as paper has it."""
-    places, mm, on = binder.places, binder.field.mm, touch.rolling.on
+    places, mm, on = binder.places, binder.field.mm, touch.on
     drawing = places.drawing
     half = max(REACH, 0.8 * touch.disc.radius * mm)
     lift = binder.tape.lifted
@@ -159,7 +159,7 @@ def seats_of(binder: FieldBinder, touch: Touch, pose: BodyPose) -> list[Any]:
     return [
         dot(places.seat(way) - pose.origin, pose.way) * binder.field.mm
         for way in places.drawing.standing.guideways
-        if way.block == touch.rolling.on and way.slide.on == FRAME
+        if way.block == touch.on and way.slide.on == FRAME
     ]
 
 

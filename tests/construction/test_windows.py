@@ -12,7 +12,7 @@ from graphkin.construction.higher_class.trial_windows import (
     narrowed,
     swing_reached,
 )
-from graphkin.construction.rolling.counted_turn import counted_near
+from graphkin.construction.links.counted_turn import counted_near
 from graphkin.numbers.plane import Circle, Line, circle_meets_circle, line_meets_circle
 from graphkin.numbers.roots import roots
 

@@ -13,7 +13,8 @@ import pytest
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.rolling import contact_points, counted_turn, wheel_actions
+from graphkin.construction.links import counted_turn
+from graphkin.construction.rolling import contact_points, wheel_actions
 from graphkin.diagnosis.effects import (
     BY_COMMAND,
     BY_HAND,

@@ -17,10 +17,10 @@ from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.coriolis import coriolis
 from graphkin.construction.guides import guide_actions
 from graphkin.construction.higher_class import trial_actions
+from graphkin.construction.links import counted_turn
 from graphkin.construction.normal_component import normal_component
 from graphkin.construction.rolling import (
     contact_points,
-    counted_turn,
     rolling_normal,
     wheel_actions,
 )

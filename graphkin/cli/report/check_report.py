@@ -13,7 +13,7 @@ from graphkin.cli.report.structure_report import group_lines, structure
 from graphkin.construction.core.crossings import crossings
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import Trace
-from graphkin.construction.rolling.counted_turn import counted_link
+from graphkin.construction.links.counted_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.mechanism import Mechanism

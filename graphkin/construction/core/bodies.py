@@ -60,3 +60,13 @@ class Touch(NamedTuple):
     along: complex
     zero: complex | None = None
     other: Disc | None = None
+
+    @property
+    def on(self) -> str:
+        """The link with the track."""
+        return self.rolling.on
+
+    @property
+    def side(self) -> int:
+        """On which side of a straight track the wheel is: 1 on its left."""
+        return self.rolling.side

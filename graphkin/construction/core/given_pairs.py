@@ -10,7 +10,7 @@ from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.line_words import axis_of, straight
 from graphkin.construction.core.parameter_words import after_parameter
-from graphkin.construction.rolling.counted_turn import counted_link
+from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.contact_letters import contact_letters

@@ -204,7 +204,7 @@ class LinkPoses:
     def beside_wheels(self, way: Guideway) -> complex:
         """Where a block of the frame is drawn: at its point, but clear of a wheel on its link."""
         for touch in self.touches:
-            if touch.rolling.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
+            if touch.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
                 continue
             gap = float(dot(way.at - touch.at, way.along))
             if abs(gap) < CLEAR * touch.disc.radius:

@@ -158,7 +158,7 @@ def draw_slide(board: FieldContent, drawing: Drawing, field: Field, driver: Driv
 def draw_roll(board: FieldContent, drawing: Drawing, field: Field, driver: Driver) -> None:
     """The way of a driven wheel's contact from where its track counts, the sense at its centre."""
     for touch in drawing.standing.touches:
-        mine = touch.disc.link == driver.link and touch.rolling.on == driver.against
+        mine = touch.disc.link == driver.link and touch.on == driver.against
         if mine and touch.zero is not None:
             lengths = (touch.zero, touch.at, touch.along)
             draw_way(board, drawing, field, driver, lengths, touch.at, touch.disc.centre)

@@ -12,6 +12,7 @@ from graphkin.construction.core.line_words import place
 from graphkin.construction.core.naming import drawn_amount, way_of
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.links.placed_point import PlacedPoint
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc
@@ -98,12 +99,19 @@ def found_place(drawing: Drawing, step: Step) -> dict[str, str]:
     }
 
 
+def points_of(step: Step) -> set[str]:
+    """The points of which the sentence of a step speaks."""
+    if isinstance(step.of, PlacedPoint):
+        return {step.of.start, step.of.name}
+    return {str(step.says.get(key, "")) for key in "pqr"} | {step.name}
+
+
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     """Each bar that no step lays off, because its pins stand without it: an idle link."""
     told = [
-        {str(step.says.get(key, "")) for key in "pqr"} | {step.name}
+        points_of(step)
         for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS)
-        if step.part is Part.POSITION and step.says
+        if step.part is Part.POSITION
     ]
     for link in drawing.scene.links.values():
         points = set(link.points)

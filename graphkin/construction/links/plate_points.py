@@ -12,9 +12,9 @@ from graphkin.construction.core.vocabulary import (
     similar_point,
     step_along,
 )
-from graphkin.construction.guides.guide_actions import placed
 from graphkin.construction.guides.guides import axis
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.placed_point import place_point
 from graphkin.numbers.plane import Line, crossing_sine
 
 CLEAR_CROSSING = 0.342
@@ -55,7 +55,7 @@ def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, point: str) -> int:
             return pen.draw(mark_off, line, length, name=point, p=base.start, q=point)
         here = (pen.the("position", base.start), axis(pen, shapes, base.link))
         ends = shapes.local(base.link, base.start), shapes.local(base.link, point)
-        return pen.draw(placed, *here, *ends, name=point, p=base.start, g=base.link, q=point)
+        return place_point(pen, base.link, (base.start, point), *here, *ends)
 
 
 def runs_along(pen: Pen, base: Base, point: str) -> bool:

@@ -127,8 +127,8 @@ def teeth_beside(touch: Touch) -> int:
 
 def rack(field: Field, touch: Touch, low: float, high: float) -> Iterator[Mark]:
     """A rack: its outline with teeth about the pitch point, its pitch line chain-dotted."""
-    module, side = touch.disc.module * field.mm, touch.rolling.side
-    at, way, name = field(touch.at), field.way(touch.along), touch.rolling.on
+    module, side = touch.disc.module * field.mm, touch.side
+    at, way, name = field(touch.at), field.way(touch.along), touch.on
     pitch, tip, root = pi * module, -side * module, side * ROOT * module
     count = min(teeth_beside(touch), int((min(-low, high) - 0.2) / pitch))
     corners = []

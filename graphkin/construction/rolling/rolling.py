@@ -6,12 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.construction.core.bases import contact_name, no_construction, under
-from graphkin.construction.core.pen import Pen, Says, letter
+from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, coordinate, difference, sum_of
-from graphkin.construction.guides.guide_actions import placed, set_at
+from graphkin.construction.guides.guide_actions import set_at
 from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
+from graphkin.construction.links.counted_turn import CountedTurn, counted_link, counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.rolling.contact_points import (
     CentrePath,
     ContactOfWheels,
@@ -26,7 +28,6 @@ from graphkin.construction.rolling.contact_points import (
     rack_at,
     radius_along,
 )
-from graphkin.construction.rolling.counted_turn import CountedTurn, counted_link, counted_near
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.rolling.wheel_actions import (
     arm_between,
@@ -227,8 +228,9 @@ def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     ends = shapes.local(group.arm, group.pivot.point), shapes.local(group.arm, centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         start, lead = pen.the("position", group.pivot.point), pen.the("axis", group.arm)
-        says: Says = {"p": group.pivot.point, "g": group.arm, "q": centre}
-        pen.want("position", centre, pen.draw(placed, start, lead, *ends, name=centre, **says))
+        both_ends = group.pivot.point, centre
+        found = place_point(pen, group.arm, both_ends, start, lead, *ends)
+    pen.want("position", centre, found)
     for each in group.contacts:
         touch_wheels(pen, each, group.wheel)
     roll_round(pen, shapes, contact, group.wheel)

@@ -124,7 +124,7 @@ def is_all_wheel(drawing: Drawing, link: str) -> bool:
 def track(drawing: Drawing, field: Field, touch: Touch) -> Iterator[Mark]:
     """A straight track: hatched if it is of the frame, a bar of its link if not; a rack's teeth."""
     low, high = track_ends(drawing, field, touch)
-    on, side = touch.rolling.on, touch.rolling.side
+    on, side = touch.on, touch.side
     at, way = field(touch.at), field.way(touch.along)
     bars = [(low, high)]
     if touch.disc.module:
@@ -151,9 +151,9 @@ def track_ends(drawing: Drawing, field: Field, touch: Touch) -> tuple[float, flo
     ends = [-half, half, *seats(drawing, field, touch)]
     if abs(zero) < SPARE or isinstance(touch.rolling.through, str):
         ends += [zero - 4, zero + 4]
-    if touch.rolling.on != FRAME:
+    if touch.on != FRAME:
         near = ALIKE * drawing.standing.size + 2.5 * touch.disc.module
-        for place in places_of(drawing, touch.rolling.on):
+        for place in places_of(drawing, touch.on):
             if abs(cross(touch.along, place - touch.at)) < near:
                 ends.append(dot(place - touch.at, touch.along) * field.mm)
     return min(ends), max(ends)
@@ -164,7 +164,7 @@ def seats(drawing: Drawing, field: Field, touch: Touch) -> list[float]:
     return [
         dot(seat(drawing, way) - touch.at, touch.along) * field.mm
         for way in drawing.standing.guideways
-        if way.block == touch.rolling.on and way.slide.on == FRAME
+        if way.block == touch.on and way.slide.on == FRAME
     ]
 
 
@@ -186,7 +186,7 @@ def arm_to_track(
     drawing: Drawing, field: Field, touch: Touch, low: float, high: float
 ) -> Iterator[Mark]:
     """The arm from a link's nearest point to its track, where the track misses all of them."""
-    places = places_of(drawing, touch.rolling.on)
+    places = places_of(drawing, touch.on)
     if not places:
         return
     thick = 2.5 * touch.disc.module * field.mm
@@ -195,7 +195,7 @@ def arm_to_track(
         return min(max(float(dot(place - touch.at, touch.along)) * field.mm, low), high)
 
     at, way = field(touch.at), field.way(touch.along)
-    side = touch.rolling.side
+    side = touch.side
     aside = side * (ROOT * touch.disc.module * field.mm + BASE) if touch.disc.module else 0.0
 
     def gap(place: complex) -> float:
@@ -205,7 +205,7 @@ def arm_to_track(
     nearest = min(places, key=gap)
     if gap(nearest) > max(thick + BASE, 0.5):
         there = across(at, way, foot(nearest), aside)
-        yield LineMark(*field(nearest), *there, "guide-bar", touch.rolling.on)
+        yield LineMark(*field(nearest), *there, "guide-bar", touch.on)
 
 
 def number_beside(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
