@@ -8,6 +8,7 @@ from graphkin.construction.coriolis.coriolis import CoriolisComponent
 from graphkin.construction.links.counted_turn import CountedTurn
 from graphkin.construction.links.placed_point import PlacedPoint
 from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.rolling.common_normal import CommonNormal
 from graphkin.construction.rolling.contact_points import (
     CentrePath,
     ContactOfWheels,
@@ -29,6 +30,7 @@ KINDS: tuple[type[Construction], ...] = (
     ContactOfWheels,
     RackPoint,
     RollerCentre,
+    CommonNormal,
     CountedTurn,
     PlacedPoint,
 )

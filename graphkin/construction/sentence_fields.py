@@ -121,8 +121,6 @@ def on_plan(
         case "driven-tangential":
             found["vector"] = symbol(f"a_{index_of(drawing, says)}^τ")
             found["epsilon"] = rate_of(drawing, step, says, "ε")
-        case "along-bar":
-            found["bar"] = bar(says["p"], says["q"])
         case "similar-point":
             found |= figures(drawing, step, fields)
     return found

@@ -185,8 +185,6 @@ def plan_key(drawing: Drawing, step: Step, key: str) -> str:
         return "square-to-touch"
     if key == "square-to" and "c" in step.says:
         return "square-to-both"
-    if key == "along-bar":
-        return "common-normal"
     if key == "parallel-to" and not step.says["s"]:
         before = laid_off(drawing.trace.program, step.args[0])
         return "parallel-to-tail" if before is not None and before.back else "parallel-to-end"

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from graphkin.construction.core.component import laid_off as component_laid_off
 from graphkin.construction.core.drawn_scene import TAGS, Drawing
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import (
     arrow_of,
     index_of,
@@ -41,13 +42,14 @@ def of_step(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
     """The equations that belong to one step of a plan."""
     velocity = drawing.kind == "velocity"
     tried = number in drawing.tags
+    kind = construction(step)
+    if kind is not None and (equation := kind.equation(drawing)):
+        yield equation
     match step.action.key if step.action else "":
         case "square-to":
             yield euler(drawing, step)
         case "parallel-to":
             yield from along(drawing, number, step)
-        case "along-bar":
-            yield touching(drawing, step)
         case "turned-velocity" if not is_pin_of_driver(drawing, step, step.args[3]):
             yield euler(drawing, step)
             if not tried:
@@ -207,12 +209,6 @@ def given_along(drawing: Drawing, number: int, step: Step, letter: str) -> Relat
 
 
 # --- at a contact --------------------------------------------------------------------------------
-
-
-def touching(drawing: Drawing, step: Step) -> Relation:
-    """Where wheels touch their accelerations differ along the common normal only."""
-    normal = bar(step.says["p"], step.says["q"])
-    return Relation(drawing.words("calculation.touching", bar=normal))
 
 
 def of_contacts(drawing: Drawing) -> Iterator[Relation]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphkin.construction.core.kind import guided_by
+from graphkin.construction.core.kind import lies_along
 from graphkin.construction.core.program import Program, Step
 from graphkin.construction.higher_class.trial import needed_of
 from graphkin.diagnosis.ranges import MOST, driver_words
@@ -79,10 +79,8 @@ def line_words(program: Program, line: Step) -> tuple[str, bool]:
     says = line.says
     if key == "square-to" and "q" in says:
         return f"{says['p']}{says['q']}", True
-    if key == "along-bar" and "q" in says:
-        return f"{says['p']}{says['q']}", False
-    if leads := guided_by(line):
-        return f"the guide of {leads}", False
+    if along := lies_along(line):
+        return along, False
     if key == "shifted":
         return line_words(program, program.steps[line.args[0]])
     return "", False

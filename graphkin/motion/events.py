@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.construction.core.kind import guided_by
+from graphkin.construction.core.kind import lies_along
 from graphkin.construction.core.program import Program
 from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN
@@ -113,8 +113,8 @@ def guide_under(program: Program, number: int) -> str:
         line: int | None = arg
         while line is not None:
             step = program.steps[line]
-            if leads := guided_by(step):
-                return f"the guide of {leads}"
+            if guide := lies_along(step):
+                return guide
             line = next((a for a in step.args if program.steps[a].action is not None), None)
     return "its guide"
 

@@ -36,7 +36,6 @@ WHY = {
     (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
     (Part.ACCELERATION, "square-to"): "why.tangential",
     (Part.ACCELERATION, "parallel-to"): "why.along_acceleration",
-    (Part.ACCELERATION, "along-bar"): "why.no_slip",
     (Part.ACCELERATION, "similar-point"): "why.similar",
     (Part.ACCELERATION, "driven-slide"): "why.driven",
     (Part.ACCELERATION, "between"): "why.trials",

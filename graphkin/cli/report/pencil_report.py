@@ -30,7 +30,6 @@ DRAWN_IN = {
 }
 """Where a crossing is drawn."""
 LINES = {
-    "along-bar": "∥ {p}{q}",
     "compass": "the arc {p}{q} about {p}",
     "kennedy-line": "the line of centres",
     "line-through": "the line of the trials",

@@ -10,6 +10,7 @@ from graphkin.construction.core.program import Program, Roles, Step
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.construction.core.relation import Relation
 K = TypeVar("K", bound="Construction")
 
 
@@ -45,8 +46,8 @@ class Construction(Roles):
         return self.lines.get(role, "").format_map({**vars(self), **letters})
 
     @property
-    def leads(self) -> str:
-        """The block or wheel that its line leads, as its guide or track; nothing for others."""
+    def lies_along(self) -> str:
+        """The bar, guide or track along which its line lies, in a report; nothing for others."""
         return ""
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
@@ -61,6 +62,14 @@ class Construction(Roles):
         """How the point of a role is found; nothing for other roles."""
         return ""
 
+    def label(self, role: str) -> str:
+        """Markup of what is written along a role's line in a plan; nothing for other roles."""
+        return ""
+
+    def equation(self, drawing: Drawing) -> Relation | None:
+        """The vector equation of a plan that it follows; None where it is not one of its own."""
+        return None
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the step of a role."""
 
@@ -74,10 +83,12 @@ def construction(step: Step) -> Construction | None:
     return step.of if isinstance(step.of, Construction) else None
 
 
-def guided_by(step: Step) -> str:
-    """The block or wheel that a line leads, as its guide or track; nothing for other steps."""
+def lies_along(step: Step) -> str:
+    """The guide, track or bar along which a line lies, in a report; nothing for other steps."""
     kind = construction(step)
-    return kind.leads if kind is not None else str(step.says.get("g", ""))
+    if kind is not None:
+        return kind.lies_along
+    return f"the guide of {step.says['g']}" if "g" in step.says else ""
 
 
 def constructions(program: Program, kind: type[K]) -> Iterator[K]:

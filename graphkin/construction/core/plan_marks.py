@@ -7,6 +7,7 @@ from math import hypot
 from typing import Any
 
 from graphkin.construction.core.amounts import OnPaper
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
@@ -30,7 +31,9 @@ def put_line(plot: Plot, number: int, step: Step, value: Any) -> None:
 
     Between its first point and the one that was found on it an arrow lies; it is drawn beyond.
     """
-    name, ends = line_name(step), [part for part in beyond(plot, number, value) if part]
+    kind = construction(step)
+    own = kind.line_name(plot.drawing.trace.program.steps, step.role) if kind else line_name(step)
+    name, ends = own.replace(" ", ""), [part for part in beyond(plot, number, value) if part]
     for part in ends:
         plot.board.marks.append(LineMark(*part[0], *part[1], "construction", name, number))
     markup = line_label(plot, step)
@@ -53,19 +56,19 @@ def beyond(plot: Plot, number: int, value: Any) -> list[tuple[XY, XY] | None]:
 def line_name(step: Step) -> str:
     """Name of a construction line: what it is drawn through and what it is square to."""
     key = step.action.key if step.action else ""
-    sign = {"square-to": "⊥", "parallel-to": "∥", "along-bar": "∥"}.get(key, "")
+    sign = {"square-to": "⊥", "parallel-to": "∥"}.get(key, "")
     return sign + step.says.get("p", step.says.get("g", "")) + step.says.get("q", "")
 
 
 def line_label(plot: Plot, step: Step) -> str:
     """What is written along a construction line of a plan."""
-    key = step.action.key if step.action else ""
+    key, kind = step.action.key if step.action else "", construction(step)
+    if kind is not None:
+        return kind.label(step.role)
     if key == "square-to":
         return f"⊥ {bar(step.says['p'], step.says['q'])}"
     if key == "parallel-to":
         return f"∥ {way_of(plot.drawing, step.says['g'])}"
-    if key == "along-bar":
-        return f"∥ {bar(step.says['p'], step.says['q'])}"
     return ""
 
 

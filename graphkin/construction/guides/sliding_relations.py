@@ -1,4 +1,4 @@
-"""The relations of rolling contacts, and of what is asked of blocks on their guides."""
+"""The relations of what is asked of blocks on their guides."""
 
 from __future__ import annotations
 

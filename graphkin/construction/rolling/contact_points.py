@@ -84,9 +84,9 @@ class Track(Construction):
     line: int
 
     @property
-    def leads(self) -> str:
-        """The wheel."""
-        return self.wheel
+    def lies_along(self) -> str:
+        """As the guide of its wheel."""
+        return f"the guide of {self.wheel}"
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """By the point that it is drawn through, or its wheel."""

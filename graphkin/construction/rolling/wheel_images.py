@@ -23,7 +23,6 @@ from graphkin.construction.core.pen import (
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import (
     alike,
-    along_bar,
     centripetal,
     driven_tangential,
     epsilon,
@@ -42,6 +41,7 @@ from graphkin.construction.normal_component.normal_component import (
     normal_component,
     square,
 )
+from graphkin.construction.rolling.common_normal import common_normal
 from graphkin.construction.rolling.rolling import radius_of
 from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
@@ -142,9 +142,7 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = lay_off_normal(pen, centre, own, vector)
         line = square(pen, centre, own, corner)
-        ends = pen.the("position", centre), pen.the("position", own)
-        says: Says = {"s": pen.steps[other].name, "p": letter(centre), "q": letter(own)}
-        along = pen.draw(along_bar, other, *ends, **says)
+        along = common_normal(pen, other, (centre, own))
         found = pen.draw(meet, line, along, name=second_image(own), q=own)
         component_arrow(pen, corner, found, "τ", own, centre)
     return pen.want("acceleration", own, found)
@@ -185,14 +183,12 @@ def second_train(pen: Pen, group: Train) -> None:
         for each in group.contacts
     ]
     vector = normal_component(pen, pivot, centre)
-    ends = pen.the("position", pivot), pen.the("position", centre)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = lay_off_normal(pen, pivot, centre, vector)
         line = square(pen, pivot, centre, corner)
         says: Says = {"p": letter(names[0]), "q": letter(names[1]), "r": centre}
         across = pen.draw(similar_point, *on_line_of(pen, names, others, centre), **says)
-        says = {"s": "", "p": pivot, "q": centre}
-        along = pen.draw(along_bar, across, *ends, **says)
+        along = common_normal(pen, across, (pivot, centre))
         found = pen.draw(meet, line, along, name=second_image(centre), q=centre)
         component_arrow(pen, corner, found, "τ", centre, pivot)
     pen.want("acceleration", centre, found)
@@ -224,17 +220,10 @@ def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> 
     start = second_image_under(pen, partner(slide, link), point)
     other = carried(pen, wheel, name, "acceleration")
     guide = known_guide(pen, shapes, slide)
-    centre = pen.the("position", contact.wheel.centre), pen.the("position", name)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         line = pen.draw(parallel_to, start, guide, s=named(pen, start), g=link)
-        says: Says = {"s": named(pen, other), "p": contact.wheel.centre, "q": letter(name)}
-        found = pen.draw(
-            meet,
-            line,
-            pen.draw(along_bar, other, *centre, **says),
-            q=point,
-            name=second_image(point),
-        )
+        along = common_normal(pen, other, (contact.wheel.centre, name))
+        found = pen.draw(meet, line, along, q=point, name=second_image(point))
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
 

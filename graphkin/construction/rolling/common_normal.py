@@ -1,0 +1,63 @@
+"""The common normal of a contact: along it alone rolling points may be accelerated apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.pen import Pen, letter
+from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vocabulary import along_bar
+from graphkin.drawing.symbol_markup import bar, symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@dataclass(frozen=True, kw_only=True)
+class CommonNormal(Construction):
+    """The ``line`` through the image ``start`` of one point of contact, for that of the other.
+
+    It is parallel to the radius from ``p`` to ``q``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+    reasons: ClassVar[Mapping[str, str]] = {"line": "why.no_slip"}
+    lines: ClassVar[Mapping[str, str]] = {"line": "∥ {p}{q}"}
+
+    p: str
+    q: str
+    start: int
+    line: int
+
+    @property
+    def lies_along(self) -> str:
+        """The radius."""
+        return self.p + self.q
+
+    def symbols(self) -> Mapping[str, str]:
+        """The ends of the radius."""
+        return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """The parallel to the radius."""
+        start = symbol(drawing.trace.program.steps[self.start].name)
+        return drawing.words("step.common-normal", s=start, **self.symbols())
+
+    def label(self, role: str) -> str:
+        """What it is parallel to."""
+        return f"∥ {bar(self.p, self.q)}"
+
+    def equation(self, drawing: Drawing) -> Relation:
+        """Where wheels touch their accelerations differ along the common normal only."""
+        return Relation(drawing.words("calculation.touching", bar=bar(self.p, self.q)))
+
+
+def common_normal(pen: Pen, start: int, ends: tuple[str, str]) -> int:
+    """The parallel to the radius between two points, through an image."""
+    line = pen.draw(along_bar, start, *(pen.the("position", end) for end in ends))
+    p, q = map(letter, ends)
+    pen.make(CommonNormal(p=p, q=q, start=start, line=line))
+    return line
