@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction import asked
 from graphkin.construction.acceleration import acceleration
-from graphkin.construction.centres import centres
+from graphkin.construction.centres.centres import draw_centres
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
 from graphkin.construction.core.pen import Pen
@@ -51,12 +51,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
     write_velocities(pen, shapes, standing)
     write_accelerations(pen, shapes, standing)
     every = [base for _, found in standing for base in found]
-    for base in every:
-        centres.centre(pen, base)
-    centres.relative(pen)
-    for base in every:
-        centres.pole(pen, base)
-        centres.inflection(pen, base)
+    draw_centres(pen, every)
     return pen.program()
 
 

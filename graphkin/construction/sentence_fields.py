@@ -77,16 +77,6 @@ def on_mechanism(
             return {"angle": words.fixed(degrees(phase(way)), 1)}
         case "step-along":
             return {"start": symbol(beyond(drawing, step))}
-        case "inflection-point":
-            away = abs(values[drawing.number_of(step)] - values[step.args[0]])
-            names = {"a": symbol(f"a_{says['p']}"), "omega": symbol(f"ω_{says['k']}")}
-            return {"drawn": drawn_amount(drawing, away), **names}
-        case "inflection-pole":
-            return {"omega": symbol(f"ω_{says['k']}")}
-        case "velocity-normal":
-            return {"v": symbol(f"v_{says['p']}")}
-        case "acceleration-pole" if "a" in says:
-            return {"figure": symbol(drawing.pole) + symbol(says["a"]) + symbol(says["b"])}
         case "similar-point":
             return figures(drawing, step, fields)
     return {}

@@ -5,13 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from graphkin.construction.centres.centre_marks import (
-    put_centre,
-    put_circle_point,
-    put_inflection_circle,
-    put_named_centre,
-    put_ray,
-)
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.paper_canvas import draw_part
 from graphkin.construction.core.plan_marks import (
@@ -73,19 +66,6 @@ PUTS: dict[
     (Plane.MECHANISM, "ray"): put_driver_ray,
     (Plane.MECHANISM, "set-on"): put_arrow,
     (Plane.MECHANISM, "set-on-twice"): put_arrow,
-    (Plane.MECHANISM, "velocity-normal"): put_ray,
-    (Plane.MECHANISM, "pole-ray"): put_ray,
-    (Plane.MECHANISM, "instant-centre"): put_centre,
-    (Plane.MECHANISM, "acceleration-pole"): put_centre,
-    (Plane.MECHANISM, "pin-centre"): put_named_centre,
-    (Plane.MECHANISM, "guide-centre"): put_centre,
-    (Plane.MECHANISM, "relative-centre"): put_centre,
-    (Plane.MECHANISM, "kennedy-line"): put_ray,
-    (Plane.MECHANISM, "normals-meet"): put_centre,
-    (Plane.MECHANISM, "inflection-point"): put_circle_point,
-    (Plane.MECHANISM, "inflection-square"): put_ray,
-    (Plane.MECHANISM, "inflection-pole"): put_centre,
-    (Plane.MECHANISM, "inflection-circle"): put_inflection_circle,
     (Plane.NUMBERS, "pole"): put_pole,
     (Plane.NUMBERS, "square-to"): put_line,
     (Plane.NUMBERS, "parallel-to"): put_line,

@@ -4,21 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from graphkin.construction.centres.centre_words import (
-    CENTRES,
-    OWN_WORDS,
-    SAID,
-    at_rest,
-    far_end,
-    oddity,
-    same_centre,
-)
 from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import SWINGS
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import beyond, is_driven
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.zero_vectors import falls_key
 from graphkin.construction.sentence_fields import LAID_OFF, fields_of
 from graphkin.drawing.symbol_markup import symbol
@@ -31,20 +22,14 @@ LINES = (
     "along-bar",
     "shifted",
     "guide-back",
-    "velocity-normal",
     "centripetal",
     "line-through",
-    "kennedy-line",
-    "inflection-square",
 )
 """Actions that are said within the sentence of the point that they help to find."""
 FOLLOWING = ("square-to", "parallel-to", "shifted")
 """Those of them that begin where another one ended."""
 WHOLE = (
-    "acceleration-pole",
     "arm",
-    "pin-centre",
-    "guide-centre",
     "set-back",
 )
 """Actions whose own sentence says all that the hand does."""
@@ -107,47 +92,20 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
     if step.action and step.action.key in FOLLOWING and is_left_out(drawing, step.args[0]):
         start = drawing.trace.program.steps[step.args[0]].args[0]
         fields["s"] = symbol(drawing.trace.program.steps[start].name)
-    key = key_of(drawing, step, words_of, fields)
+    key = key_of(drawing, step, fields)
     return drawing.words(f"step.{key}", **{"name": symbol(name), **fields})
 
 
 # --- which sentence ------------------------------------------------------------------------------
 
 
-def key_of(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, str]) -> str:
+def key_of(drawing: Drawing, step: Step, fields: Mapping[str, str]) -> str:
     """The key of the sentence of a step."""
     assert step.action is not None
     key = step.action.key
-    whole = words_of.action.key if words_of.action else ""
-    if step.plane is Plane.MECHANISM and step.part in (Part.CENTRE, Part.POLE):
-        return centre_key(drawing, step, words_of, fields)
-    if whole in CENTRES:
-        return centre_key(drawing, step, words_of, fields)
     if step.plane is Plane.MECHANISM:
         return mechanism_key(drawing, step, key, fields)
     return plan_key(drawing, step, key)
-
-
-def centre_key(drawing: Drawing, step: Step, words_of: Step, fields: dict[str, str]) -> str:
-    """The key of the sentence of a centre, a pole, or a line to one."""
-    assert step.action is not None and words_of.action is not None
-    key, whole = step.action.key, words_of.action.key
-    if key in OWN_WORDS:
-        return key + far_end(drawing, step, fields)
-    if whole in CENTRES and (odd := oddity(drawing, words_of)):
-        if whole == "instant-centre" and odd == "still":
-            odd = at_rest(drawing, words_of, fields)
-        return f"{whole}-{odd}"
-    if key == "acceleration-pole" and step.by_hand is None:
-        return f"{key}-{step.says.get('how', 'pivot')}"
-    if key in SAID and "how" in step.says:
-        return f"{key}-{step.says['how']}"
-    if key == "kennedy-meet" and (same := same_centre(drawing, words_of)):
-        fields["same"] = symbol(same.name)
-        return "kennedy-meet-again"
-    if whole == "instant-centre":
-        return whole if words_of.by_hand else f"{whole}-pivot"
-    return key
 
 
 def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, str]) -> str:

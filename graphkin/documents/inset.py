@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise, takewhile
 from math import hypot
 
-from graphkin.construction.centres.centre_words import same_centre
+from graphkin.construction.centres.centre import Centre
+from graphkin.construction.centres.relative_centre import RelativeCentre
 from graphkin.construction.core.curve_marks import ring
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.too_short import TINY
 from graphkin.construction.guides.slide_symbols import places_of
 from graphkin.construction.links.plates import corners_of, farthest
@@ -21,8 +22,6 @@ from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, box
 from graphkin.drawing.place_labels import spots_on
 from graphkin.drawing.scale import Scales, extent_of, preferred
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.numbers import plane
-from graphkin.numbers.plane import Ratio
 
 LARGEST, SMALLEST = (80.0, 60.0), 26.0
 """Width and height of an inset at most, and the longer of both at least, in mm."""
@@ -36,9 +35,9 @@ def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
     """The insets of a mechanism's field, one for each far place, where there is room for it."""
     found: list[FieldContent] = []
     space: Space | None = None
-    for step, centre in far_places(drawing, field):
+    for kind, centre in far_places(drawing, field):
         space = space or Space(marks, field.rect)
-        board = inset(drawing, step, centre, field, space)
+        board = inset(drawing, kind, centre, field, space)
         if board:
             space.take(board.rect)
             found.append(board)
@@ -47,28 +46,30 @@ def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
     return [mark for board, at in drawn for mark in (*board.marks, *free_ones(board, at))]
 
 
-def far_places(drawing: Drawing, field: Field) -> Iterator[tuple[Step, complex]]:
+def far_places(drawing: Drawing, field: Field) -> Iterator[tuple[Centre, complex]]:
     """The centres and poles that lie off a field, but not too far to be shown, each place once."""
     shown: list[complex] = []
-    for _, step, value in drawing.mechanism_steps():
-        if step.part not in (Part.CENTRE, Part.POLE) or not isinstance(value, Ratio):
+    for number, step, _ in drawing.mechanism_steps():
+        kind = construction(step)
+        if not isinstance(kind, Centre) or kind.found != number:
             continue
+        value = kind.value(drawing)
         point = drawing.place(value)
-        if point is None or field.holds(point, 2.0) or not lines_to(drawing, step):
+        if point is None or field.holds(point, 2.0) or not kind.lines_to(drawing):
             continue
         if abs(point - value.start) * field.mm > FARTHEST * (field.rect[2] - field.rect[0]):
             continue
         if all(abs(point - other) * field.mm > TINY for other in shown):
             shown.append(point)
-            yield step, point
+            yield kind, point
 
 
 def inset(
-    drawing: Drawing, step: Step, centre: complex, field: Field, space: Space
+    drawing: Drawing, kind: Centre, centre: complex, field: Field, space: Space
 ) -> FieldContent | None:
     """The mechanism and the lines that find a far centre, as large as there is room for."""
-    around = ring(circle) if (circle := circle_on(drawing, step)) else []
-    extent = extent_of([*drawing.positions.values(), *spots_of(drawing, step), centre, *around])
+    around = ring(circle[1]) if (circle := kind.around(drawing)) else []
+    extent = extent_of([*drawing.positions.values(), *spots_of(drawing, kind), centre, *around])
     inner = [size - 2 * EDGE for size in LARGEST]
     scales = preferred(1000 * max(extent.width / inner[0], extent.height / inner[1]))
     least = 1000 * max(extent.width, extent.height) / (SMALLEST - 2 * EDGE)
@@ -78,14 +79,14 @@ def inset(
         if disc is not None:
             x, y = disc.at[0] - width / 2, disc.at[1] - height / 2
             rect = (x, y, x + width, y + height)
-            return pictured(drawing, step, centre, Field(rect, 1000 / kL, extent.middle, disc.at))
+            return pictured(drawing, kind, centre, Field(rect, 1000 / kL, extent.middle, disc.at))
     return None
 
 
-def pictured(drawing: Drawing, step: Step, centre: complex, field: Field) -> FieldContent:
+def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> FieldContent:
     """What an inset shows: its frame and scale, bars, rays, the centre, and their names."""
     left, top, right, bottom = field.rect
-    lines, far = lines_to(drawing, step), field(centre)
+    lines, far = kind.lines_to(drawing), field(centre)
     firsts = [field(next(iter(line.values()))) for line in lines]
     scale = Scales(1000 / field.mm, 1.0).words
     board = FieldContent(field.rect)
@@ -93,27 +94,29 @@ def pictured(drawing: Drawing, step: Step, centre: complex, field: Field) -> Fie
         box(left, top, right - left, bottom - top, "panel"),
         *bars_of(drawing, field),
         *(LineMark(*first, *far, "ray inset") for first in firsts),
-        *around_of(circle_on(drawing, step), field, drawing.kind),
-        *(CircleMark(*field(end), 0.5, "point inset") for end in spots_of(drawing, step)),
+        *around_of(drawing, kind, field),
+        *(CircleMark(*field(end), 0.5, "point inset") for end in spots_of(drawing, kind)),
         CircleMark(*far, 0.9, f"centre {drawing.kind} inset"),
         Text(right - 1.5, bottom - 1.5, scale, "caption", 2.5, "end"),
     ]
     names = {name: end for line in lines for name, end in line.items()}
     board.labels = [Label(symbol(name), "", field(end), 2.5) for name, end in names.items()]
-    name = " = ".join(symbol(each) for each in names_of(drawing, step))
+    name = " = ".join(symbol(each) for each in names_of(drawing, kind))
     board.labels.append(Label(name, drawing.kind, far, 2.5, radius=0.9))
     return board
 
 
-def names_of(drawing: Drawing, step: Step) -> list[str]:
+def names_of(drawing: Drawing, kind: Centre) -> list[str]:
     """The name of a centre, and that which it has as the centre of its link and the frame."""
-    steps = (other for _, other, _ in drawing.mechanism_steps())
-    return [step.name, *(each.name for each in steps if same_centre(drawing, each) is step)]
+    others = (construction(step) for _, step, _ in drawing.mechanism_steps())
+    pairs = (each for each in others if isinstance(each, RelativeCentre))
+    again = (each.name for each in pairs if each.same(drawing) == kind.found)
+    return list(dict.fromkeys([kind.name, *again]))
 
 
-def spots_of(drawing: Drawing, step: Step) -> list[complex]:
+def spots_of(drawing: Drawing, kind: Centre) -> list[complex]:
     """The places on the lines to a far centre."""
-    return [place for line in lines_to(drawing, step) for place in line.values()]
+    return [place for line in kind.lines_to(drawing) for place in line.values()]
 
 
 def bars_of(drawing: Drawing, field: Field) -> Iterator[Mark]:
@@ -127,43 +130,9 @@ def bars_of(drawing: Drawing, field: Field) -> Iterator[Mark]:
             yield LineMark(*field(start), *field(end), "link inset")
 
 
-def circle_on(drawing: Drawing, step: Step) -> plane.Circle | None:
-    """The inflection circle on which a far inflection pole lies."""
-    children = drawing.children.get(number_of(drawing, step), ())
-    values = (drawing.trace.values[child] for child in children)
-    return next((value for value in values if isinstance(value, plane.Circle)), None)
-
-
-def around_of(circle: plane.Circle | None, field: Field, kind: str) -> Iterator[Mark]:
-    """The inflection circle."""
-    if circle is not None:
-        yield CircleMark(
-            *field(circle.centre), circle.radius * field.mm, f"inflection {kind} inset"
-        )
-
-
-def lines_to(drawing: Drawing, step: Step) -> list[dict[str, complex]]:
-    """For each line to a centre the places on it by name, the farthest from the centre first."""
-    if "q" in step.says:
-        return [{step.says[key]: drawing.standing.spot(step.says[key])} for key in ("p", "q")]
-    values, steps = drawing.trace.values, drawing.trace.program.steps
-    if step.by_hand is None or step.by_hand not in values:
-        return []
-    found = []
-    centre = drawing.place(values[number_of(drawing, step)])
-    for line in steps[step.by_hand].args:
-        names = {steps[arg].name: values[arg] for arg in steps[line].args}
-        places = {n: drawing.place(v) for n, v in names.items() if isinstance(v, Ratio)}
-        if not places:
-            first = steps[line].args[0]
-            places = {steps[first].name or steps[line].says["p"]: values[first]}
-        known = {name: place for name, place in places.items() if place is not None}
-        if centre is None or not known:
-            return []
-        found.append(dict(sorted(known.items(), key=lambda item: -abs(item[1] - centre))))
-    return found
-
-
-def number_of(drawing: Drawing, step: Step) -> int:
-    """The number of a step in its program."""
-    return drawing.trace.program.steps.index(step)
+def around_of(drawing: Drawing, kind: Centre, field: Field) -> Iterator[Mark]:
+    """The circle on which a far centre lies."""
+    if found := kind.around(drawing):
+        look, circle = found
+        place, radius = field(circle.centre), circle.radius * field.mm
+        yield CircleMark(*place, radius, f"{look} {drawing.kind} inset")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from graphkin.construction.centres.centre_words import with_centres_together
-from graphkin.construction.centres.parallel_velocities import set_before
+from graphkin.construction.centres.instant_centre import set_before
+from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component, component_of, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import SWINGS

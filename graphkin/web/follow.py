@@ -21,7 +21,6 @@ from graphkin.web.body_binding import told
 from graphkin.web.driver_binding import of_driver
 from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
 from graphkin.web.field_extents import must_be_seen
-from graphkin.web.moving_sheet import place_of
 from graphkin.web.step_binding import BEYOND_BOTH, FAR, Steps
 from graphkin.web.traced_poses import BodyPose, unit
 
@@ -219,7 +218,7 @@ class MarkBindings:
         if isinstance(value, Ratio):
             if not self.near_mark(number):
                 return only_at_start
-            place = value.start if steps.key(number) == "pin-centre" else place_of(value)
+            place = steps.part_of(number).place
             return binder.at(place, steps.within(place))
         if isinstance(value, Vector) or not isinstance(binder.tape.now(value), complex):
             return only_at_start

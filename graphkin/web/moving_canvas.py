@@ -6,14 +6,20 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.numbers.plane import Circle, Ratio
 from graphkin.web.field_binder import FieldBinder
+from graphkin.web.moving_sheet import place_of
 
 Ends = tuple[Any, Any]
 
 
 @dataclass
 class MovingCanvas:
-    """What the marks of one step are drawn from: its vector, its legs, and what its line faces."""
+    """What the marks of one step are drawn from: its vector, its legs, and what its line faces.
+
+    ``stands`` is where its circle is laid; one that ``is_cut`` shows only where the field has room.
+    ``endless`` are start and direction of a ray, ``tips`` the vectors whose tips are joined.
+    """
 
     binder: FieldBinder
     ends: Ends | None = None
@@ -21,6 +27,15 @@ class MovingCanvas:
     faces: Any = None
     swung: Ends | None = None
     is_beyond: bool = False
+    stands: Any = None
+    is_cut: bool = False
+    endless: Ends | None = None
+    tips: tuple[Ends, Ends] | None = None
+
+    @property
+    def place(self) -> Any:
+        """The point where its circle is laid; None where it has none."""
+        return place_of(self.stands) if isinstance(self.stands, Ratio) else self.stands
 
     @property
     def drawing(self) -> Drawing:
@@ -61,3 +76,37 @@ class MovingCanvas:
     def swing(self, centre: Any, end: Any) -> None:
         """The arc by which a point was carried about a centre."""
         self.swung = centre, end
+
+    # --- centres -----------------------------------------------------------------------------
+
+    def ray(self, name: str) -> None:
+        """The step's own line."""
+
+    def centre(self, value: Ratio) -> bool:
+        """A centre that moves, and shows where the field has room for it."""
+        self.spot(value)
+        return True
+
+    def ring(self, at: Any) -> None:
+        """The ring around a pin."""
+        self.stands = at
+
+    def spot(self, at: Any) -> None:
+        """A small point, where the field has room for it."""
+        self.stands, self.is_cut = at, True
+
+    def circle(self, circle: Circle, look: str) -> None:
+        """A circle, which is the step's own value."""
+
+    def away(
+        self, start: Any, way: Any, text: str, *, ray: bool = True, headed: bool = True
+    ) -> None:
+        """The ray to what lies at infinity."""
+        self.endless = start, way
+
+    def through_tips(self, one: Ends, other: Ends) -> None:
+        """The line through the tips of two vectors, while these are parallel."""
+        self.tips = one, other
+
+    def note(self, text: str) -> None:
+        """Words of the drawn position alone."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -200,8 +201,8 @@ def lines_of(sheets: Sequence[ScreenSheet]) -> Iterator[Crossing]:
 
 def square_to(step: Step) -> tuple[int, ...]:
     """The pin, the pole and the image of its velocity to which a line is drawn square."""
-    key = step.action.key if step.action is not None else ""
-    return step.args if key == "velocity-normal" else ()
+    kind = construction(step)
+    return kind.square_to if isinstance(kind, VelocityNormal) else ()
 
 
 def spoken(

@@ -30,8 +30,6 @@ WHY = {
     (Part.VELOCITY, "driven-slide"): "why.driven",
     (Part.VELOCITY, "between"): "why.trials",
     (Part.VELOCITY, "meet"): "why.meet",
-    (Part.CENTRE, "instant-centre"): "why.centre",
-    (Part.CENTRE, "kennedy-line"): "why.kennedy",
     (Part.ACCELERATION, "centripetal"): "why.normal",
     (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
     (Part.ACCELERATION, "square-to"): "why.tangential",
@@ -40,7 +38,6 @@ WHY = {
     (Part.ACCELERATION, "driven-slide"): "why.driven",
     (Part.ACCELERATION, "between"): "why.trials",
     (Part.ACCELERATION, "meet"): "why.meet",
-    (Part.POLE, "acceleration-pole"): "why.pole",
 }
 """The key of the reason for an action in a part of the work; others need none."""
 AGAIN = {

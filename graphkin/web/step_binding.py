@@ -7,11 +7,10 @@ from functools import cached_property
 from math import hypot, pi
 from typing import Any
 
-from graphkin.construction.centres.centre_marks import FAR as ENDLESS
-from graphkin.construction.centres.centre_marks import STRAIGHT
-from graphkin.construction.centres.parallel_velocities import BEYOND as BEYOND_TIPS
-from graphkin.construction.centres.parallel_velocities import PARALLEL, parallel_velocities
+from graphkin.construction.centres.instant_centre import PARALLEL
 from graphkin.construction.core.layout import BEYOND, SWEEP
+from graphkin.construction.core.paper_canvas import BEYOND_TIPS, STRAIGHT
+from graphkin.construction.core.paper_canvas import FAR as ENDLESS
 from graphkin.construction.core.plot import above_foot
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.too_short import TINY
@@ -26,9 +25,8 @@ from graphkin.drawing.symbols import SHORT
 from graphkin.numbers.arithmetic import larger, pick, smaller
 from graphkin.numbers.plane import Circle as Round
 from graphkin.numbers.plane import Line as Carrier
-from graphkin.numbers.plane import Ratio, Vector, cross, dot
+from graphkin.numbers.plane import Vector, cross, dot
 from graphkin.web.field_binder import Binding, only_at_start
-from graphkin.web.moving_sheet import place_of
 from graphkin.web.traced_poses import unit
 from graphkin.web.visible_steps import ALIKE, VisibleSteps
 
@@ -59,13 +57,10 @@ class Steps(VisibleSteps):
 
     def circle(self, number: int, mark: CircleMark) -> Binding:
         """A point, a pole or a centre; a centre shows where its field has room for it."""
-        value = self.value(number)
-        if not isinstance(value, Ratio):
-            is_inflection = self.key(number) == "inflection-point"
-            return self.binder.at(value, self.within(value) if is_inflection else self.seen(number))
-        if self.key(number) == "pin-centre":
-            return self.binder.at(value.start)
-        return self.binder.at(place_of(value), self.within(place_of(value)))
+        part = self.part_of(number)
+        if part.stands is None:
+            return self.binder.at(self.value(number), self.seen(number))
+        return self.binder.at(part.place, self.within(part.place) if part.is_cut else None)
 
     @cached_property
     def ends(self) -> dict[int, tuple[Any, Any]]:
@@ -106,7 +101,7 @@ class Steps(VisibleSteps):
         return self.binder.arc(tail, radius, (bearing - half, bearing + half), radius * mm - SHORT)
 
     def polygon(self, number: int, mark: Polyline) -> Binding | None:
-        """An arrowhead, the mark of a right angle, or the inflection circle."""
+        """An arrowhead, the mark of a right angle, or a circle."""
         ends = self.vector(number)
         cls = mark.cls.split()[0]
         if cls == "arrowhead":
@@ -154,10 +149,10 @@ class Steps(VisibleSteps):
             return self.binder.between(*ends, shown=self.seen(number))
         if cls == "centre":
             return self.circle(number, CircleMark(0, 0, 1, ""))
-        if self.key(number) == "instant-centre" and cls == "ray":
-            return self.tips(number)
-        if self.key(number) == "guide-centre":
-            return self.endless(number)
+        if cls == "ray" and (part := self.part_of(number)).tips is not None:
+            return self.tips(*part.tips)
+        if cls == "ray" and part.endless is not None:
+            return self.endless(*part.endless)
         for start, end in self.legs(number):
             if self.is_at(mark, start, end):
                 is_leg = cls in ("trial", "trial-line") or self.key(number) == "similar-point"
@@ -167,25 +162,21 @@ class Steps(VisibleSteps):
             return self.part(number, self.which(number, mark))
         return None
 
-    def endless(self, number: int) -> Binding:
-        """The ray to the centre of a block and its guide, which lies at infinity."""
-        start, way, _ = map(self.binder.tape.lifted, self.value(number))
+    def endless(self, start: Any, way: Any) -> Binding:
+        """The ray to what lies at infinity."""
+        start, way = map(self.binder.tape.lifted, (start, way))
         end = start + unit(way) * (ENDLESS / self.binder.field.mm)
         return self.binder.between(start, end, above_foot(self.binder.room))
 
-    def tips(self, number: int) -> Binding | None:
-        """The line through the tips of two velocities, while these are parallel."""
-        drawing, step, lift = self.binder.places.drawing, self.step(number), self.binder.tape.lifted
-        pole, scale = self.value(step.args[0]), drawing.at_scale(Plane.VELOCITIES, 1)
-        found = parallel_velocities(drawing, step).values()
-        if not found:
-            return None
-        ways = [lift(self.value(image) - pole) * scale for _, image in found]
-        tips = [lift(self.value(place)) + way for (place, _), way in zip(found, ways, strict=True)]
-        on = unit(tips[1] - tips[0]) * (BEYOND_TIPS / self.binder.field.mm)
-        shown = PARALLEL - abs(cross(unit(ways[0]), unit(ways[1])))
+    def tips(self, *vectors: tuple[Any, Any]) -> Binding:
+        """The line through the tips of two vectors, while these are parallel."""
+        lift = self.binder.tape.lifted
+        ways = [lift(way) for _, way in vectors]
+        first, last = (lift(tail) + way for (tail, _), way in zip(vectors, ways, strict=True))
+        on = unit(last - first) * (BEYOND_TIPS / self.binder.field.mm)
+        shown = PARALLEL - abs(cross(*map(unit, ways)))
         room = above_foot(self.binder.room)
-        return self.binder.between(tips[0] - on, tips[1] + on, room, shown)
+        return self.binder.between(first - on, last + on, room, shown)
 
     def is_at(self, mark: LineMark, start: Any, end: Any) -> bool:
         """Whether a line was drawn between two places."""

@@ -65,8 +65,7 @@ class VisibleSteps:
         if number not in self.parts:
             self.parts[number] = canvas = MovingCanvas(self.binder)
             step, kind = self.step(number), construction(self.step(number))
-            known = self.binder.places.values
-            if kind is not None and all(each in known for _, each in kind.given()):
+            if kind is not None and kind.is_whole(self.binder.places.values):
                 kind.marks(canvas, step.role)
         return self.parts[number]
 

@@ -9,10 +9,10 @@ from math import hypot
 import pytest
 from shapely import LineString, Point
 
+from graphkin.construction.core.curve_extent import is_straight
 from graphkin.construction.core.curve_marks import (
     UNSEEN,
     clipped_path,
-    is_straight,
     middle_of,
     ring,
 )

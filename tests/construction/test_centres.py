@@ -11,6 +11,7 @@ from math import hypot, pi
 import pytest
 from hypothesis import given, settings
 
+from graphkin.construction.centres.relative_centre import LineOfCentres
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.solution import Solution
 from graphkin.documents.centre_tables import place_of
@@ -188,7 +189,7 @@ def test_lines_of_centres_meet_where_the_velocities_say(made):
         step = mechanism.program.steps[number]
         if step.part is not Part.CENTRE or step.by_hand not in trace.values:
             continue
-        if as_one(mechanism, solution, f"{step.says['j']}-{step.says['k']}"):
+        if as_one(mechanism, solution, f"{step.of.first}-{step.of.link}"):
             continue
         hand = homogeneous(trace.values[step.by_hand], size)
         velocities = homogeneous(value, size)
@@ -210,9 +211,7 @@ def test_all_six_centres_of_a_four_bar_are_found_by_hand():
         "I03",
         "I23",
     ]
-    lines = [
-        (s.says["m"], s.says["n"]) for s in steps if s.action and s.action.key == "kennedy-line"
-    ]
+    lines = [s.of.letters for s in steps if isinstance(s.of, LineOfCentres)]
     assert lines == [("I01", "I12"), ("I03", "I23"), ("I01", "I03"), ("I12", "I23")]
 
 

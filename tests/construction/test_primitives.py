@@ -19,6 +19,8 @@ from hypothesis import Phase, assume, find, given, settings
 from hypothesis import strategies as st
 from hypothesis.errors import NoSuchExample, UnsatisfiedAssumption
 
+from graphkin.construction.centres.acceleration_poles import acceleration_pole
+from graphkin.construction.centres.instant_centre import instant_centre
 from graphkin.construction.core import vocabulary
 from graphkin.construction.normal_component import normal_component
 from graphkin.numbers.plane import (
@@ -420,13 +422,13 @@ def pole_within(pole: Callable, sample: tuple[complex, ...]) -> bool:
 
 def inverse_of_ratio(p: complex, q: complex, a: complex, b: complex) -> complex:
     """One over the way to the pole, from the two parts that are kept apart."""
-    pole = vocabulary.acceleration_pole(0j, p, q, a, b)
+    pole = acceleration_pole(0j, p, q, a, b)
     return pole.size / pole.shift
 
 
 def inverse_of_point(p: complex, q: complex, a: complex, b: complex) -> complex:
     """One over the way to the pole as a point of the plane, which is nought from far away."""
-    pole = vocabulary.acceleration_pole(0j, p, q, a, b)
+    pole = acceleration_pole(0j, p, q, a, b)
     way = (pole.start + pole.shift / pole.size) - p
     if way == 0:
         raise UnsatisfiedAssumption
@@ -445,9 +447,9 @@ def test_the_pole_as_a_plain_point_fails_that():
 
 def test_a_pole_and_a_centre_at_infinity_keep_their_direction():
     """All points alike in motion: no division, and the way to the centre is square to it."""
-    pole = vocabulary.acceleration_pole(0j, 0j, 2 + 0j, 3j, 3j)
+    pole = acceleration_pole(0j, 0j, 2 + 0j, 3j, 3j)
     assert (pole.size, pole.shift) == (0, -6j)
-    centre = vocabulary.instant_centre(0j, 0j, 2 + 0j, 3 + 0j, 3 + 0j)
+    centre = instant_centre(0j, 0j, 2 + 0j, 3 + 0j, 3 + 0j)
     assert (centre.size, centre.shift) == (0, 12j)
 
 

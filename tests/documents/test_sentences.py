@@ -8,7 +8,7 @@ from math import degrees
 
 import pytest
 
-from graphkin.construction.centres.parallel_velocities import set_before
+from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.program import Part, Plane

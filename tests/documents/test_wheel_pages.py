@@ -7,7 +7,7 @@ import re
 import pytest
 from shapely import LineString, Point
 
-from graphkin.construction.centres.parallel_velocities import set_before
+from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.program import CONTACT

@@ -6,16 +6,10 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import image, letter, second_image
 from graphkin.construction.core.program import CONTACT, Part, Program
 from graphkin.diagnosis.singularity_words import closed_by
-from graphkin.scene.model import FRAME
 from graphkin.text.plain_table import listed
 
 TAGS = "¹²"
 """The tags of the images of two trial plans."""
-CENTRES = {
-    "I": "the centre of link",
-    "J": "the acceleration pole of link",
-    "W": "the inflection pole of link",
-}
 
 
 def crossing(program: Program, number: int) -> tuple[str, str]:
@@ -34,16 +28,11 @@ def place_words(program: Program, number: int) -> str:
     if key == "swing-through":
         return f"the line {says['p']}-{says['q']}"
     kind = construction(step)
-    if kind is not None and kind.title:
-        return kind.title
+    if kind is not None and (title := kind.title(step.role)):
+        return title
     if not step.name and key.startswith(("close", "part", "share")):
         return f"links {listed(closed_by(program, number))} together"
-    name = drawn_name(program, number)
-    if step.part in (Part.CENTRE, Part.POLE) and name[:1] in CENTRES and "k" in says:
-        with_which = says.get("j", FRAME)
-        about = "" if with_which == FRAME else f" against link {with_which}"
-        return f"{CENTRES[name[:1]]} {says['k']}{about}"
-    return point_words(program, name)
+    return point_words(program, drawn_name(program, number))
 
 
 def drawn_name(program: Program, number: int) -> str:

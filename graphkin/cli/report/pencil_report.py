@@ -31,13 +31,10 @@ DRAWN_IN = {
 """Where a crossing is drawn."""
 LINES = {
     "compass": "the arc {p}{q} about {p}",
-    "kennedy-line": "the line of centres",
     "line-through": "the line of the trials",
     "parallel-to": "∥ guide {g}",
-    "pole-ray": "the ray at {p}",
     "ray": "the line through {p}",
     "square-to": "⊥ {p}{q}",
-    "velocity-normal": "⊥ velocity of {p}",
 }
 """What lines and arcs are called, by the key of their sentence."""
 UNNAMED = {"ray": "guide {g}"}

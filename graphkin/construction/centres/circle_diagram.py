@@ -14,7 +14,7 @@ Pair = tuple[str, str]
 """Two links, in the order of the scene."""
 Route = tuple[str, str] | None
 """The two links over which a centre is found; None for one found by two normals."""
-Centre = tuple[float, float, float]
+Spot = tuple[float, float, float]
 """A centre in homogeneous coordinates of length 1; the third is nought at infinity."""
 
 GOOD, LEAST = 0.2, 1e-6
@@ -26,7 +26,7 @@ MOST = 12
 def routes(
     links: Sequence[str],
     known: Collection[Pair],
-    centres: Mapping[Pair, Centre],
+    centres: Mapping[Pair, Spot],
     normals: Collection[str],
 ) -> dict[Pair, Route]:
     """How each centre that is not known at once is found, each from those before it.
@@ -58,7 +58,7 @@ def best(
     links: Sequence[str],
     missing: Sequence[Pair],
     joined: Mapping[str, set[str]],
-    centres: Mapping[Pair, Centre],
+    centres: Mapping[Pair, Spot],
 ) -> dict[Pair, Route]:
     """The missing centres found by good crossings, or else the one found by the best crossing."""
     tried = {
@@ -77,7 +77,7 @@ def squarest(
     links: Sequence[str],
     pair: Pair,
     joined: Mapping[str, set[str]],
-    centres: Mapping[Pair, Centre],
+    centres: Mapping[Pair, Spot],
 ) -> tuple[float, Pair] | None:
     """The two lines that cross most squarely in a centre; None where no two do."""
     over = [link for link in links if link in joined[pair[0]] and link in joined[pair[1]]][:MOST]
@@ -92,8 +92,8 @@ def squarest(
 
 
 def line_over(
-    links: Sequence[str], pair: Pair, link: str, centres: Mapping[Pair, Centre]
-) -> tuple[Centre, float] | None:
+    links: Sequence[str], pair: Pair, link: str, centres: Mapping[Pair, Spot]
+) -> tuple[Spot, float] | None:
     """The line through the centres of a third link with each of two, and how far they are apart."""
     first, second = (centres.get(ordered(links, end, link)) for end in pair)
     if first is None or second is None:
@@ -107,19 +107,19 @@ def ordered(links: Sequence[str], a: str, b: str) -> Pair:
     return (a, b) if links.index(a) < links.index(b) else (b, a)
 
 
-def cross(a: Centre, b: Centre) -> Centre:
+def cross(a: Spot, b: Spot) -> Spot:
     """The line through two points, or the point on two lines, in homogeneous coordinates."""
     (x, y, z), (u, v, w) = a, b
     return y * w - z * v, z * u - x * w, x * v - y * u
 
 
-def sine(a: Centre, b: Centre) -> float:
+def sine(a: Spot, b: Spot) -> float:
     """How far two points, or two lines, of length 1 are from being the same."""
     x, y, z = cross(a, b)
     return sqrt(x * x + y * y + z * z)
 
 
-def unit(x: float, y: float, z: float) -> Centre:
+def unit(x: float, y: float, z: float) -> Spot:
     """Homogeneous coordinates of length 1."""
     size = hypot(x, y, z) or 1.0
     return x / size, y / size, z / size

@@ -11,7 +11,13 @@ from functools import cached_property
 from itertools import combinations
 from math import hypot
 
-from graphkin.construction.centres.centre_actions import (
+from graphkin.construction.centres.centre import LineToCentre, normals_at
+from graphkin.construction.centres.circle_diagram import Pair, Spot, ordered, routes, unit
+from graphkin.construction.centres.relative_centre import (
+    GuideCentre,
+    LineOfCentres,
+    PinCentre,
+    RelativeCentre,
     guide_centre,
     kennedy_endless,
     kennedy_line,
@@ -20,11 +26,9 @@ from graphkin.construction.centres.centre_actions import (
     pin_centre,
     relative_centre,
 )
-from graphkin.construction.centres.circle_diagram import Centre, Pair, ordered, routes, unit
-from graphkin.construction.core.pen import Pen, Says, named
+from graphkin.construction.core.pen import Pen, named
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.run import StepFailed, Trace, run
-from graphkin.construction.core.vocabulary import velocity_normal
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
@@ -112,7 +116,7 @@ class Finder:
             return None
 
     @cached_property
-    def where(self) -> dict[Pair, Centre]:
+    def where(self) -> dict[Pair, Spot]:
         """Where the centres lie at the scene's own numbers, lengths in breadths of the mechanism.
 
         Links that do not move against each other, and are not joined, have none.
@@ -124,7 +128,7 @@ class Finder:
         middle = sum(spots) / len(spots)
         breadth = max(abs(spot - middle) for spot in spots) or 1.0
         fastest = max(abs(self.here.value("omega", link)) for link in links[1:]) or 1.0
-        found: dict[Pair, Centre] = {}
+        found: dict[Pair, Spot] = {}
         for pair in combinations(links, 2):
             ratio = self.ratio(pair, self.here)
             way = (ratio.start - middle) / breadth * ratio.size + ratio.shift / breadth
@@ -178,25 +182,40 @@ class Finder:
     def draw(self, pair: Pair) -> int:
         """A pin, a guide's far centre, or the centre by velocities with the hand's way to it."""
         pen, first, second = self.pen, *pair
-        says: Says = {"j": first, "k": second}
         name = pair_name(first, second)
         if pair in self.pins:
             pin = self.pins[pair]
-            return pen.draw(pin_centre, pen.the("position", pin), name=name, p=pin, **says)
+            found = pen.draw(pin_centre, pen.the("position", pin), name=name)
+            pen.make(PinCentre(name=name, first=first, link=second, point=pin, found=found))
+            return found
         if pair in self.guides:
             block, line = self.guides[pair]
             point = self.points(block)[0]
-            says |= {"p": point, "g": block}
-            return pen.draw(guide_centre, pen.the("position", point), line, name=name, **says)
+            found = pen.draw(guide_centre, pen.the("position", point), line, name=name)
+            pen.make(
+                GuideCentre(
+                    name=name, first=first, link=second, point=point, block=block, found=found
+                )
+            )
+            return found
         start, point = self.start(pair)
         motions = *self.motion(start, point), *self.motion(first if start == second else second)
-        by_hand = self.by_hand(pair) if pair in self.ways else None
-        says |= {"p": point}
-        if pair in self.contacts:
-            says["how"] = "touch"
-        elif by_hand is not None and not self.on_line(pair, point):
-            says["aside"] = point
-        return pen.draw(relative_centre, *motions, name=name, by_hand=by_hand, **says)
+        ways, crossing = self.by_hand(pair) if pair in self.ways else ((), None)
+        found = pen.draw(relative_centre, *motions, name=name, by_hand=crossing)
+        pen.make(
+            RelativeCentre(
+                name=name,
+                first=first,
+                link=second,
+                point=point,
+                found=found,
+                ways=ways,
+                crossing=crossing,
+                touching=pair in self.contacts,
+                aside=crossing is not None and not self.on_line(pair, point),
+            )
+        )
+        return found
 
     def start(self, pair: Pair) -> tuple[str, str]:
         """The link and its point from which a centre is reckoned, on a line drawn if there is one.
@@ -216,48 +235,38 @@ class Finder:
         joined = [self.pins.get(ordered(self.links, e, k)) for k in over or () for e in pair]
         return over is None or point in joined
 
-    def by_hand(self, pair: Pair) -> int | None:
-        """The hand's way to a centre: two lines of centres, or the normals to two velocities."""
-        way = self.ways[pair]
-        if way is None:
-            return self.by_normals(pair[1])
-        lines = [self.line(pair, over) for over in way]
-        with self.pen.hands_way():
-            drawn = [line for line in lines if line is not None]
-            if len(drawn) == 2:
-                return self.pen.draw(kennedy_meet, *drawn)
-            return self.pen.draw(kennedy_endless, *drawn) if drawn else None
+    def by_hand(self, pair: Pair) -> tuple[tuple[LineToCentre, ...], int | None]:
+        """The hand's way to a centre: the lines that meet in it, and the step where they do.
 
-    def line(self, pair: Pair, over: str) -> int | None:
+        They are two lines of centres, or the normals to the velocities of two points.
+        """
+        over = self.ways[pair]
+        if over is None:
+            with self.pen.hands_way():
+                points = tuple(self.swift(pair[1])[:2])
+                normals = normals_at(self.pen, points, self.pen.pole(Plane.VELOCITIES))
+                return normals, self.pen.draw(normals_meet, *(line.line for line in normals))
+        lines = tuple(line for each in over if (line := self.line(pair, each)) is not None)
+        if not lines:
+            return (), None
+        with self.pen.hands_way():
+            meeting = kennedy_meet if len(lines) == 2 else kennedy_endless
+            return lines, self.pen.draw(meeting, *(line.line for line in lines))
+
+    def line(self, pair: Pair, over: str) -> LineOfCentres | None:
         """The line of the centres of a third link with two; None where both lie at infinity."""
         ends = [ordered(self.links, end, over) for end in pair]
         if all(self.is_endless(end) for end in ends):
             return None
-        numbers = [self.centre(end) for end in ends]
-        names = [named(self.pen, number) for number in numbers]
+        m, n = (self.centre(end) for end in ends)
         with self.pen.hands_way():
-            return self.pen.draw(kennedy_line, *numbers, m=names[0], n=names[1])
+            line = self.pen.draw(kennedy_line, m, n)
+        letters = named(self.pen, m), named(self.pen, n)
+        return self.pen.make(LineOfCentres(letters=letters, ends=(m, n), line=line))
 
     def is_endless(self, pair: Pair) -> bool:
         """Whether a centre lies at infinity at the scene's own numbers."""
         return abs(self.where.get(pair, (0.0, 0.0, 1.0))[2]) <= ENDLESS
-
-    def by_normals(self, link: str) -> int:
-        """Where the normals to the velocities of two points of a link meet."""
-        pen, o = self.pen, self.pen.pole(Plane.VELOCITIES)
-        with pen.hands_way():
-            rays = [
-                pen.draw(
-                    velocity_normal,
-                    pen.the("position", point),
-                    o,
-                    pen.the("velocity", point),
-                    p=point,
-                    s=named(pen, pen.the("velocity", point)),
-                )
-                for point in self.swift(link)[:2]
-            ]
-            return pen.draw(normals_meet, *rays)
 
 
 def pair_name(first: str, second: str) -> str:

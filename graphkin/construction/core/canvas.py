@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.numbers.plane import Circle, Ratio
 
 
 class Canvas(Protocol):
@@ -44,3 +45,31 @@ class Canvas(Protocol):
 
     def swing(self, centre: Any, end: Any) -> None:
         """The arc by which a point was carried about a centre."""
+
+    # --- centres -----------------------------------------------------------------------------
+
+    def ray(self, name: str) -> None:
+        """The step's own line as a ray to a centre, as far as it is needed."""
+
+    def centre(self, value: Ratio) -> bool:
+        """The circle and cross of a centre with its letter; False where it is off the field."""
+
+    def ring(self, at: Any) -> None:
+        """The ring around a pin that is a centre, with the centre's letter."""
+
+    def spot(self, at: Any) -> None:
+        """A small point with its letter, where the field holds it."""
+
+    def circle(self, circle: Circle, look: str) -> None:
+        """As much of a circle as lies in the field."""
+
+    def away(
+        self, start: Any, way: Any, text: str, *, ray: bool = True, headed: bool = True
+    ) -> None:
+        """Words for what lies off the field, where the ray to it leaves the field."""
+
+    def through_tips(self, one: tuple[Any, Any], other: tuple[Any, Any]) -> None:
+        """The line through the tips of two parallel vectors, each given by its tail and its way."""
+
+    def note(self, text: str) -> None:
+        """Words at the foot of the field."""

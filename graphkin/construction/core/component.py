@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
@@ -91,9 +91,11 @@ class Component(Construction):
 
     def is_hidden(self, drawing: Drawing) -> bool:
         """Whether its triangle is not drawn, or too small to be."""
-        if any(number not in drawing.trace.values for _, number in self.given()):
-            return True
-        return bool(self.room(Measured(drawing)) < 0)
+        return not self.is_whole(drawing.trace.values) or bool(self.room(Measured(drawing)) < 0)
+
+    def is_whole(self, known: Container[int]) -> bool:
+        """Whether all its steps are known."""
+        return all(number in known for _, number in self.given())
 
     def letter(self, drawing: Drawing, role: str) -> str:
         """The letter of a corner: with its index only where another triangle has the same."""

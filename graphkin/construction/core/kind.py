@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from graphkin.construction.core.program import Program, Roles, Step
@@ -31,9 +31,8 @@ class Construction(Roles):
         """The key of the reason behind the step of a role; nothing where it needs none."""
         return self.reasons.get(role, "")
 
-    @property
-    def title(self) -> str:
-        """What the construction is called in a report."""
+    def title(self, role: str) -> str:
+        """What is found at a role's step, as a report calls it."""
         return ""
 
     def symbols(self) -> Mapping[str, str]:
@@ -72,6 +71,10 @@ class Construction(Roles):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the step of a role."""
+
+    def is_whole(self, known: Container[int]) -> bool:
+        """Whether its marks can be drawn from the steps that are known."""
+        return True
 
     def is_hidden(self, drawing: Drawing) -> bool:
         """Whether it is too small on a sheet to be drawn."""

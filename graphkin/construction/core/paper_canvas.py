@@ -6,22 +6,41 @@ from dataclasses import dataclass
 from math import degrees, hypot
 from typing import Any
 
+from graphkin.construction.core.curve_marks import clipped_path, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND, SWEEP
-from graphkin.construction.core.plot import Plot, line_ends, middle
+from graphkin.construction.core.plan_marks import name_point
+from graphkin.construction.core.plot import Plot, above_foot, line_ends, middle
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.too_short import TINY
-from graphkin.drawing.field import XY
+from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.drawing.symbols import SHORT, arrow, bearing, square_mark
+from graphkin.drawing.symbols import FIXED, SHORT, arrow, bearing, head, square_mark
+from graphkin.numbers.plane import Circle, Ratio
 
 SIDE = 6.0
 """Shortest side of a triangle, in mm, at whose corner a right angle is marked."""
 LEG = "leg"
 """The part of a step's marks that is a line between two points, not the step's own line."""
+SMALL, ARM = 1.3, 2.2
+"""Radius of the circle of a centre, and how far its cross reaches, in mm."""
+RING = 1.9
+"""The same radius around a pin that is a centre, in mm."""
+DOT = 0.5
+"""Radius of a small point, in mm."""
+WITHIN = 2.0
+"""How far from the edge of its field a centre lies that is marked there, in mm."""
+LAST = 20.0
+"""How much of a ray to a far centre its name belongs to, in mm."""
+STRAIGHT = 1e6
+"""Radius in mm of a circle that is a straight line, or none at all, on any page."""
+FAR = 2000.0
+"""Longer than any way on a page, in mm."""
+BEYOND_TIPS = 4.0
+"""How far the line through the tips of two vectors goes on beyond them, in mm."""
 
 
 def draw_part(plot: Plot, number: int, step: Step, kind: Construction) -> None:
@@ -69,10 +88,10 @@ class PaperCanvas:
         """A small named point."""
         place, own = self.plot.field(at), self.step.name
         self.plot.board.marks.append(
-            CircleMark(*place, 0.5, "point construction", own, self.number)
+            CircleMark(*place, DOT, "point construction", own, self.number)
         )
         self.plot.board.labels.append(
-            Label(symbol(name), "construction", place, 2.5, own, self.number, radius=0.5)
+            Label(symbol(name), "construction", place, 2.5, own, self.number, radius=DOT)
         )
 
     def segment(self, start: Any, end: Any) -> None:
@@ -119,3 +138,91 @@ class PaperCanvas:
             span = (way - half, way + half)
             marks = self.plot.board.marks
             marks.append(Arc(*at, radius, *span, "compass", self.step.name, self.number))
+
+    # --- centres -----------------------------------------------------------------------------
+
+    def ray(self, name: str) -> None:
+        """The step's own line as far as the layout says, in the look of rays."""
+        ends = line_ends(self.plot, self.number, self.value(self.number))
+        if ends:
+            self.plot.board.marks.append(LineMark(*ends[0], *ends[1], "ray", name, self.number))
+
+    def centre(self, value: Ratio) -> bool:
+        """The circle and cross of a centre with its letter; False where it is off the field."""
+        point = self.drawing.place(value)
+        if point is None or not self.plot.field.holds(point, WITHIN):
+            return False
+        (x, y), (cls, name) = self.plot.field(point), self.centre_look
+        radius = RING if self.is_under_pin(point) else SMALL
+        self.plot.board.marks += (
+            CircleMark(x, y, radius, cls, name, self.number),
+            LineMark(x - ARM, y, x + ARM, y, cls, name, self.number),
+            LineMark(x, y - ARM, x, y + ARM, cls, name, self.number),
+        )
+        name_point(self.plot, self.number, self.step, (x, y), ARM)
+        return True
+
+    @property
+    def centre_look(self) -> tuple[str, str]:
+        """The class and the name of the marks of a centre."""
+        return f"centre {self.plot.colour}", self.step.name
+
+    def is_under_pin(self, point: complex) -> bool:
+        """Whether the pin of a point covers the middle of a centre."""
+        places = self.drawing.positions.values()
+        return any(self.size(place - point) < FIXED for place in places)
+
+    def ring(self, at: Any) -> None:
+        """The ring around a pin that is a centre, with the centre's letter."""
+        place = self.plot.field(at)
+        self.plot.board.marks.append(CircleMark(*place, RING, *self.centre_look, self.number))
+        name_point(self.plot, self.number, self.step, place, RING)
+
+    def spot(self, at: Any) -> None:
+        """A small point with its letter, where the field holds it."""
+        if self.plot.field.holds(at, WITHIN):
+            place, look = self.plot.field(at), ("point construction", self.step.name)
+            self.plot.board.marks.append(CircleMark(*place, DOT, *look, self.number))
+            name_point(self.plot, self.number, self.step, place, DOT)
+
+    def circle(self, circle: Circle, look: str) -> None:
+        """As much of a circle as lies in the field."""
+        mm = self.plot.field.mm
+        if TINY < circle.radius * mm < STRAIGHT:
+            around = [self.plot.field(point) for point in ring(circle, mm)]
+            cls, rect = f"{look} {self.plot.colour}", above_foot(self.plot.field.rect)
+            parts = clipped_path(around, rect, cls, self.step.name, self.number)
+            self.plot.board.marks.extend(parts)
+
+    def away(
+        self, start: Any, way: Any, text: str, *, ray: bool = True, headed: bool = True
+    ) -> None:
+        """Words for what lies off the field, where the ray to it leaves the field."""
+        (x, y), (u, v) = self.plot.field(start), self.plot.field.way(way)
+        rect, colour, name = above_foot(self.plot.field.rect), self.plot.colour, self.step.name
+        part = clipped((x, y), (x + FAR * u, y + FAR * v), rect)
+        if part is None:
+            return
+        if headed:
+            self.plot.board.marks.append(head(*part, colour, name, self.number))
+        if ray:
+            self.plot.board.marks.append(LineMark(*part[0], *part[1], "ray", name, self.number))
+        (x, y) = end = part[1]
+        subject = ((x - LAST * u, y - LAST * v), end)
+        label = Label(text, colour, subject, 2.5, name, self.number, priority=2)
+        self.plot.board.labels.append(label)
+
+    def through_tips(self, one: tuple[Any, Any], other: tuple[Any, Any]) -> None:
+        """The line through the tips of two vectors and a little beyond."""
+        first, last = sum(one), sum(other)
+        if first != last:
+            on = (last - first) / abs(last - first) * BEYOND_TIPS / self.plot.field.mm
+            ends = self.plot.field(first - on), self.plot.field(last + on)
+            part = clipped(*ends, above_foot(self.plot.field.rect))
+            if part:
+                line = LineMark(*part[0], *part[1], "ray", self.step.name, self.number)
+                self.plot.board.marks.append(line)
+
+    def note(self, text: str) -> None:
+        """Words at the foot of the field."""
+        self.plot.board.notes.append(text)

@@ -14,7 +14,6 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import (
     Circle,
     Line,
-    Ratio,
     Vector,
     circle_meets_circle,
     circles_sine,
@@ -279,31 +278,3 @@ def set_velocity(pin: Point, image_pivot: Point, image_pin: Point, seconds: Real
 def square_at(corner: Point, pivot: Point) -> Line:
     """At the tip of the velocity the perpendicular to the line that joins it with the pivot."""
     return Line(corner, 1j * (corner - pivot))
-
-
-# --- poles and centres ---------------------------------------------------------------------------
-
-
-@action("velocity-normal")
-def velocity_normal(point: Point, o: Point, image: Point) -> Line:
-    """Through a point of the mechanism the perpendicular to its velocity (Chasles)."""
-    return Line(point, 1j * (image - o))
-
-
-@action("instant-centre")
-def instant_centre(o: Point, p: Point, q: Point, image_p: Point, image_q: Point) -> Ratio:
-    """The point of a link without velocity: p + i·v/omega, at infinity in translation."""
-    bar = q - p
-    return Ratio(p, 1j * (image_p - o) * dot(bar, bar), cross(bar, image_q - image_p))
-
-
-@action("pole-ray")
-def pole_ray(corner: Point, other: Point, o: Point, image: Point, image_other: Point) -> Line:
-    """At one end of a bar the angle that the plan shows at its image, between image and pole."""
-    return Line(corner, (other - corner) * ((o - image) / (image_other - image)))
-
-
-@action("acceleration-pole")
-def acceleration_pole(o: Point, p: Point, q: Point, image_p: Point, image_q: Point) -> Ratio:
-    """The point of a link without acceleration, J - p : q - p = o - p' : q' - p' (Mehmke)."""
-    return Ratio(p, (o - image_p) * (q - p), image_q - image_p)

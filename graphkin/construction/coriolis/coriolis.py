@@ -137,8 +137,7 @@ class CoriolisComponent(Component):
     lean: int | None = None
     top: int | None = None
 
-    @property
-    def title(self) -> str:
+    def title(self, role: str) -> str:
         """What it is called in a report."""
         return f"the Coriolis triangles of {self.pin_name} about {self.pivot_name}"
 

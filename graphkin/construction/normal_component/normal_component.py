@@ -112,8 +112,7 @@ class NormalComponent(Component):
     cut: int | None = None
     end: int | None = None
 
-    @property
-    def title(self) -> str:
+    def title(self, role: str) -> str:
         """What it is called in a report."""
         return f"the right triangle of {self.q} about {self.p}"
 

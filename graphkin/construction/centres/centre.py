@@ -1,0 +1,259 @@
+"""Centres of motion, which may lie at infinity: how they are marked and said, near and far."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import degrees
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphkin.construction.core.bases import Base
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.vocabulary import action
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Circle, Line, Ratio, cross
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+Places = dict[str, complex]
+"""Places on a line by name."""
+
+
+# --- the lines that lead to one ------------------------------------------------------------------
+
+
+@action("velocity-normal")
+def velocity_normal(point: Point, o: Point, image: Point) -> Line:
+    """Through a point of the mechanism the perpendicular to its velocity (Chasles)."""
+    return Line(point, 1j * (image - o))
+
+
+def meet_anywhere(m: Line, n: Line) -> Ratio:
+    """Where two lines meet, at infinity when they are parallel."""
+    gap = n.point - m.point
+    return Ratio(m.point, cross(gap, n.along) * m.along, cross(m.along, n.along))
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineToCentre(Construction):
+    """A line on which a centre lies."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+
+    line: int
+
+    @property
+    def name(self) -> str:
+        """What its mark is called."""
+        return ""
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The line, as far as the centre."""
+        canvas.ray(self.name)
+
+    def clause(self, drawing: Drawing, role: str = "") -> str:
+        """What is said of it within the sentence of its centre."""
+        raise NotImplementedError
+
+    def places(self, drawing: Drawing) -> Places:
+        """The places through which it is drawn, those at infinity left out."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, kw_only=True)
+class VelocityNormal(LineToCentre):
+    """The perpendicular to the velocity of a ``point``, by the steps of its place, the pole of the
+    plan and its image.
+    """
+
+    lines: ClassVar[Mapping[str, str]] = {"line": "⊥ velocity of {point}"}
+
+    point: str
+    place: int
+    pole: int
+    image: int
+
+    @property
+    def name(self) -> str:
+        """The point's letter."""
+        return self.point
+
+    @property
+    def square_to(self) -> tuple[int, int, int]:
+        """The pin, and the pole and the image between which its velocity stands in the plan."""
+        return self.place, self.pole, self.image
+
+    def clause(self, drawing: Drawing, role: str = "") -> str:
+        """At the point the perpendicular to its velocity."""
+        fields = {"p": symbol(self.point), "v": symbol(f"v_{self.point}")}
+        return drawing.words("step.velocity-normal", **fields)
+
+    def places(self, drawing: Drawing) -> Places:
+        """The point."""
+        own = drawing.trace.program.steps[self.place].name
+        return {own or self.point: drawing.trace.values[self.place]}
+
+
+# --- what it is ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Centre(Construction):
+    """A place of a link that may lie at infinity, with its letter; a Ratio from a ``point`` on.
+
+    ``found`` is its stable value, ``crossing`` where the hand finds it: where its ``ways`` meet.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("crossing", "found")
+    key: ClassVar[str]
+    called: ClassVar[str] = "the centre of link"
+
+    name: str
+    link: str
+    point: str
+    found: int
+    crossing: int | None = None
+    ways: tuple[LineToCentre, ...] = ()
+
+    def title(self, role: str) -> str:
+        """What it is called in a report."""
+        return f"{self.called} {self.link}" if role == "found" else ""
+
+    def symbols(self) -> Mapping[str, str]:
+        """Its link."""
+        return {"k": escape(self.link)}
+
+    def is_by_hand(self, drawing: Drawing) -> bool:
+        """Whether the lines that lead to it meet on a sheet."""
+        return self.crossing in drawing.trace.values
+
+    def value(self, drawing: Drawing) -> Ratio:
+        """Where it lies on a sheet."""
+        found: Ratio = drawing.trace.values[self.found]
+        return found
+
+    # --- drawing it ------------------------------------------------------------------------------
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Its circle and cross; off the field its way and distance."""
+        if role == "found" and not canvas.centre(canvas.value(self.found)):
+            self.mark_far(canvas)
+
+    def mark_far(self, canvas: Canvas) -> None:
+        """Where a ray to it leaves the field its name and how far it lies."""
+        mark_away(canvas, self.value(canvas.drawing), self.name, self.point, self.needs_ray(canvas))
+
+    def needs_ray(self, canvas: Canvas) -> bool:
+        """Whether none of its lines is drawn from its point to it."""
+        return not self.is_by_hand(canvas.drawing)
+
+    def lines_to(self, drawing: Drawing) -> list[Places]:
+        """For each line to it the places on it by name, the farthest from it first.
+
+        Nothing where one of the lines passes through no place, or leads to no point.
+        """
+        point = drawing.place(self.value(drawing))
+        if point is None or not self.is_by_hand(drawing):
+            return []
+        every = [line.places(drawing) for line in self.ways]
+        ordered = [sorted(each.items(), key=lambda item: -abs(item[1] - point)) for each in every]
+        return [dict(each) for each in ordered] if all(every) else []
+
+    def around(self, drawing: Drawing) -> tuple[str, Circle] | None:
+        """The circle on which it lies, after its look; None for most."""
+        return None
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def oddity(self, drawing: Drawing) -> str:
+        """What is odd about it: that it is everywhere, or far, that is at infinity."""
+        value = self.value(drawing)
+        if drawing.is_everywhere(value):
+            return "everywhere"
+        return "far" if drawing.place(value) is None else ""
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """Through what lines it is found, and how they find it."""
+        ways = self.ways if self.is_by_hand(drawing) else ()
+        parts = [clause for line in ways if (clause := line.clause(drawing))]
+        key = self.sentence_key(drawing)
+        return "; ".join([*parts, drawing.words(f"step.{key}", **self.fields(drawing))])
+
+    def sentence_key(self, drawing: Drawing) -> str:
+        """The key of what is said of it itself."""
+        raise NotImplementedError
+
+    def fields(self, drawing: Drawing) -> dict[str, str]:
+        """What fills the gaps of that."""
+        names = {"name": symbol(self.name), "p": symbol(self.point)}
+        return names | {"k": escape(self.link)}
+
+
+def mark_away(canvas: Canvas, value: Ratio, name: str, point: str, ray: bool) -> None:
+    """Mark a centre off its field: name, direction and distance where a ray to it leaves the field.
+
+    Nothing where every point is one: the sentence of the link says so.
+    """
+    way = way_to(value)
+    if not canvas.drawing.is_everywhere(value) and way:
+        text = far_words(canvas.drawing, value, name, point)
+        canvas.away(value.start, way, text, ray=ray)
+
+
+def way_to(value: Ratio) -> Any:
+    """The way to a centre, or only its direction where that lies at infinity."""
+    return value.shift / value.size if value.size else value.shift
+
+
+def far_words(drawing: Drawing, value: Ratio, name: str, point: str) -> str:
+    """Words for where a centre lies that is not on the sheet, or at infinity."""
+    words, way = drawing.words, way_to(value)
+    angle = words.fixed(degrees(phase(way)) % 360, 1)
+    fields = {"name": symbol(name), "p": symbol(point), "angle": angle}
+    if drawing.place(value) is None:
+        return words("page.centre_at_infinity", **fields)
+    fields["unit"] = drawing.scene.units["length"]
+    away = words.significant(drawing.length(abs(way)), 4)
+    return words("page.far_centre", distance=away, **fields)
+
+
+# --- planning it ---------------------------------------------------------------------------------
+
+
+def centre_name(letter: str, link: str) -> str:
+    """J3 for a numbered link, J_rod for one with a name."""
+    return letter + (link if link.isdigit() else f"_{link}")
+
+
+def known_points(pen: Pen, base: Base) -> list[str]:
+    """The constructed points of a link, its own before those under others such as a contact.
+
+    The normal at a contact runs through the wheel's centre, as the one there does.
+    """
+    points = [base.start, *([base.end] if base.end else []), *base.others]
+    moving = ("position", "velocity", "acceleration")
+    known = [p for p in dict.fromkeys(points) if all(pen.has(what, p) for what in moving)]
+    return sorted(known, key=lambda point: "@" in point)
+
+
+def two_points(pen: Pen, base: Base) -> tuple[str, str] | None:
+    """Two constructed points of a link that turns; None for a link with one, or in translation."""
+    known = known_points(pen, base)
+    return (known[0], known[1]) if len(known) > 1 and pen.turns(base.link) else None
+
+
+def normals_at(pen: Pen, points: tuple[str, ...], o: int) -> tuple[VelocityNormal, ...]:
+    """The perpendiculars to the velocities of some points; ``o`` is the pole of the plan."""
+    found = []
+    for point in points:
+        place, image = pen.the("position", point), pen.the("velocity", point)
+        line = pen.draw(velocity_normal, place, o, image)
+        normal = VelocityNormal(point=point, place=place, pole=o, image=image, line=line)
+        found.append(pen.make(normal))
+    return tuple(found)

@@ -1,0 +1,258 @@
+"""The centre of two links: a pin, a guide's far one, or where two lines of centres meet (Kennedy).
+
+The centres of three links lie on one line (Kennedy, Aronhold). Every centre is a Ratio,
+start + shift/size, for it may lie at infinity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.centres.centre import (
+    Centre,
+    LineToCentre,
+    Places,
+    far_words,
+    meet_anywhere,
+    way_to,
+)
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.sentence import Sentence, together
+from graphkin.construction.core.vocabulary import action
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real, pick
+from graphkin.numbers.plane import Line, Ratio, crossing_sine
+from graphkin.scene.model import FRAME
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("pin-centre")
+def pin_centre(pin: Point) -> Ratio:
+    """A pin, or the point in which a wheel touches its track, is the centre of its two links."""
+    return Ratio(pin, 0 * pin, 1.0)
+
+
+@action("guide-centre")
+def guide_centre(point: Point, guide: Line) -> Ratio:
+    """The centre of a block and what guides it: at infinity, square to the guide."""
+    return Ratio(point, 1j * guide.along, 0.0)
+
+
+@action("relative-centre")
+def relative_centre(
+    p: Point, image_p: Point, omega_p: Real, q: Point, image_q: Point, omega_q: Real
+) -> Ratio:
+    """The point of two links with one velocity on both: p + i·(v_p - v_q at p)/(their ω apart).
+
+    p is a point of the first link, q one of the second; 8·eps of the larger distance.
+    """
+    there = image_q + 1j * (p - q) * omega_q
+    return Ratio(p, 1j * (image_p - there), omega_p - omega_q)
+
+
+@action("kennedy-line")
+def kennedy_line(a: Ratio, b: Ratio) -> Line:
+    """The line of two centres of three links, on which the third lies (Kennedy, Aronhold).
+
+    It is anchored at the one that is nearer to its own start, never at infinity. Two centres at
+    infinity have a line only there: its direction is nought.
+    """
+    nearer = abs(a.shift) * abs(b.size) <= abs(b.shift) * abs(a.size)
+    start, shift, size = (pick(nearer, x, y) for x, y in zip(a, b, strict=True))
+    along = (b.start - a.start) * a.size * b.size + b.shift * a.size - a.shift * b.size
+    return Line(start + shift / size, along)
+
+
+@action("kennedy-meet", margin=crossing_sine)
+def kennedy_meet(m: Line, n: Line) -> Ratio:
+    """The centre of two links, where two lines of centres meet."""
+    return meet_anywhere(m, n)
+
+
+@action("kennedy-endless")
+def kennedy_endless(line: Line) -> Ratio:
+    """The centre at infinity on a line of centres; the other line lies wholly at infinity."""
+    return Ratio(line.point, line.along, 0.0)
+
+
+@action("normals-meet", margin=crossing_sine)
+def normals_meet(m: Line, n: Line) -> Ratio:
+    """The instantaneous centre, where the normals to two velocities meet (Chasles)."""
+    return meet_anywhere(m, n)
+
+
+# --- what they are -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineOfCentres(LineToCentre):
+    """The line of two centres, by their letters and the steps that hold them."""
+
+    reasons: ClassVar[Mapping[str, str]] = {"line": "why.kennedy"}
+    lines: ClassVar[Mapping[str, str]] = {"line": "the line of centres"}
+
+    letters: tuple[str, str]
+    ends: tuple[int, int]
+
+    def clause(self, drawing: Drawing, role: str = "") -> str:
+        """Both centres; of which one is at infinity that is named last."""
+        places = [drawing.place(drawing.trace.values[end]) for end in self.ends]
+        m, n = map(symbol, self.letters if places[0] is not None else self.letters[::-1])
+        return drawing.words(f"step.kennedy-line{'-far' if None in places else ''}", m=m, n=n)
+
+    def places(self, drawing: Drawing) -> Places:
+        """The centres that do not lie at infinity."""
+        values = drawing.trace.values
+        places = zip(self.letters, (drawing.place(values[end]) for end in self.ends), strict=True)
+        return {letter: place for letter, place in places if place is not None}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairCentre(Centre):
+    """The centre of ``link`` and the link before it, ``first``."""
+
+    first: str
+
+    def title(self, role: str) -> str:
+        """Of which link, and against which where that is not the frame."""
+        against = "" if self.first == FRAME else f" against link {self.first}"
+        return super().title(role) + against if role == "found" else ""
+
+    def sentence_key(self, drawing: Drawing) -> str:
+        """One sentence alone."""
+        return self.key
+
+    def fields(self, drawing: Drawing) -> dict[str, str]:
+        """Both links."""
+        return super().fields(drawing) | {"j": escape(self.first)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PinCentre(PairCentre):
+    """A pin of two links."""
+
+    key: ClassVar[str] = "pin-centre"
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """A ring around the pin."""
+        canvas.ring(canvas.value(self.found).start)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuideCentre(PairCentre):
+    """The centre of a ``block`` and what guides it."""
+
+    key: ClassVar[str] = "guide-centre"
+
+    block: str
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """A ray to where it lies at infinity."""
+        value = canvas.value(self.found)
+        text = far_words(canvas.drawing, self.value(canvas.drawing), self.name, self.point)
+        canvas.away(value.start, way_to(value), text)
+
+    def fields(self, drawing: Drawing) -> dict[str, str]:
+        """The guide by its block."""
+        return super().fields(drawing) | {"g": escape(self.block)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RelativeCentre(PairCentre):
+    """The centre of two links by their velocities; by hand where two lines of centres meet.
+
+    ``touching`` links have it where they touch. ``aside``: no line is drawn from its point.
+    """
+
+    key: ClassVar[str] = "relative-centre"
+
+    touching: bool = False
+    aside: bool = False
+
+    def same(self, drawing: Drawing) -> int | None:
+        """The step of the instantaneous centre on this sheet that this one is, too."""
+        if FRAME not in (self.first, self.link):
+            return None
+        link = self.link if self.first == FRAME else self.first
+        number = drawing.trace.program.targets.get(("centre", link), self.found)
+        return None if number == self.found or number not in drawing.trace.values else number
+
+    def equal(self, drawing: Drawing) -> str:
+        """The letter of that."""
+        same = self.same(drawing)
+        return "" if same is None else symbol(drawing.trace.program.steps[same].name)
+
+    def mark_far(self, canvas: Canvas) -> None:
+        """Where it is known already by another letter, only that."""
+        drawing, value = canvas.drawing, self.value(canvas.drawing)
+        way, same = way_to(value), self.equal(drawing)
+        if drawing.is_everywhere(value) or not way or not same:
+            super().mark_far(canvas)
+            return
+        text = f"{symbol(self.name)} = {same}"
+        canvas.away(value.start, way, text, ray=self.needs_ray(canvas), headed=False)
+
+    def needs_ray(self, canvas: Canvas) -> bool:
+        """Also where its lines do not begin at its point."""
+        return self.aside or super().needs_ray(canvas)
+
+    def sentence_key(self, drawing: Drawing) -> str:
+        """By how its lines meet, or what is odd about it."""
+        if not self.is_by_hand(drawing):
+            suffix = self.oddity(drawing) or ("touch" if self.touching else "")
+            return f"{self.key}-{suffix}" if suffix else self.key
+        if len(self.ways) == 1:
+            return "kennedy-endless"
+        if odd := self.oddity(drawing):
+            return f"{self.key}-{odd}"
+        if not isinstance(self.ways[0], LineOfCentres):
+            return "normals-meet"
+        return "kennedy-meet-again" if self.equal(drawing) else "kennedy-meet"
+
+    def fields(self, drawing: Drawing) -> dict[str, str]:
+        """The letter by which it is known already."""
+        return super().fields(drawing) | {"same": self.equal(drawing)}
+
+    def lines_of(self, drawing: Drawing) -> tuple[LineOfCentres, ...]:
+        """The lines of centres that meet in it."""
+        ways = self.ways if self.is_by_hand(drawing) else ()
+        return tuple(line for line in ways if isinstance(line, LineOfCentres))
+
+    def crossed(self, drawing: Drawing) -> str:
+        """Itself with the two lines that meet in it, as I₁₃ (I₁₂I₂₃, I₁₄I₃₄)."""
+        lines = ("".join(map(symbol, line.letters)) for line in self.lines_of(drawing))
+        same, name = self.equal(drawing), symbol(self.name)
+        called = f"{name} = {same}" if same else name
+        return f"{called} ({drawing.words('list_mark').join(lines)})"
+
+
+def with_centres_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
+    """The centres that are there at once said in one sentence; so are those by two lines.
+
+    Of the latter the first is said in full, and so is each whose lines do anything unusual.
+    """
+    steps, words = drawing.trace.program.steps, drawing.words
+    kinds = [(said, construction(steps[said.step])) for said in found if said.step >= 0]
+    at_once = [said for said, kind in kinds if isinstance(kind, PinCentre | GuideCentre)]
+    crossed = [
+        (said, kind.crossed(drawing))
+        for said, kind in kinds
+        if isinstance(kind, RelativeCentre)
+        if len(kind.lines_of(drawing)) == 2 and not kind.oddity(drawing)
+    ]
+    if at_once:
+        guided = any(isinstance(kind, GuideCentre) for _, kind in kinds)
+        listed = words("list_mark").join(said.markup for said in at_once)
+        markup = words(f"step.centres-{'guided' if guided else 'pinned'}", list=listed)
+        found = together(found, at_once, markup)
+    if len(crossed) > 2:
+        listed = words("list_mark").join(markup for _, markup in crossed[1:])
+        some = [said for said, _ in crossed[1:]]
+        found = together(found, some, words("step.centres-crossed", list=listed))
+    return found
