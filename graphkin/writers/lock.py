@@ -1,4 +1,4 @@
-"""One run at a time in a folder: a lock that the system lets go when its process dies."""
+"""One run at a time in a folder: a lock that the system releases when its process dies."""
 
 from __future__ import annotations
 
@@ -8,21 +8,19 @@ import socket
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from errno import ENOLCK, ENOSYS, EOPNOTSUPP
+from errno import ENOLCK, EOPNOTSUPP
 from pathlib import Path
-from time import monotonic, sleep, time
+from time import time
 from typing import Any
 
 from graphkin.text.errors import PageError, Problem
 
 LOCK = ".graphkin-lock"
-"""The file that is locked; it says who holds it."""
-AGAIN = 0.05
-"""Seconds until a lock that is waited for is tried again."""
-LOCKLESS = (ENOLCK, ENOSYS, EOPNOTSUPP)
+"""The file that is locked."""
+HOLDER = ".graphkin-holder"
+"""The file that says who holds the lock."""
+LOCKLESS = (ENOLCK, EOPNOTSUPP)
 """What file systems say that have no locks: their folders are written without."""
-FAR = 1 << 30
-"""Where the lock itself lies, in bytes: beyond the text, so that others can read that."""
 
 
 @contextmanager
@@ -33,58 +31,26 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
     is stale, and taken over. Raises PageError, with the process and its age, when another run
     holds the folder, and still does after ``patience`` seconds.
     """
-    path = folder / LOCK
-    handle = opened(path, monotonic() + patience)
+    from filelock import FileLock, Timeout
+
+    note, lock = folder / HOLDER, FileLock(folder / LOCK, timeout=patience)
     try:
-        left = told(handle)
-        sign = {"pid": os.getpid(), "host": socket.gethostname(), "since": int(time())}
-        os.lseek(handle, 0, os.SEEK_SET)
-        os.truncate(handle, 0)
-        os.write(handle, json.dumps(sign).encode())
-        yield holder(left) if left else ""
-    finally:
-        with suppress(OSError):  # Windows keeps an open file
-            path.unlink()
-        os.close(handle)
-
-
-def opened(path: Path, until: float) -> int:
-    """The lock file, locked by this process, and still the one that bears its name."""
-    while True:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
-        try:
-            if taken(handle):
-                with suppress(OSError):
-                    if os.path.samestat(os.fstat(handle), path.stat()):
-                        return handle
-            elif monotonic() < until:
-                sleep(AGAIN)
-            else:
-                raise PageError(in_use(path, told(handle)))
-        except BaseException:
-            os.close(handle)
-            raise
-        os.close(handle)  # its last holder removed it just before we locked it, or holds it still
-
-
-def taken(handle: int) -> bool:
-    """Lock an open file for this process alone; False when another process has it."""
-    try:
-        if sys.platform == "win32":
-            import msvcrt
-
-            os.lseek(handle, FAR, os.SEEK_SET)
-            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-        else:
-            import fcntl
-
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except (BlockingIOError, PermissionError):
-        return False
+        lock.acquire()
+    except Timeout:
+        raise PageError(in_use(folder, told(note))) from None
     except OSError as error:
         if error.errno not in LOCKLESS:
             raise
-    return True
+    try:
+        left = told(note)
+        sign = {"pid": os.getpid(), "host": socket.gethostname(), "since": int(time())}
+        note.write_text(json.dumps(sign), encoding="utf-8")
+        yield holder(left) if left else ""
+    finally:
+        for path in (note, folder / LOCK):  # while it is held: who waits for it sees that it went
+            with suppress(OSError):  # Windows keeps an open file
+                path.unlink()
+        lock.release()
 
 
 def alive(process: int) -> bool:
@@ -100,12 +66,11 @@ def alive(process: int) -> bool:
     return True
 
 
-def told(handle: int) -> dict[str, Any]:
-    """What the lock file says of its holder; nothing where it is empty or cannot be read."""
-    os.lseek(handle, 0, os.SEEK_SET)
+def told(note: Path) -> dict[str, Any]:
+    """What is written of the holder; nothing where that is not there or cannot be read."""
     try:
-        found = json.loads(os.read(handle, 4096) or b"{}")
-    except (ValueError, RecursionError):
+        found = json.loads(note.read_bytes())
+    except (OSError, ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
 
@@ -125,7 +90,7 @@ def ago(seconds: int) -> str:
     return f"{seconds} s ago"
 
 
-def in_use(path: Path, sign: dict[str, Any]) -> Problem:
+def in_use(folder: Path, sign: dict[str, Any]) -> Problem:
     """The problem of a folder in which another run is writing."""
     found = f"another run is writing here: {holder(sign)}"
-    return Problem(str(path.parent), found, "one run at a time", "wait for it, or end it")
+    return Problem(str(folder), found, "one run at a time", "wait for it, or end it")

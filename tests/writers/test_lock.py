@@ -9,12 +9,12 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
 from graphkin.text.errors import PageError
-from graphkin.writers import lock
-from graphkin.writers.lock import LOCK, ago, alive, locked
+from graphkin.writers.lock import HOLDER, LOCK, ago, alive, locked
 
 ROOT = Path(__file__).resolve().parents[2]
 HOLD = """
@@ -66,13 +66,13 @@ def test_a_killed_process_holds_nothing_and_is_told(tmp_path, holder):
 def test_nothing_is_left_behind(tmp_path):
     with locked(tmp_path) as left:
         assert left == ""
-        assert (tmp_path / LOCK).exists()
+        assert {path.name for path in tmp_path.iterdir()} == {LOCK, HOLDER}
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("said", [b"\xff[1, 2", b"[" * 4096])
 def test_a_lock_that_says_nothing_readable_is_taken(tmp_path, said):
-    (tmp_path / LOCK).write_bytes(said)
+    (tmp_path / HOLDER).write_bytes(said)
     with locked(tmp_path) as left:
         assert left == ""
 
@@ -87,22 +87,21 @@ def test_ages_are_told_in_the_unit_that_suits():
     ]
 
 
-def test_a_lock_that_is_waited_for_is_taken_when_it_is_free(tmp_path, monkeypatch):
+def test_a_lock_that_is_waited_for_is_taken_when_it_is_free(tmp_path):
     """The second run comes while the first holds the folder, and goes on when that has ended."""
-    first = locked(tmp_path)
-    first.__enter__()
-    waited = []
+    order = []
 
-    def pause(seconds):
-        waited.append(seconds)
-        if len(waited) == 3:
-            first.__exit__(None, None, None)
+    def second():
+        with locked(tmp_path, patience=1000):
+            order.append("second")
 
-    monkeypatch.setattr(lock, "sleep", pause)
-    with locked(tmp_path, patience=1000):
-        assert len(waited) == 3
-    with locked(tmp_path), pytest.raises(PageError, match="another run"), locked(tmp_path, 0.0):
-        pass
+    waiting = Thread(target=second)
+    with locked(tmp_path):
+        waiting.start()
+        order.append("first")
+    waiting.join()
+    assert order == ["first", "second"]
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_folder_without_locks_is_written_all_the_same(tmp_path, monkeypatch):
