@@ -53,7 +53,7 @@ def parts(folder: Path, members: Members) -> Iterator[PdfPart]:
     """The files of the students one after another, a bookmark where each student begins."""
     for variant, names in members:
         for number, name in enumerate(names):
-            yield PdfPart((folder / name).read_bytes(), "" if number else bookmark(variant))
+            yield PdfPart(folder / name, "" if number else bookmark(variant))
 
 
 def bookmark(variant: Variant) -> str:
