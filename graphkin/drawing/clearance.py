@@ -45,11 +45,6 @@ LINE, BOX, DOT, CORE = range(4)
 MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
 WEIGHT = np.array([[0.4, 0.0, 2.5, 0.5], [2.0, 0.0, 0.7, 1.5]])
 
-KEPT = 2**24  # bytes
-"""Once so large a block was freed, the C library of Linux hands out memory for arrays anew
-without giving it back to the system in between, which took a fifth of a crowded page's time."""
-np.empty(KEPT, dtype=np.uint8)
-
 
 class Open(NamedTuple):
     """Candidates that nothing has ruled out yet, a row for each; mm."""

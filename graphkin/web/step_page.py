@@ -40,7 +40,11 @@ class Form:
 
 @contextmanager
 def all_kept() -> Iterator[None]:
-    """No search for garbage: a page makes many small records at once, all of which are needed."""
+    """No search for garbage: a page makes many small records at once, all of which are needed.
+
+    Processor time of a first page with it and without: engine 0.14 and 0.17 s, eight-link-2 0.32
+    and 0.38 s, jumper 0.185 and 0.193 s.
+    """
     was = gc.isenabled()
     gc.disable()
     try:
