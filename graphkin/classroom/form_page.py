@@ -8,10 +8,9 @@ styles of its own: a page puts ``style()`` and ``script()`` where its policy let
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from html import escape
 from itertools import groupby
 
 from graphkin.classroom.grading.answer_numbers import LONGEST, MISTYPED, NUMBER, UNITS
@@ -23,7 +22,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import part
 from graphkin.web.scripts import FORM, together
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import filled
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,19 +80,23 @@ def form_fragment(
     ``points`` are shown where the rubric gives any; ``pivot`` is the first fixed one, from which
     places are measured.
     """
-    told = escape(json.dumps(settings(items, words, identity), ensure_ascii=False))
-    lines = [
-        f'<form class="answers" aria-labelledby="answers-title" autocomplete="off" novalidate'
-        f' data-form="{told}">',
-        f'<h2 id="answers-title">{escape(words("form.title"))}</h2>',
-        *(f"<p>{marked_up(line)}</p>" for line in advice(items, words, pivot)),
-        f"<noscript><p>{escape(words('answers.no_script'))}</p></noscript>",
-        *owner(words, identity),
-    ]
+    sheets = []
     for sheet in SHEETS:
-        own = [item for item in items if sheet_of(item) == sheet]
-        lines += group(words(f"sheet.{sheet}"), own, points, compute, words) if own else []
-    return "\n".join([*lines, *buttons(words), "</form>"])
+        alike = groupby((item for item in items if sheet_of(item) == sheet), kind_of)
+        groups = [
+            [field(item, points.get(item.field), item.field in compute, words) for item in own]
+            for _, own in alike
+        ]
+        sheets += [(words(f"sheet.{sheet}"), groups)] if groups else []
+    return filled(
+        "classroom/templates/form.html",
+        settings=json.dumps(settings(items, words, identity), ensure_ascii=False),
+        advice=advice(items, words, pivot),
+        identity=identity,
+        largest=LARGEST,
+        sheets=sheets,
+        words=words,
+    )
 
 
 def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[str, object]:
@@ -112,18 +115,6 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
     }
 
 
-def owner(words: Words, identity: Identity) -> Iterator[str]:
-    """Whose the answers are, or the field for the id where the page is nobody's own."""
-    if identity.id:
-        shown = " – ".join(part for part in (identity.name, identity.id) if part)
-        yield f'<p class="owner">{escape(shown)}</p>'
-        return
-    yield '<div class="answer"><label for="answers-id">' + escape(words("answers.id")) + "</label>"
-    yield f'<input id="answers-id" type="text" maxlength="{LARGEST}" spellcheck="false"'
-    yield ' autocapitalize="off" aria-describedby="answers-id-wrong" required>'
-    yield '<p class="wrong" id="answers-id-wrong" aria-live="polite"></p></div>'
-
-
 def sheet_of(item: Item) -> str:
     """The sheet off which an item is read; for an arrow the one that its letter names."""
     if item.quantity in BY_TARGET:
@@ -131,61 +122,33 @@ def sheet_of(item: Item) -> str:
     return "velocity" if item.of.startswith("v") else "acceleration"
 
 
-def group(
-    title: str,
-    items: Sequence[Item],
-    points: Mapping[str, Fraction],
-    compute: Collection[str],
-    words: Words,
-) -> Iterator[str]:
-    """The fields of one sheet."""
-    yield f"<fieldset><legend>{escape(title)}</legend>"
-    for _, alike in groupby(items, lambda item: (item.quantity, item.of)):
-        yield '<div class="answers-of">'
-        for item in alike:
-            yield from field(item, points.get(item.field), item.field in compute, words)
-        yield "</div>"
-    yield "</fieldset>"
+def kind_of(item: Item) -> tuple[str, str]:
+    """What stands together on the form: what is asked of one thing."""
+    return item.quantity, item.of
 
 
-def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> Iterator[str]:
-    """One field: its label, where it is written, its unit, its points, and room for a message."""
-    name = f"answer-{escape(item.field)}"
-    said = words("table.sense") if item.what == "sense" else words(KINDS[item.what])
-    symbol = f'<span class="symbol">{marked_up(item.symbol)}</span>'
-    what = ", ".join(filter(None, (symbol, escape(said), escape(item.unit))))
-    hint = why(item, words) if computed else ""
-    more = f"{words('form.points')}: {words.decimal(f'{float(worth):.4g}')}" if worth else ""
-    about = f'id="{name}" name="{escape(item.field)}" aria-describedby="{name}-more {name}-wrong"'
-    yield f'<div class="answer"><label for="{name}">{what}</label>'
-    if item.what == "sense":
-        yield f"<select {about}>{''.join(senses(item, words))}</select>"
-    else:
-        yield f'<input {about} type="text" inputmode="decimal" maxlength="{LARGEST}"'
-        yield f' spellcheck="false" autocapitalize="off" data-unit="{escape(item.unit)}">'
-    shown = "; ".join(escape(text) for text in (item.field, hint, more) if text)
-    yield f'<p class="more" id="{name}-more">{shown}</p>'
-    yield f'<p class="wrong" id="{name}-wrong" aria-live="polite"></p></div>'
+@dataclass(frozen=True, slots=True)
+class FormField:
+    """One field: its item, what is said of it, its points, and the senses to choose from."""
+
+    item: Item
+    said: str
+    hint: str
+    worth: str
+    senses: tuple[tuple[str, str], ...]
 
 
-def senses(item: Item, words: Words) -> Iterator[str]:
-    """The senses of a field to choose from, and none."""
-    turning = BY_TARGET.get(item.quantity) in RATES
+def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> FormField:
+    """How an item is asked for."""
+    asks_sense, turning = item.what == "sense", BY_TARGET.get(item.quantity) in RATES
     keys = ("anticlockwise", "clockwise") if turning else ("forward", "backward")
-    yield f'<option value="">{escape(words("answers.none"))}</option>'
-    for value, key in zip(TURNING if turning else ALONG, keys, strict=True):
-        yield f'<option value="{value}">{escape(words(f"feedback.{key}"))}</option>'
-
-
-def buttons(words: Words) -> Iterator[str]:
-    """What saves, opens and clears; hidden until the script is there."""
-    yield '<div class="buttons" hidden>'
-    yield f'<button type="button" class="save">{escape(words("answers.save"))}</button>'
-    yield f'<button type="button" class="open">{escape(words("answers.open"))}</button>'
-    yield f'<button type="button" class="clear">{escape(words("answers.clear"))}</button>'
-    yield '<input class="file" type="file" accept=".csv,text/csv" hidden></div>'
-    yield '<p class="status" role="status"></p>'
-    yield f'<p class="more">{escape(words("answers.nothing_sent"))}</p>'
+    return FormField(
+        item,
+        words("table.sense") if asks_sense else words(KINDS[item.what]),
+        why(item, words) if computed else "",
+        f"{words('form.points')}: {words.decimal(f'{float(worth):.4g}')}" if worth else "",
+        tuple(zip(TURNING if turning else ALONG, keys, strict=True)) if asks_sense else (),
+    )
 
 
 def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> str:

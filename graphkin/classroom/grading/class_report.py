@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Sequence
-from html import escape
 from statistics import mean, median
 
 from graphkin.classroom.grading.answer_numbers import shown
 from graphkin.classroom.grading.answers import Answers, Unread
 from graphkin.classroom.grading.class_pictures import pictures, slip_counts
-from graphkin.classroom.grading.feedback_html import RIGHT, page
 from graphkin.classroom.grading.feedback_rows import SLIPS, points_words
 from graphkin.classroom.grading.feedback_rows import unread as unread_words
 from graphkin.classroom.grading.graded import SURE, Graded, Result, Suspicion, Taker
 from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.student import Student
 from graphkin.text import Words
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import filled
 
 NAMED = 5
 """Students that are named of many with the same data."""
@@ -27,18 +25,23 @@ def class_report(result: Result, title: str, unread: Sequence[Unread], words: Wo
     """The report as a page for a browser, its pictures within."""
     own = own_work(result)
     pngs = pictures(result.graded, words, "png", own)
-    body = [f"<h1>{escape(words('class.title'))}</h1>", f"<p>{escape(title)}</p>"]
-    body.append(f'<p class="total">{escape(summary(result.graded, words))}</p>')
-    for name, key in (("distribution", "class.distribution"), ("difficulty", "class.difficulty")):
-        if name in pngs:
-            body += [f"<h2>{escape(words(key))}</h2>", picture(pngs[name], words(key))]
-    body += slips_section(own, pngs, words)
-    body += evidence_sections(result, words)
+    names = {each.taker.student.id: name_of(each) for each in result.graded}
     students = [each.taker.student for each in result.graded]
-    body += lines_section(words("class.unread"), unread_lines(students, unread, words))
-    body += lines_section(words("class.absent"), absent_lines(result))
-    body += lines_section(words("class.unsure"), unsure_lines(result, words))
-    return page(f"{title} – {words('class.title')}", words.language, body)
+    page = filled(
+        "classroom/templates/class.html",
+        words=words,
+        title=title,
+        summary=summary(result.graded, words),
+        pictures={name: b64encode(png).decode("ascii") for name, png in pngs.items()},
+        slips=[(words(SLIPS[name]), *counts) for name, *counts in slip_counts(own)],
+        wrong_variants=list(wrong_variant_lines(result, words)),
+        copies=[copies_words(each, names, words) for each in result.copies],
+        held=held_line(result, words),
+        unread=list(unread_lines(students, unread, words)),
+        absent=list(absent_lines(result)),
+        unsure=list(unsure_lines(result, words)),
+    )
+    return f"{page}\n"
 
 
 def own_work(result: Result) -> list[Graded]:
@@ -58,48 +61,6 @@ def summary(graded: Sequence[Graded], words: Words) -> str:
     text = words("class.summary", present=present, all=len(graded), **amounts)
     waiting = sum(bool(each.pending) for each in graded)
     return f"{text}; {words('class.pending', count=waiting)}" if waiting else text
-
-
-def picture(png: bytes, text: str) -> str:
-    """A picture within the page."""
-    data = b64encode(png).decode("ascii")
-    return f'<img alt="{escape(text)}" src="data:image/png;base64,{data}">'
-
-
-def slips_section(graded: Sequence[Graded], pngs: dict[str, bytes], words: Words) -> Iterator[str]:
-    """The frequent slips, drawn and in a table."""
-    yield f"<h2>{escape(words('class.frequent'))}</h2>"
-    counts = slip_counts(graded)
-    if not counts:
-        yield f"<p>{escape(words('class.none'))}</p>"
-        return
-    if "slips" in pngs:
-        yield picture(pngs["slips"], words("class.frequent"))
-    heads = "".join(
-        f'<th scope="col"{RIGHT if i else ""}>{escape(words(key))}</th>'
-        for i, key in enumerate(("class.slip_name", "class.students", "class.times"))
-    )
-    yield f"<table><tr>{heads}</tr>"
-    for name, answers, students in counts:
-        yield (
-            f"<tr><td>{marked_up(words(SLIPS[name]))}</td>"
-            f'<td class="n">{students}</td><td class="n">{answers}</td></tr>'
-        )
-    yield "</table>"
-
-
-def evidence_sections(result: Result, words: Words) -> Iterator[str]:
-    """Wrong variants and copies; nothing where there is no evidence."""
-    names = {each.taker.student.id: name_of(each) for each in result.graded}
-    yield from lines_section(words("class.wrong_variant"), wrong_variant_lines(result, words))
-    yield from lines_section(
-        words("class.copies"), (copies_words(each, names, words) for each in result.copies)
-    )
-    held = held_line(result, words)
-    if held:
-        yield f"<p>{escape(held)}</p>"
-    if result.wrong_variants or result.copies:
-        yield f'<p class="small">{escape(words("class.evidence"))}</p>'
 
 
 def name_of(graded: Graded) -> str:
@@ -214,13 +175,6 @@ def unsure_lines(result: Result, words: Words) -> Iterator[str]:
     names = {each.taker.student.id: name_of(each) for each in result.graded}
     for who, fields in result.unsure.items():
         yield words("class.unsure_row", who=names[who], fields=", ".join(fields))
-
-
-def lines_section(title: str, lines: Iterable[str]) -> Iterator[str]:
-    """A list under a heading; nothing where it is empty."""
-    items = [f"<li>{escape(line)}</li>" for line in lines]
-    if items:
-        yield from (f"<h2>{escape(title)}</h2>", "<ul>", *items, "</ul>")
 
 
 def result_lines(result: Result, words: Words) -> Iterator[str]:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from html import escape as escaped
 
-from graphkin.classroom.grading.feedback_html import feedback_table, page
 from graphkin.classroom.grading.feedback_rows import (
     COLUMNS,
     HEADS,
@@ -24,7 +22,7 @@ from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import escape, extent, flowed, plain, words_of
 from graphkin.text import Words
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import filled
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
@@ -38,17 +36,20 @@ INDENT = 4.0
 
 def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> str:
     """The page of one student for a browser; who handed in nothing is not told what was right."""
-    student = graded.taker.student
-    body = [f"<h1>{escaped(words('feedback.title'))}</h1>", f"<p>{escaped(title)}<br>"]
-    body.append(f"{escaped(' – '.join(filter(None, (student.name or student.id, student.group))))}")
-    body.append(f"<br>{escaped(settings_words(graded, words))}</p>")
-    if is_shown(graded):
-        body.append(f'<p class="total">{marked_up(total(graded, words))}</p>')
-    body += [f"<p>{marked_up(note)}</p>" for note in notes(graded, words)]
-    if is_shown(graded):
-        body += feedback_table(rows(graded, words), words)
-        body.append(f'<p class="small">{marked_up(how(rubric, words))}</p>')
-    return page(f"{title} – {student.name or student.id}", words.language, body)
+    page = filled(
+        "classroom/templates/feedback.html",
+        words=words,
+        title=title,
+        student=graded.taker.student,
+        settings=settings_words(graded, words),
+        total=total(graded, words) if is_shown(graded) else "",
+        notes=notes(graded, words),
+        names=[words(HEADS[name]) for name in COLUMNS],
+        rows=rows(graded, words),
+        right=words("feedback.right"),
+        how=how(rubric, words),
+    )
+    return f"{page}\n"
 
 
 def is_shown(graded: Graded) -> bool:

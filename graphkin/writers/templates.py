@@ -1,0 +1,44 @@
+"""Markup for a browser from templates, which lie beside the modules that fill them."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphkin.writers.html_markup import marked_up
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+    from markupsafe import Markup
+
+HOUSE = Path(__file__).resolve().parents[1]
+
+
+def filled(name: str, **values: object) -> Markup:
+    """A template by its path in the package, filled; what is no markup is escaped."""
+    from markupsafe import Markup
+
+    return Markup(environment().get_template(name).render(values))
+
+
+@lru_cache(maxsize=1)
+def environment() -> Environment:
+    """How templates are read: ``markup`` puts a markup of the sheets into tags."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
+
+    def safe(value: object) -> Markup:  # quotes as html.escape writes them, as scripts' data do
+        return value if isinstance(value, Markup) else Markup(escape(str(value)))
+
+    found = Environment(
+        loader=FileSystemLoader(HOUSE),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=safe,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    found.filters["markup"] = lambda markup: Markup(marked_up(markup))
+    return found
