@@ -12,6 +12,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
+from typing import TYPE_CHECKING
 
 from graphkin.classroom.grading.answer_numbers import LONGEST, MISTYPED, NUMBER, UNITS
 from graphkin.classroom.lab.items import items as fields_of
@@ -23,6 +24,9 @@ from graphkin.text import Words
 from graphkin.web.offline_page import part
 from graphkin.web.scripts import FORM, together
 from graphkin.writers.templates import filled
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +78,7 @@ def form_fragment(
     words: Words,
     identity: Identity,
     pivot: str = "",
-) -> str:
+) -> Markup:
     """The form as markup: a labelled field for every item, those in ``compute`` to be reckoned.
 
     ``points`` are shown where the rubric gives any; ``pivot`` is the first fixed one, from which
@@ -151,7 +155,7 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> F
     )
 
 
-def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> str:
+def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> Markup:
     """The form of a lab's own scene, with whatever data it is set; nobody's own in particular."""
     fields, points = fields_of(mechanism, lab), lab.rubric.points
     return form_fragment(fields, points, (), words, identity, first_pivot(mechanism))

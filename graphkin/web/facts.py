@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from html import escape
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import given
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
 from graphkin.documents.members import members
@@ -20,7 +19,18 @@ SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
 """What is asked of a block on each sheet."""
 
 
-def results(drawing: Drawing) -> Iterator[str]:
+@dataclass(frozen=True, slots=True)
+class ResultTable:
+    """A table of results: its rows by the names of their quantities, and which are asked for."""
+
+    kind: str
+    caption: str
+    head: Sequence[str]
+    rows: Sequence[tuple[str, tuple[str, ...]]]
+    asked: frozenset[str]
+
+
+def results(drawing: Drawing) -> Iterator[ResultTable]:
     """The tables of a sheet: vectors of the plan, angular values, what slides."""
     words = drawing.words
     unit = words(f"table.{drawing.kind}")
@@ -40,28 +50,9 @@ def results(drawing: Drawing) -> Iterator[str]:
         ("slides", "screen.slides", (first, unit, sense), slide_rows),
     )
     for kind, key, head, rows in kinds:
-        found = [(name_of(drawing, row), row) for row in rows(drawing, empty=False)]
+        found = [(name_of(drawing, row), row.cells) for row in rows(drawing, empty=False)]
         if found:
-            yield from table(kind, words(key), head, found, asked_for)
-
-
-def table(
-    kind: str,
-    caption: str,
-    head: Sequence[str],
-    rows: Sequence[tuple[str, Row]],
-    asked_for: frozenset[str],
-) -> Iterator[str]:
-    """A table whose rows can be found by the name of their quantity."""
-    yield f'<table class="{kind}"><caption>{escape(caption)}</caption>'
-    heads = "".join(f'<th scope="col">{marked_up(cell)}</th>' for cell in head)
-    yield f"<thead><tr>{heads}</tr></thead><tbody>"
-    for named, row in rows:
-        own = " data-asked" if named in asked_for else ""
-        name = f'<th scope="row">{marked_up(row.cells[0])}</th>'
-        cells = "".join(f"<td>{marked_up(cell)}</td>" for cell in row.cells[1:])
-        yield f'<tr data-row="{escape(named)}"{own}>{name}{cells}</tr>'
-    yield "</tbody></table>"
+            yield ResultTable(kind, words(key), head, found, asked_for)
 
 
 def name_of(drawing: Drawing, row: Row) -> str:
@@ -97,22 +88,8 @@ def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
     }
 
 
-def data(drawing: Drawing, datum: str = "") -> str:
-    """What is given, piece by piece; a script finds the datum with the symbol ``datum``."""
-    start = marked_up(f"{datum} = ")
-    pieces = listed(given(drawing))
-    return pieces.replace(f"<li>{start}", f'<li id="datum">{start}', 1) if datum else pieces
-
-
-def wanted(drawing: Drawing) -> str:
+def wanted(drawing: Drawing) -> tuple[str, str, list[str]]:
     """At which scales a task is to be drawn, and what it asks for, piece by piece."""
     words, kL = drawing.words, drawing.words.decimal(digits(drawing.scales.kL))
-    first = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
-    then = plan_at(drawing)
-    scales = f'<p class="scales"><strong>{marked_up(first)}</strong> {marked_up(then)}</p>'
-    return scales + listed([*asked(drawing), members(drawing)])
-
-
-def listed(markups: Iterable[str]) -> str:
-    """Pieces of markup as a list."""
-    return "<ul>" + "".join(f"<li>{marked_up(markup)}</li>" for markup in markups) + "</ul>"
+    scale = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
+    return scale, plan_at(drawing), [*asked(drawing), members(drawing)]

@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from html import escape
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.glyphs import font_face
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.style import BRIEF, Ink, in_variables
-from graphkin.text import Words
 from graphkin.web.protocol import Timed
 from graphkin.writers.svg import LETTERING, element, number, rules
 
@@ -31,15 +29,6 @@ def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str)
     box = " ".join(map(number, (left, top, right - left, bottom - top)))
     drawn = "\n".join(placed(name, timed) for name, timed in marks)
     return f'<svg viewBox="{box}" role="img" aria-labelledby="{named_by}">\n{drawn}\n</svg>'
-
-
-def scale_bar(words: Words) -> str:
-    """A bar as long as some millimetres of paper are in a field, which its style sheet knows."""
-    told, paper = escape(words("screen.bar")), escape(words("screen.on_paper"))
-    return (
-        f'<span class="bar" aria-hidden="true" title="{told}"><span class="mm">{BAR}</span> mm'
-        f'<span class="paper"> {paper}</span><i></i></span>'
-    )
 
 
 def bar_rules(fields: str, rects: Sequence[Rect]) -> Iterator[str]:

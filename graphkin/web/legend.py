@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from html import escape
 
 from graphkin.construction.core.program import Part, Step
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import Words
 from graphkin.web.screen_sheets import ScreenSheet
-from graphkin.writers.html_markup import marked_up
 
 PLANS = {
     "velocity": ("*k*_v", "*ω*", "legend.omega"),
@@ -19,15 +17,6 @@ PLANS = {
 """The scale of each plan, and what a link's turning is called on its sheet."""
 FOUND = {Part.CENTRE: ("*I*", "legend.centre"), Part.POLE: ("*J*", "legend.pole")}
 """The letters of what is found on the mechanism."""
-
-
-def legend(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
-    """The symbols of some sheets with their meaning, as far as the sheets have them."""
-    words = sheets[0].drawing.words
-    yield f'<details id="legend"><summary>{escape(words("legend.title"))}</summary><dl>'
-    for term, meaning in meanings(words, sheets):
-        yield f"<div><dt>{marked_up(term)}</dt><dd>{marked_up(meaning)}</dd></div>"
-    yield "</dl></details>"
 
 
 def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, str]]:

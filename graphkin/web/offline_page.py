@@ -10,7 +10,12 @@ from functools import lru_cache
 from hashlib import sha256
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from graphkin.writers.templates import filled
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
 
 WEB = Path(__file__).resolve().parent / "assets"
 ENDS = re.compile(r"</(?:script|style)|<!--", re.IGNORECASE)
@@ -20,9 +25,9 @@ OWN = "font-src data:; img-src data: blob:; base-uri 'none'; form-action 'none'"
 
 
 def offline_page(
-    title: str, language: str, body: str, styles: Sequence[str], scripts: Sequence[str] = ()
+    title: str, language: str, body: Markup, styles: Sequence[str], scripts: Sequence[str] = ()
 ) -> str:
-    """A whole page of HTML; ``body`` is markup, scripts run after it in their order.
+    """A whole page of HTML; scripts run after it in their order.
 
     The policy names each script and style sheet by its hash: no other runs, nothing is fetched,
     attributes with code or styles do nothing. Raises ValueError for a script or a style sheet that
@@ -32,23 +37,16 @@ def offline_page(
         if ENDS.search(text):
             raise ValueError(f"{ENDS.search(text)} would end a script or a style sheet")
     policy = f"default-src 'none'; style-src {hashes(styles)}; script-src {hashes(scripts)}; {OWN}"
-    return "\n".join(
-        (
-            "<!DOCTYPE html>",
-            f'<html lang="{escape(language)}">',
-            '<head><meta charset="utf-8">',
-            f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            '<meta name="color-scheme" content="light dark">',
-            f"<title>{escape(title)}</title>",
-            *(f"<style>{style}</style>" for style in styles),
-            "</head>",
-            f"<body>\n{body}",
-            *(f"<script>{script}</script>" for script in scripts),
-            "</body></html>",
-            "",
-        )
+    page = filled(
+        "web/templates/offline.html",
+        title=title,
+        language=language,
+        policy=policy,
+        styles=styles,
+        body=body,
+        scripts=scripts,
     )
+    return f"{page}\n"
 
 
 def hashes(texts: Sequence[str]) -> str:

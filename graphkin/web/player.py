@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING
 
@@ -11,8 +12,7 @@ from graphkin.construction.core.layout import Layout, spans
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.scaling import natural_seconds, targets_of
 from graphkin.documents.sheet import title_of
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.field import XY, Field
+from graphkin.drawing.field import Field
 from graphkin.drawing.marks import CircleMark, Mark, Text
 from graphkin.drawing.richtext import escape as markup
 from graphkin.drawing.scale import Scales
@@ -21,7 +21,6 @@ from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.text.errors import Problem, SceneError
 from graphkin.web.animation_pictures import MECHANISM, Stage, scale_bar, stage
-from graphkin.web.buttons import button
 from graphkin.web.facts import asked_rows, senses
 from graphkin.web.field_pictures import ink_sheet
 from graphkin.web.field_pictures import placed as drawn
@@ -34,8 +33,8 @@ from graphkin.web.panes import AIR, room_in
 from graphkin.web.protocol import Timed
 from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.web.scripts import PLAYER, together
-from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number
+from graphkin.writers.templates import filled
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
@@ -60,18 +59,20 @@ def player_page(motion: FrameSequence, words: Words) -> str:
     fixed = [list(scale_bar(field, unit, size, words)) for field, _, unit, size in shown]
     fixed[0] = [*set_up.ground, *fixed[0]]
     title = title_of(sheets[0].drawing)
-    body = "\n".join(
-        (
-            f"<header><h1>{escape(title)}</h1></header>",
-            '<main id="player">',
-            '<div id="stage">',
-            *figures(set_up, sheets, fixed),
-            "</div>",
-            *controls(words, moved, sheets),
-            *shortened(motion, moved, words),
-            "</main>",
-            data_block("run", record(set_up, moved, sheets)),
-        )
+    body = filled(
+        "web/templates/player.html",
+        title=title,
+        words=words,
+        figures=list(figures(set_up, sheets, fixed)),
+        driver=moved.driven.name,
+        speeds=SPEEDS,
+        rows=[
+            (row, *row_words(row, sheet.drawing))
+            for sheet in sheets
+            for row in sorted(asked_rows(sheet.drawing))
+        ],
+        shortened=shortened(motion, moved, words),
+        run=data_block("run", record(set_up, moved, sheets)),
     )
     marks = [mark for sheet in sheets for mark in (*sheet.left, *sheet.right)]
     marks += [mark for own in fixed for mark in own]
@@ -117,79 +118,55 @@ def layout_of(drawing: Drawing, mechanism: Field, plan: Field | None) -> Layout:
     return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
 
 
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A field: its caption, its window, and its marks, those that stand moved ``back`` in it.
+
+    The script moves both at each place of the driver; ``beyond`` is said where a plan leaves it.
+    """
+
+    caption: str
+    beyond: str
+    box: str
+    back: str
+    fixed: Sequence[str]
+    moves: Sequence[str]
+
+
 def figures(
     set_up: Stage, sheets: Sequence[ScreenSheet], fixed: Sequence[Sequence[Mark]]
-) -> Iterator[str]:
-    """The fields as pictures, each under its name."""
+) -> Iterator[Figure]:
+    """The fields as pictures; where a plan is moved aside, its window goes the other way."""
     fields = [(0, 0, sheets[0].left)]
     fields += [(s, len(sheet.left), sheet.right) for s, sheet in enumerate(sheets) if sheet.right]
     for place, ((field, name, _, _), (s, first, marks), below) in enumerate(
         zip(set_up.captions, fields, fixed, strict=True)
     ):
-        shift, told = (0.0, 0.0), ""
+        u, v = 0.0, 0.0
         if place:
             at = set_up.seated(sheets[s].drawing).at
-            shift = at[0] - field.at[0], at[1] - field.at[1]
-            told = f' <span class="beyond" hidden>– {marked_up(set_up.beyond)}</span>'
-        moves = [drawn(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)]
-        yield f'<figure id="field-{place}"><figcaption><span id="name-{place}">{marked_up(name)}'
-        yield f"</span>{told}</figcaption>"
-        yield from picture(field.rect, shift, below, moves, f"name-{place}")
-        yield "</figure>"
+            u, v = at[0] - field.at[0], at[1] - field.at[1]
+        left, top, right, bottom = field.rect
+        yield Figure(
+            name,
+            set_up.beyond if place else "",
+            " ".join(map(number, (left - u, top - v, right - left, bottom - top))),
+            f"{number(-u)} {number(-v)}",
+            [drawn("", Timed(mark, 0, None)) for mark in below],
+            [drawn(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)],
+        )
 
 
-def picture(
-    rect: Rect, shift: XY, below: Sequence[Mark], moves: Sequence[str], named_by: str
-) -> Iterator[str]:
-    """A field whose plan is moved aside: the window goes the other way, and what is fixed with it.
-
-    The script does the same at each place of the driver.
-    """
-    left, top, right, bottom = rect
-    (u, v), window = shift, (left - shift[0], top - shift[1], right - left, bottom - top)
-    box = " ".join(map(number, window))
-    yield f'<svg viewBox="{box}" role="img" aria-labelledby="{named_by}">'
-    yield f'<g class="fixed" transform="translate({number(-u)} {number(-v)})">'
-    yield from (drawn("", Timed(mark, 0, None)) for mark in below)
-    yield from ("</g>", *moves, "</svg>")
-
-
-def controls(words: Words, moved: Moving, sheets: Sequence[ScreenSheet]) -> Iterator[str]:
-    """What plays and moves it, hidden until the script is there, and what it tells."""
-    play = (
-        f'data-play="{escape(words("screen.play"))}" data-pause="{escape(words("screen.pause"))}"'
-    )
-    label = f"{escape(words('screen.driver'))} {marked_up(moved.driven.name)}"
-    yield f'<div id="bar" role="group" aria-label="{escape(words("animation.controls"))}" hidden>'
-    yield button("play", words("screen.play"), play)
-    yield f'<label for="at">{label}</label>'
-    yield '<input type="range" id="at"><output id="told" for="at"></output>'
-    yield f'<label for="speed">{escape(words("animation.speed"))}</label><select id="speed">'
-    for speed in SPEEDS:
-        chosen = " selected" if speed == 1 else ""
-        yield f'<option value="{speed:g}"{chosen}>{words.decimal(f"{speed:g}")}×</option>'
-    yield "</select>"
-    yield button("back", words("screen.back"))
-    yield '</div><dl id="values" hidden>'
-    for sheet in sheets:
-        for row in sorted(asked_rows(sheet.drawing)):
-            name, unit = row_words(row, sheet.drawing)
-            yield f'<div data-row="{escape(row)}"><dt>{marked_up(name)}</dt>'
-            yield f'<dd><span class="size"></span> {marked_up(unit)}<span class="sense"></span>'
-            yield "</dd></div>"
-    yield f'</dl><p id="help" hidden>{escape(words("animation.help"))}</p>'
-
-
-def shortened(motion: FrameSequence, moved: Moving, words: Words) -> Iterator[str]:
+def shortened(motion: FrameSequence, moved: Moving, words: Words) -> str:
     """Where the motion ends before its dead points, and why."""
     if not motion.shortened:
-        return
+        return ""
     driven = moved.driven
     unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
     ends = dict(zip(("low", "high"), (motion.low, motion.high), strict=True))
     ends |= dict(zip(("first", "last"), motion.reached, strict=True))
     told = {name: words.significant(at / driven.metres, 4) + unit for name, at in ends.items()}
-    yield f'<p id="shown">{escape(words("animation.shortened", **told))}</p>'
+    return words("animation.shortened", **told)
 
 
 def row_words(row: str, drawing: Drawing) -> tuple[str, str]:

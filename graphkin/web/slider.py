@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 from math import floor, log10
 
 from graphkin.construction.core.given_data import angle_symbol
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
-from graphkin.web.buttons import button
 from graphkin.web.moving import moving, still
 from graphkin.web.page_driver import PageDriver, Reach, window
 from graphkin.web.screen_sheets import ScreenSheet
-from graphkin.writers.html_markup import marked_up
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,43 +32,14 @@ class Slider:
     digits: int = 1
     why: str = ""
 
-    def controls(self, words: Words) -> Iterator[str]:
-        """The slider with what stands beside it, or the sentence that says why there is none."""
-        if self.source:
-            low, high = (
-                f'<span class="end">{escape(self.place(words, at))}</span>' for at in self.ends
-            )
-            yield '<div id="move"><label for="driver">'
-            yield f"<span>{escape(words('screen.driver'))}</span> {marked_up(self.name)}</label>"
-            yield f'{low}<input type="range" id="driver">{high}'
-            unit = escape(self.place(words, None))
-            yield f'<output id="driven" for="driver" data-unit="{unit}"'
-            yield f' data-digits="{self.digits}"></output>'
-            yield button("back", words("screen.back"), "", words("screen.back_short")) + "</div>"
-            told, moved = escape(words("screen.results")), escape(words.sentences["screen.moved"])
-            yield f'<div id="read" data-moved="{moved}"'
-            yield f' data-name="{escape(marked_up(self.datum))}">'
-            yield f'<p id="values" role="group" tabindex="0" aria-label="{told}"></p>'
-            yield '<p id="place" role="status"'
-            yield f' data-open="{escape(words("screen.open"))}"'
-            yield f' data-dead="{escape(words("screen.dead"))}"></p></div>'
-        elif self.why:
-            yield f'<p id="still">{marked_up(words(self.why))}</p>'
-
     def place(self, words: Words, at: float | None) -> str:
         """A place of the driver in words, or its unit alone."""
         unit = words("unit.deg") if self.unit == "deg" else f" {self.unit}"
         return unit if at is None else words.fixed(at, self.digits) + unit
 
-    def help(self, words: Words) -> Iterator[str]:
-        """Which keys move the driver, and why it goes no farther, unless it turns freely or as far
-        as is shown."""
-        if self.source:
-            yield f"<span>{escape(words('screen.help_driver'))}</span>"
-        if not self.stops:
-            return
-        places = " / ".join(self.place(words, at) for at in self.stops)
-        yield f'<span id="limits">{escape(words("screen.limits", list=places))}</span>'
+    def limits(self, words: Words) -> str:
+        """The places beyond which it does not go; empty where it turns freely."""
+        return " / ".join(self.place(words, at) for at in self.stops)
 
 
 def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:

@@ -6,34 +6,50 @@ import gc
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from html import escape
-from itertools import chain
+from math import degrees
+from typing import TYPE_CHECKING
 
+from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import called, scale_of
+from graphkin.construction.core.program import Part
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.web import facts
-from graphkin.web.controls import dock
-from graphkin.web.field_pictures import bar_rules, field_picture, headline, ink_sheet, scale_bar
-from graphkin.web.legend import legend
+from graphkin.web.field_pictures import BAR, bar_rules, field_picture, headline, ink_sheet
+from graphkin.web.legend import meanings
 from graphkin.web.offline_page import data_block, offline_page, part
-from graphkin.web.protocol import PageProtocol, Timed, telling
-from graphkin.web.protocol_section import construction
+from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
+from graphkin.web.reasons import NO_STEP
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import STEP_PAGE, together
 from graphkin.web.slider import slider
 from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number
+from graphkin.writers.templates import filled
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+
+STOP_NAMES = {
+    Part.POSITION: "screen.position",
+    Part.VELOCITY: "screen.velocity",
+    Part.CENTRE: "screen.centre",
+    Part.NORMAL: "screen.normal",
+    Part.ACCELERATION: "screen.acceleration",
+    Part.POLE: "screen.pole",
+}
+"""What the buttons say that go to the parts of the work."""
 
 
 @dataclass(frozen=True, slots=True)
 class Form:
     """A form for answers in a task page: its markup, its rules and its script."""
 
-    body: str
+    body: Markup
     style: str
     script: str
 
@@ -65,21 +81,28 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
     sheets = screen_sheets(mechanism, language)
     told = telling(sheets)
     moves = slider(mechanism, sheets)
-    body = "\n".join(
-        (
-            *top(sheets),
-            '<main id="page">',
-            '<div id="desk">',
-            *chain.from_iterable(figures(sheets, told, place) for place in range(len(sheets))),
-            "</div>",
-            *construction(sheets, told),
-            *outcome(sheets, moves.datum),
-            *legend(sheets),
-            "</main>",
-            *foot(sheets),
-            dock(sheets[0].drawing.words, told, moves),
-            data_block("run", record(sheets, told)),
-        )
+    drawing = sheets[0].drawing
+    pieces = given(drawing)
+    body = filled(
+        "web/templates/step.html",
+        **common(sheets),
+        sheets=[
+            fields(sheet, place, *grown(sheet, told, place)) for place, sheet in enumerate(sheets)
+        ],
+        construction=list(construction(sheets, told)),
+        no_step=NO_STEP,
+        degrees=degrees,
+        results=[
+            (sheet.drawing.kind, sheet_name(sheet), list(facts.results(sheet.drawing)))
+            for sheet in sheets
+        ],
+        data=pieces,
+        datum=place_of(moves.datum, pieces),
+        meanings=list(meanings(drawing.words, sheets)),
+        steps=len(told.said),
+        stops=[(first, last, STOP_NAMES[stop]) for first, last, stop in told.stops()],
+        moves=moves,
+        run=data_block("run", record(sheets, told)),
     )
     scripts = [together(STEP_PAGE)]
     if moves.source:
@@ -96,21 +119,23 @@ def task_page(
     """The page of a scene as a task: what is given and what is asked, and nothing of the key."""
     mechanism = mechanism if form else mechanism.spoken(language)  # answers go by the scene's names
     sheets = screen_sheets(mechanism, language, "task")
-    words = sheets[0].drawing.words
-    asked = words("page.asked")
-    parts = [*top(sheets), '<main id="page" class="task">', *given(sheets), '<div id="desk">']
-    for place, sheet in enumerate(sheets):
-        marks = [Timed(mark, 0, None) for mark in (*sheet.left, *sheet.right)]
-        parts += figure_pair(sheet, place, marks, ((), ()))
-        parts.insert(-1, f"<h3>{escape(asked)}</h3>{facts.wanted(sheet.drawing)}")
-    body = "\n".join((*parts, "</div>", form.body if form else "", "</main>", *foot(sheets)))
+    body = filled(
+        "web/templates/task.html",
+        **common(sheets),
+        sheets=[
+            (fields(sheet, place, untimed(sheet)), facts.wanted(sheet.drawing))
+            for place, sheet in enumerate(sheets)
+        ],
+        data=given(sheets[0].drawing),
+        form=form.body if form else "",
+    )
     styles, scripts = ([form.style], [form.script]) if form else ([], [])
     return written(sheets, body, ink, styles, scripts)
 
 
 def written(
     sheets: Sequence[ScreenSheet],
-    body: str,
+    body: Markup,
     ink: Ink,
     styles: Sequence[str],
     scripts: Sequence[str],
@@ -146,83 +171,84 @@ def width(rect: Rect) -> float:
 # --- what stands on the page ---------------------------------------------------------------------
 
 
-def top(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
-    """The title."""
-    yield f"<header><h1>{escape(title_of(sheets[0].drawing))}</h1></header>"
+@dataclass(frozen=True, slots=True)
+class SheetFields:
+    """The fields of a sheet: its name, and the id, the markup and the picture of each."""
+
+    place: int
+    kind: str
+    name: str
+    pictures: Sequence[tuple[str, str, str]]
 
 
-def figures(sheets: Sequence[ScreenSheet], told: PageProtocol, place: int) -> list[str]:
-    """The two fields of a sheet as they grow."""
-    sheet = sheets[place]
+def common(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
+    """What every page has: its title and words, and what the independent route says of it."""
+    drawing = sheets[0].drawing
+    words = drawing.words
+    worst = words.significant(drawing.verdict.largest_difference, 2)
+    return {
+        "title": title_of(drawing),
+        "words": words,
+        "bar": BAR,
+        "verdict": words("page.verified", difference=worst),
+    }
+
+
+def sheet_name(sheet: ScreenSheet) -> str:
+    """What a sheet is called in the words of its page."""
+    return sheet.drawing.words(f"sheet.{called(sheet.drawing)}")
+
+
+def grown(
+    sheet: ScreenSheet, told: PageProtocol, place: int
+) -> tuple[Sequence[Timed], tuple[Sequence[Timed], Sequence[Timed]]]:
+    """The marks of a sheet's fields as they grow, and those that stand when all is drawn."""
     last = told.bounds(place)[1]
-    more = tuple(
+    left, right = (
         [Timed(mark, last, None) for mark in marks] for marks in (sheet.more_left, sheet.more_right)
     )
-    return figure_pair(sheet, place, told.timed[place], more)
+    return told.timed[place], (left, right)
 
 
-def figure_pair(
+def untimed(sheet: ScreenSheet) -> Sequence[Timed]:
+    """The marks of a sheet's fields as they stand from the first."""
+    return [Timed(mark, 0, None) for mark in (*sheet.left, *sheet.right)]
+
+
+def fields(
     sheet: ScreenSheet,
     place: int,
     timed: Sequence[Timed],
-    more: Sequence[Sequence[Timed]],
-) -> list[str]:
+    more: Sequence[Sequence[Timed]] = ((), ()),
+) -> SheetFields:
     """A sheet: the field of the mechanism and that of the plan, each under its caption."""
-    drawing, count = sheet.drawing, len(sheet.left)
-    name = escape(drawing.words(f"sheet.{called(drawing)}"))
-    ids = [f"m{place}-{k}" for k in range(len(timed))]
-    named = list(zip(ids, timed, strict=True))
-    found = [
-        f'<section class="sheet" id="sheet-{place}" data-kind="{drawing.kind}"'
-        f' aria-labelledby="name-{place}">',
-        f'<h2 id="name-{place}">{name}</h2>',
-        f'<div class="fields" id="fields-{place}">',
-    ]
+    count = len(sheet.left)
+    named = [(f"m{place}-{k}", one) for k, one in enumerate(timed)]
     sides = (
         (named[:count], sheet.left, sheet.layout.mechanism.rect),
         (named[count:], sheet.right, sheet.layout.plan.rect),
     )
+    pictures = []
     for side, (own, marks, rect) in enumerate(sides):
-        caption, _ = headline(marks)
         shown = [*own[1:], *(("", mark) for mark in more[side])]
         label = f"caption-{place}-{side}"
-        found += [
-            f'<figure><figcaption><span id="{label}">{marked_up(caption)}</span>',
-            f"{scale_bar(drawing.words)}</figcaption>",
-            f'<div class="view">{field_picture(shown, rect, label)}</div></figure>',
-        ]
-    return [*found, "</div>", "</section>"]
+        pictures.append((label, headline(marks)[0], field_picture(shown, rect, label)))
+    return SheetFields(place, sheet.drawing.kind, sheet_name(sheet), pictures)
 
 
-def outcome(sheets: Sequence[ScreenSheet], datum: str) -> Iterator[str]:
-    """The tables of results, and the data; ``datum`` is the symbol of the one that is moved."""
-    words = sheets[0].drawing.words
-    yield '<section id="results" aria-labelledby="results-name"><h2 id="results-name">'
-    yield f"{escape(words('screen.results'))}</h2>"
-    for sheet in sheets:
-        yield f'<div data-kind="{sheet.drawing.kind}">'
-        yield f"<h3>{escape(words(f'sheet.{called(sheet.drawing)}'))}</h3>"
-        yield from facts.results(sheet.drawing)
-        yield "</div>"
-    yield "</section>"
-    yield from given(sheets, datum)
+def place_of(datum: str, pieces: Sequence[str]) -> int | None:
+    """Which of the data is the one that is moved, by the symbol ``datum``; None where none is."""
+    start = f"{datum} = "
+    return next((i for i, piece in enumerate(pieces) if datum and piece.startswith(start)), None)
 
 
-def given(sheets: Sequence[ScreenSheet], datum: str = "") -> Iterator[str]:
-    """The data of the scene."""
-    drawing = sheets[0].drawing
-    name = escape(drawing.words("page.data"))
-    yield f'<section id="given" aria-labelledby="given-name"><h2 id="given-name">{name}</h2>'
-    yield f"{facts.data(drawing, datum)}</section>"
-
-
-def foot(sheets: Sequence[ScreenSheet]) -> Iterator[str]:
-    """What the independent route says of the drawings."""
-    drawing = sheets[0].drawing
-    words = drawing.words
-    worst = words.significant(drawing.verdict.largest_difference, 2)
-    text = words("page.verified", difference=worst)
-    yield f"<footer><p>{marked_up(text)}</p></footer>"
+def construction(
+    sheets: Sequence[ScreenSheet], told: PageProtocol
+) -> Iterator[tuple[str, int, Sequence[ProtocolSentence]]]:
+    """The kind of each sheet, the number of its first sentence, and its sentences."""
+    for place, sheet in enumerate(sheets):
+        first, last = told.bounds(place)
+        yield sheet.drawing.kind, first, told.said[first - 1 : last]
 
 
 # --- what a script makes of it -------------------------------------------------------------------

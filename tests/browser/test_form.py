@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from markupsafe import Markup
 
 from graphkin.classroom.form_page import Identity, form_fragment, script, style
 from graphkin.classroom.grading.answer_numbers import read_answer
@@ -218,7 +219,7 @@ UNITS = {"v_D_mm": "mm", "v_D": "m/s", "a_D": "m/s²", "omega_2": "rad/s", "epsi
 def bare_page(items: list[Item], identity: Identity, language: str = "en") -> str:
     """A page with nothing but a form."""
     body = form_fragment(items, {}, (), words(language), identity)
-    return offline_page("Form", language, f"<main>{body}</main>", [style()], [script()])
+    return offline_page("Form", language, Markup(f"<main>{body}</main>"), [style()], [script()])
 
 
 @pytest.fixture(scope="module")

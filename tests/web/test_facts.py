@@ -17,8 +17,7 @@ from graphkin.drawing.scale import digits
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
-from graphkin.web.facts import wanted
-from graphkin.web.screen_sheets import screen_sheets
+from graphkin.web.step_page import task_page
 from tests.classroom.grading.students import LABS
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -33,11 +32,8 @@ def mechanism_of(name: str) -> Mechanism:
 
 def told(mechanism: Mechanism, language: str = "en") -> list[str]:
     """What each sheet of a task says of its scales, without tags."""
-    found = []
-    for sheet in screen_sheets(mechanism, language, "task"):
-        (said,) = re.findall(r'<p class="scales">(.*?)</p>', wanted(sheet.drawing))
-        found.append(unescape(re.sub(r"<[^>]+>", "", said)))
-    return found
+    told = re.findall(r'<p class="scales">(.*?)</p>', task_page(mechanism, language))
+    return [unescape(re.sub(r"<[^>]+>", "", said)) for said in told]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -8,11 +8,13 @@ from functools import cache
 import pytest
 
 from graphkin.construction.core.program import Part
+from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
-from graphkin.web.legend import KINDS, legend, meanings
+from graphkin.web.legend import meanings
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
+from graphkin.web.step_page import step_page
 from tests.documents.sheet_tools import SCENES, mechanism_named
 
 FEW = ("pump", "slotted-lever", "oscillating-slide", "gears-planet", "oldham", "gears-ring")
@@ -35,8 +37,8 @@ def test_each_kind_of_component_is_told_and_no_other(name):
     }
     told = {term for term, _ in meanings(words("en"), sheets_of(name))}
     assert drawn
-    assert {kind for kind in KINDS if symbol(f"a^{kind}") in told} == drawn & set(KINDS)
-    assert drawn <= set(KINDS)
+    assert {kind for kind in BY_SIGN if symbol(f"a^{kind}") in told} == drawn & set(BY_SIGN)
+    assert drawn <= set(BY_SIGN)
 
 
 @pytest.mark.parametrize("name", FEW)
@@ -58,6 +60,6 @@ def test_each_symbol_has_its_meaning_in_each_language(language):
     found = list(meanings(spoken, sheets_of("pump")))
     assert len(found) > 10
     assert all(meaning and not re.search(r"\{[a-z]+\}", meaning) for _, meaning in found)
-    markup = "".join(legend(screen_sheets(load("pump"), language)))
+    markup = step_page(load("pump"), language).partition('id="legend"')[2]
     assert markup.count("<dt>") == markup.count("<dd>") == len(found)
     assert spoken("legend.title") in markup
