@@ -5,8 +5,6 @@ from __future__ import annotations
 from cmath import isnan
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
-from html import escape
 from itertools import chain
 from math import degrees
 from typing import Any
@@ -23,7 +21,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
 from graphkin.text import Words
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import filled
 
 FLATTEST = 6
 """Crossings that are shown."""
@@ -161,23 +159,10 @@ def verdict_words(verdict: Verdict, scene: Scene, words: Words) -> str:
     return " ".join(says)
 
 
-@lru_cache(maxsize=1024)
-def tagged(markup: str) -> str:
-    """A markup in tags; heads and symbols come again with every move."""
-    return marked_up(markup)
-
-
 def table(caption: str, head: Sequence[str], rows: Sequence[Row], looks: Iterable[str] = ()) -> str:
     """A table in tags, its cells given as markup; nothing where it has no rows."""
     if not rows:
         return ""
-    classes = [*looks, *[""] * len(rows)]
-    heads = "".join(f'<th scope="col">{tagged(cell)}</th>' for cell in head)
-    lines = []
-    for row, look in zip(rows, classes, strict=False):
-        first, *rest = map(tagged, row.cells)
-        cells = "".join(f"<td>{cell}</td>" for cell in rest)
-        kind = f' class="{look}"' if look else ""
-        lines.append(f'<tr{kind}><th scope="row">{first}</th>{cells}</tr>')
-    title = f"<caption>{escape(caption)}</caption>"
-    return f"<table>{title}<thead><tr>{heads}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
+    cells = [row.cells for row in rows]
+    looks = [*looks, *[""] * len(rows)]
+    return filled("studio/web/table.html", caption=caption, head=head, rows=cells, looks=looks)

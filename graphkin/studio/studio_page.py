@@ -4,17 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-from functools import lru_cache
-from html import escape
-from pathlib import Path
 
 from graphkin import __version__
 from graphkin.studio.look import spoken_in
 from graphkin.studio.session import Opened
 from graphkin.text import LANGUAGES, Words
+from graphkin.writers.templates import filled
 
-FRAME = Path(__file__).parent / "web" / "page.html"
-GAP = re.compile(r"\{\{([\w.]+)\}\}")
 SPOKEN = (
     "studio.language",
     "studio.sheet_language",
@@ -85,17 +81,18 @@ def page(opened: Opened, words: Words) -> str:
     spoken = {language: spoken_in(language) for language in LANGUAGES}
     said = {language: said_in(each) for language, each in spoken.items()}
     start = {"language": words.language, "words": said}
-    filled = {
-        **said[words.language],
-        **{f"name.{language}": each("language") for language, each in spoken.items()},
-        "language": words.language,
-        "version": __version__,
-        "name": opened.name,
-        "mark": opened.mark,
-        "text": opened.text.removeprefix("\ufeff"),
-        "start": json.dumps(start, ensure_ascii=False),
-    }
-    return GAP.sub(lambda gap: escape(filled[gap[1]]), frame())
+    page = filled(
+        "studio/web/page.html",
+        said=said[words.language],
+        spoken=spoken,
+        language=words.language,
+        version=__version__,
+        name=opened.name,
+        mark=opened.mark,
+        text=opened.text.removeprefix("\ufeff"),
+        start=json.dumps(start, ensure_ascii=False),
+    )
+    return f"{page}\n"
 
 
 def said_in(words: Words) -> dict[str, str]:
@@ -106,9 +103,3 @@ def said_in(words: Words) -> dict[str, str]:
 def gaps(words: Words, key: str) -> dict[str, str]:
     """The gaps of a sentence, left as they are for the page to fill."""
     return {name: f"{{{name}}}" for name in re.findall(r"\{(\w+)\}", words.sentences[key])}
-
-
-@lru_cache(maxsize=1)
-def frame() -> str:
-    """The page's frame, with gaps for words and texts."""
-    return FRAME.read_text(encoding="utf-8")
