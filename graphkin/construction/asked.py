@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.pen import Pen, letter
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, set_on, set_on_twice
 from graphkin.construction.coriolis.coincident_points import carried
@@ -67,4 +68,4 @@ def set_on_mechanism(pen: Pen, kind: AskedQuantity, point: str) -> None:
     ends = pen.the("position", point), pen.pole(kind.plane), pen.the(kind.quantity, point)
     with pen.on(kind.part, Plane.MECHANISM):
         symbol = f"{kind.sign}_{letter(point)}"
-        pen.arrow(kind.action, *ends, pen.seconds(), name=symbol, symbol=symbol)
+        pen.vector(kind.action, *ends, pen.seconds(), of=PlanVector(symbol))

@@ -9,6 +9,7 @@ from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.naming import index_of, rate_symbol
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.result_tables import sense
@@ -79,7 +80,8 @@ def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) 
     p, q = step.says["p"], step.says["q"]
     indices = [index_of(drawing, step.says), p + q]
     form = "v_{}" if drawing.kind == "velocity" else "a_{}^τ"
-    drawn = {step.says["symbol"] for _, step, _ in drawing.steps(drawing.plane) if step.arrow}
+    steps = (step for _, step, _ in drawing.steps(drawing.plane))
+    drawn = {vector.symbol for step in steps if (vector := plan_vector(step))}
     vectors = [form.format(index) for index in indices]
     relative = symbol(next((vector for vector in vectors if vector in drawn), vectors[0]))
     length = length_of(drawing, p, q)

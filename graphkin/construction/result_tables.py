@@ -8,6 +8,7 @@ from typing import Any
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, segment_of, way_of
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out
 from graphkin.drawing.marks import Mark, Text
@@ -28,11 +29,12 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, OnPaper, float]]:
     """The vectors of the plan: symbol, segment, drawn length (mm), true magnitude (SI)."""
     found = []
     for _, step, value in drawing.steps(drawing.plane):
-        if step.arrow and isinstance(value, Vector):
+        vector = plan_vector(step)
+        if vector is not None and isinstance(value, Vector):
             size = drawing.settled(abs(value.tip - value.tail))
             segment = segment_of(drawing, step)
             length = drawn_in(drawing, drawing.plane, size)
-            found.append((step.says["symbol"], segment, length, size))
+            found.append((vector.symbol, segment, length, size))
     return found
 
 

@@ -18,6 +18,7 @@ from graphkin.construction.core.naming import (
     vector_of,
     way_of,
 )
+from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import CONTACT, Plane, Step
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.too_short import laid_off
@@ -217,9 +218,10 @@ def of_contacts(drawing: Drawing) -> Iterator[Relation]:
         return
     for contact, index, (tail, tip), key in at_contacts(drawing):
         arrow = arrow_of(drawing, tail, tip)
-        if arrow is None or arrow.says["symbol"] == f"v_{index}":
+        vector = plan_vector(arrow) if arrow else None
+        if vector is None or vector.symbol == f"v_{index}":
             continue
-        name = symbol(arrow.says["symbol"])
+        name = symbol(vector.symbol)
         size = drawing.settled(abs(drawing.trace.values[tip] - drawing.trace.values[tail]))
         fields = {"contact": symbol(f"v_{contact}"), "v": name}
         remark = drawing.words(f"calculation.{key}", **fields)
@@ -244,7 +246,7 @@ def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], s
 
 def is_laid_off(drawing: Drawing, step: Step) -> bool:
     """True for a component that was not found by the plan but computed and laid off."""
-    kind = step.says.get("kind", "")
+    kind = sign_of(step)
     if kind in ("ν", "c"):
         return True
     tip = drawing.trace.program.steps[step.args[1]].action

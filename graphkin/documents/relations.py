@@ -13,6 +13,7 @@ from graphkin.construction.core.component import Component, components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import drawn_between, drawn_in, scale_of, segment_of
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
@@ -129,10 +130,11 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
     k = "*k*_v" if drawing.kind == "velocity" else "*k*_a"
     unit = "m/s" if drawing.kind == "velocity" else "m/s^2"
     for _, step, value in drawing.steps(drawing.plane):
-        if not step.arrow or not isinstance(value, Vector) or is_laid_off(drawing, step):
+        vector = plan_vector(step)
+        if vector is None or not isinstance(value, Vector) or is_laid_off(drawing, step):
             continue
         size = drawing.settled(abs(value.tip - value.tail))
-        name = step.says["symbol"]
+        name = vector.symbol
         segment = segment_of(drawing, step)
         if not segment:
             segment = drawing.words("calculation.segment", name=symbol(name))

@@ -67,7 +67,7 @@ def set_on_mechanism(drawing: Drawing, turning: str) -> str:
     part = Part.VELOCITY if velocity else Part.ACCELERATION
     early = set_before(drawing)
     lengths = [
-        (symbol(step.says["symbol"]), abs(arrow.tip - arrow.tail))
+        (symbol(step.name), abs(arrow.tip - arrow.tail))
         for number, step, arrow in drawing.steps(Plane.MECHANISM)
         if step.action and step.action.key in READ_OFF and step.part is part
         if number not in early

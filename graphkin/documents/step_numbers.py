@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.closing_words import IDLE
@@ -56,8 +57,9 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
 
 def of_component(drawing: Drawing, step: Step) -> Iterator[int]:
     """The images between which a tangential component is told: it is not there before them."""
-    if step.arrow and step.says.get("kind") == "τ":
-        ends = (step.says["p"], step.says["q"])
+    vector = plan_vector(step)
+    if vector is not None and vector.sign == "τ":
+        ends = (vector.p, vector.q)
         for (what, name), number in drawing.trace.program.targets.items():
             if what == "acceleration" and lettered(name) in ends:
                 yield number

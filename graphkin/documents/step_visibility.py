@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.mark_dependencies import ground_of
@@ -54,8 +55,9 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     found: dict[str, int] = {}
     for number, step in enumerate(drawing.trace.program.steps):
         if number in staged:
-            vector = symbol(step.says.get("symbol", step.name))
-            found.setdefault(vector, staged[number])
+            vector = plan_vector(step)
+            name = symbol(vector.symbol if vector else step.name)
+            found.setdefault(name, staged[number])
             if step.plane is drawing.plane or step.part in (Part.CENTRE, Part.POLE):
                 found[step.name] = staged[number]
     return found

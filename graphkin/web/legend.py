@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from graphkin.construction.core.plan_vector import PlanVector, plan_vector
 from graphkin.construction.core.program import Part, Step
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import Words
 from graphkin.web.screen_sheets import ScreenSheet
 
+Arrow = tuple[Step, PlanVector]
 PLANS = {
     "velocity": ("*k*_v", "*ω*", "legend.omega"),
     "acceleration": ("*k*_a", "*ε*", "legend.epsilon"),
@@ -28,7 +30,8 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
         unit = words(f"table.{drawing.kind}")
         yield scale, words("legend.scale", plan=words(f"sheet.{drawing.kind}"), unit=unit)
         yield symbol(drawing.pole), words("legend.at_rest")
-        arrows = [step for _, step, _ in drawing.steps(drawing.plane) if step.arrow]
+        steps = [step for _, step, _ in drawing.steps(drawing.plane)]
+        arrows = [(step, vector) for step in steps if (vector := plan_vector(step))]
         yield from images(words, arrows, sheet)
         yield from components(words, arrows)
         yield rate, words(turning)
@@ -37,19 +40,20 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
         yield from ((term, words(key)) for part, (term, key) in FOUND.items() if part in own)
 
 
-def images(words: Words, arrows: Sequence[Step], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:
+def images(words: Words, arrows: Sequence[Arrow], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:
     """The segments that are the vector of a point, and of one point relative to another."""
     steps = sheet.drawing.trace.program.steps
-    whole = [step for step in arrows if not step.says.get("kind")]
+    whole = [(step, vector) for step, vector in arrows if not vector.sign]
     for key, has_pivot in (("legend.image", False), ("legend.relative", True)):
-        for step in [step for step in whole if bool(step.says["p"]) is has_pivot][:1]:
-            says = {name: symbol(step.says[name] or "o") for name in ("q", "p", "symbol")}
-            yield "".join(symbol(steps[arg].name) for arg in step.args), words(key, **says)
+        for step, found in [each for each in whole if bool(each[1].p) is has_pivot][:1]:
+            names = {"q": found.q, "p": found.p, "symbol": found.symbol}
+            fields = {key: symbol(name or "o") for key, name in names.items()}
+            yield "".join(symbol(steps[arg].name) for arg in step.args), words(key, **fields)
 
 
-def components(words: Words, arrows: Sequence[Step]) -> Iterator[tuple[str, str]]:
+def components(words: Words, arrows: Sequence[Arrow]) -> Iterator[tuple[str, str]]:
     """The components of accelerations by their signs, in the order in which they are drawn."""
-    kinds = dict.fromkeys(step.says["kind"] for step in arrows if step.says.get("kind"))
+    kinds = dict.fromkeys(vector.sign for _, vector in arrows if vector.sign)
     yield from (
         (symbol(f"a^{kind}"), words(BY_SIGN[kind].legend)) for kind in kinds if kind in BY_SIGN
     )

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from graphkin.construction.core.crossings import is_drawn
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Text
 from graphkin.mechanism import Mechanism
@@ -185,10 +186,11 @@ def read_outs(places: Sequence[MovingSheet]) -> Iterator[tuple[str, int, str, in
     for s, place in enumerate(places):
         drawing, tape = place.drawing, place.tape
         for number, step, value in drawing.steps(drawing.plane):
-            if step.arrow and isinstance(value, Vector):
-                vector = place.values[number]
-                size = abs(tape.lifted(vector.tip - vector.tail))
-                yield step.says["symbol"], s, drawing.kind, tape.number(size)
+            vector = plan_vector(step)
+            if vector is not None and isinstance(value, Vector):
+                moving = place.values[number]
+                size = abs(tape.lifted(moving.tip - moving.tail))
+                yield vector.symbol, s, drawing.kind, tape.number(size)
         first = drawing.kind == "velocity"
         rate, letter = ("omega", "ω") if first else ("epsilon", "ε")
         for link in drawing.scene.links:

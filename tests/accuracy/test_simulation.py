@@ -149,7 +149,7 @@ def test_an_angular_acceleration_is_read_from_its_tangential_component():
         number = exact.program.targets["epsilon", link]
         tail = exact.tails[number]
         arrows = [s for s in steps if s.arrow and s.args == (tail, steps[number].args[3])]
-        assert [arrow.says["kind"] for arrow in arrows] == ["τ"]
+        assert [arrow.of.sign for arrow in arrows] == ["τ"]
 
 
 @pytest.mark.parametrize("name", ["rapid-return", "stephenson-2-binary", "rod-and-wheel"])

@@ -26,7 +26,7 @@ def not_drawn(program):
         _, pivot, pin, *_ = step.args
         poles = {number for number in (pivot, pin) if program.steps[number].name == "o"}
         if pivot != pin and not poles and {pivot, pin} not in drawn:
-            missing.add(step.says["i"])
+            missing.add(step.of.index)
     return missing
 
 
@@ -54,7 +54,7 @@ def test_so_they_do_in_groups_that_take_two_trials():
 def test_the_velocity_plan_shows_contacts_and_bars_within_trials(name, symbols):
     steps = mechanism_named(name).program.steps
     arrows = [s for s in steps if s.arrow and s.plane is Plane.VELOCITIES]
-    assert symbols <= {arrow.says["symbol"] for arrow in arrows}
+    assert symbols <= {arrow.of.symbol for arrow in arrows}
     ends = [steps[number].name for arrow in arrows for number in arrow.args]
     assert not any(end.endswith(("¹", "²")) for end in ends)
 
@@ -71,7 +71,7 @@ def both_ways(program):
     drawn = {tuple(fallen(program, end) for end in step.args): step for step in arrows}
     poles = {number for number, step in enumerate(program.steps) if step.name == "o"}
     return {
-        step.says["symbol"]
+        step.of.symbol
         for (tail, tip), step in drawn.items()
         if not {tail, tip} & poles and (tip, tail) in drawn
     }
@@ -101,7 +101,7 @@ def test_the_ends_of_a_relative_velocity_bear_the_letters_of_its_index(name):
     points = {of for _, of in program.targets if of.startswith(CONTACT)}
     contacts = {small(point.removeprefix(CONTACT)) for point in points}
     for step in keyed(program, "join"):
-        letters = {small(step.says["q"]), small(step.says["p"])}
-        if step.plane is Plane.VELOCITIES and step.says["p"] and not letters & contacts:
+        letters = {small(step.of.q), small(step.of.p)}
+        if step.plane is Plane.VELOCITIES and step.of.p and not letters & contacts:
             ends = {small(program.steps[end].name) for end in step.args}
-            assert "o" in ends or ends == letters, step.says["symbol"]
+            assert "o" in ends or ends == letters, step.of.symbol

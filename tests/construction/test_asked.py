@@ -8,6 +8,7 @@ from functools import cache
 import pytest
 
 from graphkin.construction.core.pen import letter
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism, point_of
@@ -66,7 +67,7 @@ def arrows(program, kind, plane):
     """The numbers of the arrows of a plan, or of those set on the mechanism, by their symbols."""
     found = {}
     for number, step in enumerate(program.steps):
-        sign = step.says.get("symbol", "")
+        sign = step.of.symbol if plan_vector(step) else ""
         if step.arrow and step.plane is plane and sign.startswith(SIGNS[kind]):
             found.setdefault(sign, []).append(number)
     return found

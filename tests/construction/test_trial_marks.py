@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.higher_class.trial_rates import ROUND, tried_by
 from graphkin.documents.sentences import sentences
@@ -107,7 +108,7 @@ def components(some: Mechanism, signs: str) -> dict[str, Vector]:
     return {
         step.name: trace.values[number]
         for number, step in enumerate(some.program.steps)
-        if step.arrow and number in trace.values and step.says.get("kind", "-") in signs
+        if step.arrow and number in trace.values and (sign_of(step) or "-") in signs
     }
 
 
@@ -202,9 +203,7 @@ def test_a_relative_velocity_on_a_guide_is_an_arrow_along_it():
     trace = some.trace(by_hand=True)
     steps = some.program.steps
     arrows = {
-        s.says["symbol"]: trace.values[n]
-        for n, s in enumerate(steps)
-        if s.arrow and n in trace.values
+        s.of.symbol: trace.values[n] for n, s in enumerate(steps) if s.arrow and n in trace.values
     }
     places = [trace.value("position", point) for point in "PQ"]
     speed = some.solve().slides["2"].speed

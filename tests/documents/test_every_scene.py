@@ -7,6 +7,7 @@ import re
 import pytest
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.documents.sentences import sentences
 from graphkin.drawing.richtext import plain
@@ -63,9 +64,9 @@ def test_every_line_and_component_of_a_plan_is_told(sheets):
     for drawing in sheets:
         text = " | ".join(sentence.markup for sentence in sentences(drawing))
         symbols = {
-            step.says["symbol"]
+            step.of.symbol
             for _, step, _ in drawing.steps(drawing.plane)
-            if step.arrow and step.says.get("kind") in ("ν", "c")
+            if sign_of(step) in ("ν", "c")
         }
         missing = [name for name in symbols if symbol(name) not in text]
         assert not missing, (drawing.kind, missing)

@@ -121,7 +121,7 @@ def test_the_last_sentence_names_what_is_set_on_the_mechanism(both):
         part = Part.VELOCITY if drawing.kind == "velocity" else Part.ACCELERATION
         early = set_before(drawing)
         arrows = {
-            symbol(step.says["symbol"])
+            symbol(step.of.symbol)
             for number, step, arrow in drawing.steps(Plane.MECHANISM)
             if step.arrow and step.part is part and abs(arrow.tip - arrow.tail) > 1e-9
             if number not in early

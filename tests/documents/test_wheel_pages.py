@@ -91,7 +91,7 @@ def test_a_point_of_contact_has_one_velocity_under_one_name(name):
     contacts = {of for what, of in velocity.trace.program.targets if of[:1] == CONTACT}
     linked = {lettered(of) for of in contacts if "@" in of}
     assert linked
-    symbols = {step.says["symbol"] for _, step, _ in velocity.steps(velocity.plane) if step.arrow}
+    symbols = {step.of.symbol for _, step, _ in velocity.steps(velocity.plane) if step.arrow}
     assert not {s for s in symbols if any(each in s for each in linked)}
 
 
@@ -184,7 +184,7 @@ def test_why_a_point_falls_on_the_pole_is_told(name, kind, line):
 def test_a_tangential_component_is_not_there_before_the_points_that_it_is_told_of():
     (_, drawing) = drawings("roller-plates")
     staged, program = stages(drawing, sentences(drawing)), drawing.trace.program
-    found = {step.says["symbol"]: n for n, step, _ in drawing.steps(drawing.plane) if step.arrow}
+    found = {step.of.symbol: n for n, step, _ in drawing.steps(drawing.plane) if step.arrow}
     rims = [n for (what, of), n in program.targets.items() if what == drawing.kind and "@3" in of]
     assert len(rims) == 2
     assert staged[found["a_T2,3T1,3^τ"]] == max(staged[number] for number in rims)

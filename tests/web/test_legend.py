@@ -7,6 +7,7 @@ from functools import cache
 
 import pytest
 
+from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Part
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
@@ -30,10 +31,10 @@ def sheets_of(name: str) -> tuple[ScreenSheet, ...]:
 @pytest.mark.parametrize("name", FEW)
 def test_each_kind_of_component_is_told_and_no_other(name):
     drawn = {
-        step.says["kind"]
+        sign_of(step)
         for sheet in sheets_of(name)
         for _, step, _ in sheet.drawing.steps(sheet.drawing.plane)
-        if step.arrow and step.says.get("kind")
+        if sign_of(step)
     }
     told = {term for term, _ in meanings(words("en"), sheets_of(name))}
     assert drawn

@@ -187,7 +187,7 @@ def test_read_outs_and_margins_are_those_of_the_sheet(page, name):
             if step.arrow:
                 size = abs(value.tip - value.tail)
                 near = pytest.approx(size, rel=1e-9, abs=1e-8 * drawing.largest)
-                assert found["values"][step.says["symbol"]] == near
+                assert found["values"][step.of.symbol] == near
         for number, sine in drawing.trace.margins.items():
             if str(number) in found["margins"]:
                 assert found["margins"][str(number)] == pytest.approx(float(sine), abs=1e-9)

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
 from graphkin.construction.core.component import TriangleChoice, component_of
+from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import Trace
 from graphkin.mechanism import Mechanism
@@ -112,7 +113,7 @@ class Original:
         """Where the tangential components begin that end in a point of the plan."""
         for number in self.skipped:
             step = self.program.steps[number]
-            if step.says.get("kind") == "τ" and step.args[1] == tip:
+            if sign_of(step) == "τ" and step.args[1] == tip:
                 yield step.args[0]
 
     def reads_alike(self, number: int, tail: int, value: float) -> bool:

@@ -9,6 +9,7 @@ from typing import Any
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.lab.items import ARROW, UNITS
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane, Program, Target
 from graphkin.construction.core.quantities import BY_TARGET, VECTORS
 from graphkin.mechanism import Mechanism, point_of
@@ -124,7 +125,8 @@ def is_pole(step: Any, plane: Plane) -> bool:
 def arrow_ends(program: Program, symbol: str) -> tuple[int, int] | None:
     """The ends of the arrow of a symbol."""
     for step in program.steps:
-        if step.arrow and step.plane in UNITS and step.says.get("symbol") == symbol:
+        vector = plan_vector(step)
+        if vector is not None and step.plane in UNITS and vector.symbol == symbol:
             return step.args[0], step.args[1]
     return None
 

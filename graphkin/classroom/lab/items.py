@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.classroom.lab.lab_model import Item, Lab
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.quantities import (
     CENTRES,
@@ -112,9 +113,10 @@ def moving_points(mechanism: Mechanism) -> list[str]:
 def arrows(program: Program) -> Iterator[Item]:
     """The vectors of the plans, components too, by their symbols."""
     for step in program.steps:
-        sign = step.says.get("symbol", "")
+        vector = plan_vector(step)
+        sign = vector.symbol if vector else ""
         found = ARROW_SYMBOL.fullmatch(sign)
-        if step.arrow and step.plane in UNITS and found:
+        if step.plane in UNITS and found:
             letter, index, kind = found.groups()
             tail = f"_{GREEK.get(kind, plain(kind))}" if kind else ""
             name = f"{letter}_{plain(index)}{tail}"
@@ -126,8 +128,9 @@ def arrow_steps(program: Program) -> Mapping[str, int]:
     """The number of the arrow that bears each symbol; the first where several do."""
     found: dict[str, int] = {}
     for number, step in enumerate(program.steps):
-        if step.arrow and step.plane in UNITS and "symbol" in step.says:
-            found.setdefault(step.says["symbol"], number)
+        vector = plan_vector(step)
+        if vector is not None and step.plane in UNITS:
+            found.setdefault(vector.symbol, number)
     return found
 
 

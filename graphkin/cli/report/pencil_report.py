@@ -11,6 +11,7 @@ from graphkin.accuracy.pencil.forecast import Expected
 from graphkin.cli.report.solution_record import real
 from graphkin.construction.core.crossings import CLOSED, Crossing, crossings, flattest, letter_of
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Program, Step
 from graphkin.text.plain_table import at_the_point, listed, table
 
@@ -212,8 +213,8 @@ def step_words(program: Program, number: int) -> str:
 def arrow_end(program: Program, number: int) -> str:
     """The end of an arrow that has no letter of its own; nothing where none ends there."""
     arrows = (step for step in program.steps if step.arrow and step.args[1:2] == (number,))
-    arrow = next((step for step in arrows if "kind" in step.says), None)
-    return "" if arrow is None else f"the end of {arrow.says['symbol']}"
+    component = next((v for step in arrows if (v := plan_vector(step)) and v.sign), None)
+    return "" if component is None else f"the end of {component.symbol}"
 
 
 def line_words(program: Program, step: Step) -> str:

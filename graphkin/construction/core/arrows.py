@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import PRIME, Pen, about, letter, named, owned, second_image
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join
 from graphkin.scene.model import FRAME
@@ -33,7 +34,7 @@ def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
     if name not in pen.arrows:
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             symbol = f"v_{letter(pin)}{about}"
-            pen.arrow(join, tail, tip, name=name, symbol=symbol, q=letter(pin), p=about)
+            pen.vector(join, tail, tip, of=PlanVector(symbol, letter(pin), about), name=name)
 
 
 def acceleration_arrow(pen: Pen, pin: str) -> None:
@@ -43,13 +44,13 @@ def acceleration_arrow(pen: Pen, pin: str) -> None:
     if name not in pen.arrows:
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             symbol = f"a_{owned(pin)}"
-            pen.arrow(join, o, tip, name=name, symbol=symbol, q=owned(pin), p="")
+            pen.vector(join, o, tip, of=PlanVector(symbol, owned(pin)), name=name)
 
 
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
     """The arrow of a normal (ν) or tangential (τ) component."""
     symbol = f"a_{about(pen, pin, pivot)}^{kind}"
-    pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind=kind, q=owned(pin), p=owned(pivot))
+    pen.vector(join, tail, tip, of=PlanVector(symbol, owned(pin), owned(pivot), kind))
 
 
 def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:
@@ -58,4 +59,4 @@ def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:
         return
     symbol = f"a_{letter(point)}{letter(under(point, link))}^r"
     if symbol not in pen.arrows:
-        pen.arrow(join, tail, tip, name=symbol, symbol=symbol, kind="r", q=point, p="")
+        pen.vector(join, tail, tip, of=PlanVector(symbol, point, sign="r"))

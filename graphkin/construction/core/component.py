@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
+from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.too_short import TINY, is_short
@@ -230,13 +231,13 @@ class LaidOff(Construction):
         """
         steps = drawing.trace.program.steps
         users = [steps[user] for user in drawing.children.get(self.corner, ())]
-        left = [user for user in users if user.arrow and user.says.get("kind") == "r"]
+        left = [user for user in users if sign_of(user) == "r"]
         if self.back or not left:
             return ""
         if not all(user.arrow or user.part is Part.RESULT for user in users):
             return ""
         end = symbol(steps[left[0].args[1]].name)
-        fields = {"s": symbol(steps[self.start].name), "r": symbol(left[0].says["symbol"])}
+        fields = {"s": symbol(steps[self.start].name), "r": symbol(left[0].name)}
         return self.component.laid_alone(drawing, q=end, **fields)
 
     def is_short(self, drawing: Drawing) -> bool:

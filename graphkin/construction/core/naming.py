@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane, Step
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
@@ -52,8 +53,9 @@ def fallen(drawing: Drawing, number: int) -> int:
 
 def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
     """Markup of the vector between two points of a plan."""
-    found = arrow_of(drawing, tail, tip)
-    return symbol(found.says["symbol"]) if found else default
+    arrow = arrow_of(drawing, tail, tip)
+    found = plan_vector(arrow) if arrow else None
+    return symbol(found.symbol) if found else default
 
 
 def segment_of(drawing: Drawing, step: Step) -> str:

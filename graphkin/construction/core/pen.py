@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.branches import block_of, side_of, way_of
 from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import (
     CONTACT,
     Drive,
@@ -149,6 +150,12 @@ class Pen:
         return self._add(
             Step(action, args, self.part, self.plane, name, hand=True, arrow=True, says=says)
         )
+
+    def vector(self, action: Action, *args: int, of: PlanVector, name: str = "") -> None:
+        """Add the arrow of a vector, under its own symbol unless another name is told."""
+        number = self.arrow(action, *args, name=name or of.symbol)
+        if number >= 0:
+            self.make(replace(of, arrow=number))
 
     def given(self, form: str, *quantities: Any, name: str = "", **says: Any) -> int:
         """Add a value that the scene states; the same value is written down once."""

@@ -10,6 +10,7 @@ from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.too_short import TINY
@@ -134,10 +135,12 @@ def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
     cls = arrow_class(step, plot)
     if length > 0:
         plot.board.marks += arrow(tail, tip, cls, step.name, number)
+    vector = plan_vector(step)
+    assert vector is not None
+    name, short = symbol(vector.symbol), length < SHORT
     if length < TINY:
-        note_tiny(plot, symbol(step.says["symbol"]), OnPaper(length))
+        note_tiny(plot, name, OnPaper(length))
         return
-    name, short = symbol(step.says["symbol"]), length < SHORT
     subject = middle(tail, tip) if short else (tail, tip)
     plot.board.labels.append(
         Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short, spare=True)
@@ -146,7 +149,7 @@ def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
 
 def arrow_class(step: Step, plot: Plot) -> str:
     """The look of a vector: normal and tangential components, relative and absolute ones."""
-    kind = BY_SIGN.get(step.says.get("kind", ""))
+    kind = BY_SIGN.get(sign_of(step))
     if kind:
         return kind.look
     tail = plot.drawing.trace.program.steps[step.args[0]].name

@@ -24,6 +24,7 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.too_short import laid_off
@@ -411,5 +412,5 @@ def end_of(pen: Pen, laying: Action, start: int, vector: int) -> int:
     corner = pen.shared[key]
     name, ends = component.name, (corner, start) if back else (start, corner)
     if name not in pen.arrows:
-        pen.arrow(join, *ends, name=name, symbol=name, kind="c", q=component.point, p="")
+        pen.vector(join, *ends, of=PlanVector(name, component.point, sign=component.sign))
     return corner

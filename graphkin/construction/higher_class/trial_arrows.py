@@ -8,6 +8,7 @@ from typing import Any
 from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, Says, about, letter
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.vocabulary import Action, driven_tangential
 from graphkin.construction.guides.sliding import slid
@@ -99,8 +100,7 @@ def legs(
     for action, sign in zip((first, last), kinds, strict=True):
         symbol = f"a_{says['i']}^{sign}"
         if symbol not in pen.arrows:
-            told = {name: says[name] for name in ("q", "p")}
-            pen.arrow(action, *args, name=symbol, symbol=symbol, kind=sign, **told)
+            pen.vector(action, *args, of=PlanVector(symbol, says["q"], says["p"], sign))
 
 
 def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:

@@ -16,6 +16,7 @@ from graphkin.construction.core.component import (
 )
 from graphkin.construction.core.naming import drawn_between, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.too_short import laid_off
@@ -155,7 +156,7 @@ def rolled_image(
         vector = pen.draw(rolling_normal, head, foot, *rates, name=name)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         image = pen.draw(lay_off, start, vector, name=second_image(rolls))
-        pen.arrow(join, start, image, name=name, symbol=name, kind="ν", q=q, p=p)
+        pen.vector(join, start, image, of=PlanVector(name, q, p, "ν"))
     pen.make(
         RollingNormal(
             index=index,

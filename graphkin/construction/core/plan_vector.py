@@ -1,0 +1,35 @@
+"""The vectors of the plans, and those set on the mechanism: whose each is, and of what kind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from graphkin.construction.core.program import Roles, Step
+
+
+@dataclass(frozen=True)
+class PlanVector(Roles):
+    """A vector under its ``symbol``, of point ``q``, about ``p`` if that is named.
+
+    ``sign`` tells the components of an acceleration: ν, τ, c, r; nothing for a whole vector.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("arrow",)
+
+    symbol: str
+    q: str = ""
+    p: str = ""
+    sign: str = ""
+    arrow: int | None = None
+
+
+def plan_vector(step: Step) -> PlanVector | None:
+    """The vector that a step draws; None for a step that draws none."""
+    return step.of if isinstance(step.of, PlanVector) else None
+
+
+def sign_of(step: Step) -> str:
+    """The sign of the component that a step draws; nothing for whole vectors and other steps."""
+    vector = plan_vector(step)
+    return vector.sign if vector else ""
