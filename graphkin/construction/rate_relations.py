@@ -50,8 +50,8 @@ def names_of(found: Sequence[Relation]) -> set[str]:
 
 def of_links(drawing: Drawing) -> Iterator[Relation]:
     """The rate of each link by the step that gives it, in the order of the links."""
-    key, letter, unit = rate_of(drawing)
-    program = drawing.trace.program
+    program, rate = drawing.trace.program, drawing.rate
+    key, letter = rate.target, rate.letter
     for link in drawing.scene.links:
         number = program.targets.get((key, link), -1)
         value = drawing.turning(link)
@@ -59,20 +59,13 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
             continue
         step = program.steps[number]
         name, action = symbol(f"{letter}_{link}"), step.action.key if step.action else ""
-        tail = (answer(drawing, abs(value)), unit, sense(drawing.words, value))
+        tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
         if action and step.name != link:
             yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
         elif action == key:
             yield by_bar(drawing, step, name, tail)
         elif action == "between":
             yield by_trials(drawing, step, name, letter, tail)
-
-
-def rate_of(drawing: Drawing) -> tuple[str, str, str]:
-    """The rate that a sheet is about: its name, its letter, its unit."""
-    if drawing.kind == "velocity":
-        return "omega", "ω", "rad/s"
-    return "epsilon", "ε", "rad/s^2"
 
 
 def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) -> Relation:
@@ -108,9 +101,10 @@ def by_trials(
 
 def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
     """The rate of a crank that turns on a moving link: that link's rate and its own."""
-    program, (key, letter, unit) = drawing.trace.program, rate_of(drawing)
+    program, rate = drawing.trace.program, drawing.rate
+    letter = rate.letter
     for link, action in ((driver.link, "sum"), (driver.against, "difference")):
-        step = program.steps[program.targets.get((key, link), 0)]
+        step = program.steps[program.targets.get((rate.target, link), 0)]
         known = set(step.args) <= set(drawing.trace.values)
         if step.action is None or step.action.key != action or step.name != link or not known:
             continue
@@ -122,7 +116,7 @@ def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
             f"{rate_symbol(drawing, step.args[0], letter)} {SUMS[action]} {relative}",
             f"{figure(drawing, one, FINE)} {SUMS[action]} {within(drawing, two)}",
             figure(drawing, whole, FINE),
-            unit,
+            rate.caret_unit,
             sense(drawing.words, whole),
         )
 
@@ -141,7 +135,6 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
 
     On the first sheet those of gears, before they are used, from module and number of teeth.
     """
-    _, letter, unit = rate_of(drawing)
     told: set[str] = set()
     links = (drawing.scene.frame, *drawing.scene.links.values())
     for touch in drawing.standing.touches:
@@ -156,7 +149,7 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
                 if drawing.kind == "velocity" and disc.wheel.teeth and disc.link not in told:
                     told.add(disc.link)
                     yield by_teeth(drawing, disc)
-            yield by_radii(drawing, names, rates, (touch.disc, touch.other), letter, unit)
+            yield by_radii(drawing, names, rates, (touch.disc, touch.other))
 
 
 def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
@@ -179,11 +172,9 @@ def by_radii(
     names: Sequence[str],
     rates: Sequence[float],
     discs: tuple[Disc, Disc],
-    letter: str,
-    unit: str,
 ) -> Relation:
     """The rate of a wheel from that of the arm and that of the wheel on which it rolls."""
-    wheel, arm, track = (symbol(f"{letter}_{name}") for name in names)
+    wheel, arm, track = (symbol(f"{drawing.rate.letter}_{name}") for name in names)
     _, carried, rolled = rates
     ring = any(disc.wheel.inside for disc in discs)
     sign, factor = ("+", 1) if ring else ("−", -1)
@@ -203,7 +194,7 @@ def by_radii(
             symbols = f"{arm} {sign} (0 − {arm})·{radii}"
     result = drawing.words.significant(whole, 4)
     remark = sense(drawing.words, whole)
-    return Relation(wheel, symbols, figures, result, unit, remark)
+    return Relation(wheel, symbols, figures, result, drawing.rate.caret_unit, remark)
 
 
 def radius_of(disc: Disc) -> str:

@@ -61,8 +61,7 @@ def value_of(words: Words, size: float, length: OnPaper) -> str:
 
 def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     """One row for each angular velocity or acceleration, with its sense."""
-    letter = "ω" if drawing.kind == "velocity" else "ε"
-    words = drawing.words
+    letter, words = drawing.rate.letter, drawing.words
     rows = []
     for link in drawing.scene.links:
         value = drawing.turning(link)
@@ -88,8 +87,7 @@ def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
 
 def slid(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
     """What is asked of blocks on this sheet: block, symbol, and value along the guide."""
-    velocity = drawing.kind == "velocity"
-    what, letter = ("slide speed", "v") if velocity else ("slide acceleration", "a")
+    what, letter = drawing.sliding.target, drawing.sliding.letter
     for block in drawing.scene.ask.slides:
         value = drawing.trace.value(what, block)
         if value is not None:
@@ -115,8 +113,8 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     words = drawing.words
     unit = words(f"table.{drawing.kind}")
     head = Row((words("table.symbol"), words("table.segment"), words("table.millimetres"), unit))
-    spin = "omega" if drawing.kind == "velocity" else "epsilon"
-    turn_head = Row((words("table.symbol"), words(f"table.{spin}"), words("table.sense")))
+    turning = words(f"table.{drawing.rate.target}")
+    turn_head = Row((words("table.symbol"), turning, words("table.sense")))
     slide_head = Row((words("table.symbol"), unit, words("table.sense")))
     every = (
         ColumnTable(VECTORS, head, tuple(vector_rows(drawing, empty=empty))),

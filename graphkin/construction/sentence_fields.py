@@ -167,7 +167,7 @@ def found_by(drawing: Drawing, step: Step) -> str:
 def summed(drawing: Drawing, number: int, sign: str) -> str:
     """The sum of which a rate follows: that of a link and the given one against it."""
     rate, words = drawing.trace.program.steps[number], drawing.words
-    letter, unit = ("ω", "rad/s") if drawing.kind == "velocity" else ("ε", "rad/s^2")
+    letter, unit = drawing.rate.letter, drawing.rate.caret_unit
     for driver in drawing.scene.drivers:
         if rate.name == (driver.link if sign == "+" else driver.against):
             own = f"*{letter}*_{{{driver_index(driver)}}}"

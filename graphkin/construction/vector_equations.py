@@ -41,7 +41,6 @@ def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
 
 def of_step(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
     """The equations that belong to one step of a plan."""
-    velocity = drawing.kind == "velocity"
     tried = number in drawing.tags
     kind = construction(step)
     if kind is not None and (equation := kind.equation(drawing)):
@@ -66,7 +65,7 @@ def of_step(drawing: Drawing, number: int, step: Step) -> Iterator[Relation]:
         case "driven-slide" if tried:
             yield along_way(drawing, step.says["q"], step)
         case "driven-slide":
-            yield given_along(drawing, number, step, "v" if velocity else "a")
+            yield given_along(drawing, number, step, drawing.vector.letter)
         case "similar-point" if step.by_hand not in drawing.trace.values:
             yield similar(drawing, step)
         case "alike":
@@ -98,7 +97,7 @@ def euler(drawing: Drawing, step: Step, *, steady: bool = False) -> Relation:
     """
     p, q = step.says["p"], step.says["q"]
     pin, pivot = step.says.get("w", q), step.says.get("x", p)
-    index, letter = index_of(drawing, step.says), "v" if drawing.kind == "velocity" else "a"
+    index, letter = index_of(drawing, step.says), drawing.vector.letter
     fixed = index == pin
     key = f"calculation.{'about' if fixed else 'euler'}_{drawing.kind}"
     key = "calculation.euler_steady" if steady else key
@@ -135,7 +134,7 @@ def turned(drawing: Drawing, step: Step, letter: str, rate: str) -> Relation:
 
 def similar(drawing: Drawing, step: Step) -> Relation:
     """The image of a point of a link by similarity to the link."""
-    letter = "v" if drawing.kind == "velocity" else "a"
+    letter = drawing.vector.letter
     fields = {**fields_of(drawing, step, step.says), "name": symbol(step.name)}
     key = "similar_in_line" if in_line(drawing, step) else "similar"
     vector = symbol(f"{letter}_{step.says.get('w', step.says['r'])}")
@@ -144,7 +143,7 @@ def similar(drawing: Drawing, step: Step) -> Relation:
 
 def alike(drawing: Drawing, step: Step) -> Relation:
     """The image of a point of a link that only shifts: all its points move as one."""
-    letter = "v" if drawing.kind == "velocity" else "a"
+    letter = drawing.vector.letter
     whole, start = (symbol(f"{letter}_{step.says[key]}") for key in "qp")
     return Relation(drawing.words("calculation.alike", whole=whole, start=start))
 
@@ -163,7 +162,7 @@ def along_way(drawing: Drawing, sought: str, step: Step) -> Relation:
     """The motion of a point along a guide: alone where that stands still, else on its point's."""
     point, beneath = slider(drawing, sought, step)
     velocity, guide = drawing.kind == "velocity", way_of(drawing, step.says["g"])
-    letter = "v" if velocity else "a"
+    letter = drawing.vector.letter
     if drawing.trace.program.steps[step.args[0]].name == drawing.pole:
         name = symbol(f"{letter}_{beneath if '@' in sought else point}")
         return Relation(drawing.words("calculation.along_guide", name=name, guide=guide))

@@ -127,8 +127,8 @@ def data_line(drawing: Drawing, *, solved: bool) -> Relation:
 def read_off(drawing: Drawing) -> Iterator[Relation]:
     """Each vector that is read off the plan: scale factor times drawn length."""
     scale = scale_of(drawing, drawing.plane)
-    k = "*k*_v" if drawing.kind == "velocity" else "*k*_a"
-    unit = "m/s" if drawing.kind == "velocity" else "m/s^2"
+    k = f"*k*_{drawing.vector.letter}"
+    unit = drawing.vector.caret_unit
     for _, step, value in drawing.steps(drawing.plane):
         vector = plan_vector(step)
         if vector is None or not isinstance(value, Vector) or is_laid_off(drawing, step):

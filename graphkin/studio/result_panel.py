@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import degrees
-from typing import Any
 
 from graphkin.construction.core.crossings import Crossing
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.program import Part
+from graphkin.construction.core.quantities import held
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.construction.result_tables import slide_rows, turning_rows, vector_rows
 from graphkin.documents.centre_tables import breadth_of, completed, place_of
@@ -49,7 +49,7 @@ def read_off(drawing: Drawing, solution: Solution) -> Iterator[str]:
     words = drawing.words
     lost = losses(drawing, solution)
     unit = words(f"table.{drawing.kind}")
-    spin = words(f"table.{'omega' if drawing.kind == 'velocity' else 'epsilon'}")
+    spin = words(f"table.{drawing.rate.target}")
     first, sense = words("table.symbol"), words("table.sense")
     caption = words(f"sheet.{drawing.kind}")
     vectors = (first, words("table.segment"), words("table.millimetres"), unit)
@@ -66,19 +66,15 @@ def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
     Vectors that the solution does not hold, such as those of one point relative to another, are as
     sure as all that it holds.
     """
-    velocity = drawing.kind == "velocity"
-    letter, angular = ("v", "ω") if velocity else ("a", "ε")
-    known: dict[str, Any] = {
-        f"{letter}_{name}": point.velocity if velocity else point.acceleration
-        for name, point in solution.points.items()
-    }
-    known |= {
-        f"{angular}{name}": link.omega if velocity else link.epsilon
-        for name, link in solution.links.items()
-    }
-    known |= {
-        f"slide {name}": slide.speed if velocity else slide.acceleration
-        for name, slide in solution.slides.items()
+    parts = (
+        (f"{drawing.vector.letter}_", drawing.vector, solution.points),
+        (drawing.rate.letter, drawing.rate, solution.links),
+        ("slide ", drawing.sliding, solution.slides),
+    )
+    known = {
+        f"{start}{name}": held(motion, quantity)
+        for start, quantity, motions in parts
+        for name, motion in motions.items()
     }
     sure = {name: not isnan(value) for name, value in known.items() if value is not None}
     return lambda name: not sure.get(name, all(sure.values()))

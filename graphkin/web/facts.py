@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
 from graphkin.documents.members import members
 from graphkin.documents.sheet import asked
@@ -33,8 +34,7 @@ class ResultTable:
 def results(drawing: Drawing) -> Iterator[ResultTable]:
     """The tables of a sheet: vectors of the plan, angular values, what slides."""
     words = drawing.words
-    unit = words(f"table.{drawing.kind}")
-    spin = "omega" if drawing.kind == "velocity" else "epsilon"
+    unit, rate = words(f"table.{drawing.kind}"), words(f"table.{drawing.rate.target}")
     first, millimetres, sense = (
         words(f"table.{key}") for key in ("symbol", "millimetres", "sense")
     )
@@ -46,7 +46,7 @@ def results(drawing: Drawing) -> Iterator[ResultTable]:
             (first, words("table.segment"), millimetres, unit),
             vector_rows,
         ),
-        ("turns", "screen.turns", (first, words(f"table.{spin}"), sense), turning_rows),
+        ("turns", "screen.turns", (first, rate, sense), turning_rows),
         ("slides", "screen.slides", (first, unit, sense), slide_rows),
     )
     for kind, key, head, rows in kinds:
@@ -63,14 +63,11 @@ def name_of(drawing: Drawing, row: Row) -> str:
 
 def asked_rows(drawing: Drawing) -> frozenset[str]:
     """The names of the rows that the scene asks for."""
-    ask = drawing.scene.ask
-    first = drawing.kind == "velocity"
-    points, spins = (ask.velocity, ask.omega) if first else (ask.acceleration, ask.epsilon)
-    letter, turn = ("v", "ω") if first else ("a", "ε")
+    ask, vector, rate = drawing.scene.ask, drawing.vector, drawing.rate
     return frozenset(
         (
-            *(f"{letter}_{lettered(point)}" for point in points),
-            *(f"{turn}{link}" for link in spins),
+            *(f"{vector.letter}_{lettered(point)}" for point in names_asked(ask, vector)),
+            *(f"{rate.letter}{link}" for link in names_asked(ask, rate)),
             *(f"{SLIDES[drawing.kind]} {block}" for block in ask.slides),
         )
     )

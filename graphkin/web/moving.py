@@ -191,13 +191,13 @@ def read_outs(places: Sequence[MovingSheet]) -> Iterator[tuple[str, int, str, in
                 moving = place.values[number]
                 size = abs(tape.lifted(moving.tip - moving.tail))
                 yield vector.symbol, s, drawing.kind, tape.number(size)
-        first = drawing.kind == "velocity"
-        rate, letter = ("omega", "ω") if first else ("epsilon", "ε")
+        rate = drawing.rate
         for link in drawing.scene.links:
-            value = place.trace.value(rate, link)
+            value = place.trace.value(rate.target, link)
             if value is not None:
-                yield f"{letter}{link}", s, rate, tape.number(value)
-        what, name = ("slide speed", "slide") if first else ("slide acceleration",) * 2
+                yield f"{rate.letter}{link}", s, rate.target, tape.number(value)
+        what = drawing.sliding.target
+        name = "slide" if drawing.kind == "velocity" else what
         for block in drawing.scene.ask.slides:
             value = place.trace.value(what, block)
             if value is not None:

@@ -171,15 +171,14 @@ def shortened(motion: FrameSequence, moved: Moving, words: Words) -> str:
 
 def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
     """The symbol and the unit of a quantity that is asked."""
-    words, kind = drawing.words, drawing.kind
-    if row[0] in "ωε":
-        return symbol(row), words("table.omega" if row[0] == "ω" else "table.epsilon")
+    words, unit = drawing.words, drawing.words(f"table.{drawing.kind}")
+    if row[0] == drawing.rate.letter:
+        return symbol(row), words(f"table.{drawing.rate.target}")
     if row.startswith("slide "):
         block = row.rpartition(" ")[2]
         on = drawing.scene.links[block].slides[0].on
-        letter = "v" if kind == "velocity" else "a"
-        return f"*{letter}*_{{{markup(block)}/{markup(on)}}}", words(f"table.{kind}")
-    return symbol(row), words(f"table.{kind}")
+        return f"*{drawing.sliding.letter}*_{{{markup(block)}/{markup(on)}}}", unit
+    return symbol(row), unit
 
 
 def record(set_up: Stage, moved: Moving, sheets: Sequence[ScreenSheet]) -> dict[str, object]:

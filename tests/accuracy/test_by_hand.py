@@ -8,11 +8,15 @@ import numpy as np
 import pytest
 
 from graphkin.accuracy.pencil import Pencil, forecast, original, simulated
+from graphkin.accuracy.pencil.read_off import answers
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.program import Part
+from graphkin.construction.core.quantities import QUANTITIES
+from graphkin.documents.sheet_documents import scales
 from graphkin.drawing.scale import Scales
+from graphkin.mechanism import load
 from graphkin.numbers.plane import Line, line_meets_line
-from tests.accuracy.originals import EVERY_SCENE, TRIANGLE, pump, scene, triangle
+from tests.accuracy.originals import EVERY_SCENE, SCENES, TRIANGLE, pump, scene, triangle
 from tests.mechanisms import mechanism_of
 
 FOUR_BAR = """
@@ -182,3 +186,14 @@ def test_what_is_foretold_at_a_stated_ka_is_drawn():
     many = simulated(exact, Pencil(0.25), 4000)
     for target, each in found.items():
         assert each.error == pytest.approx(many.error(target), rel=0.5), target
+
+
+@pytest.mark.parametrize("name", ["gears-rack", "roller"])
+def test_the_angle_of_a_wheel_is_no_answer_of_a_drawing(name):
+    """Everything that can be read off is a motion, a centre or a pole; the program holds more."""
+    mechanism = load(SCENES / f"{name}.toml")
+    exact = original(mechanism, scales(mechanism), mechanism.program.answers)
+    read = {answer.target[0] for answer in answers(exact)}
+    assert "turned" in {quantity for quantity, _ in exact.targets}
+    assert read <= {each.target for each in QUANTITIES if each.words}
+    assert {"position", "velocity", "acceleration"} <= read

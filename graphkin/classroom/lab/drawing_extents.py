@@ -14,14 +14,13 @@ from typing import Any
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.core.component import TriangleChoice, as_drawn
 from graphkin.construction.core.program import Part, Plane, Step, Target
+from graphkin.construction.core.quantities import PLANES, SHEETS
 from graphkin.construction.core.run import Trace
 from graphkin.documents.scaling import targets_of
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
-PLANES = {"velocity": Plane.VELOCITIES, "acceleration": Plane.ACCELERATIONS}
-"""The plan of each sheet, and the power of kL/kv at which its values are lengths."""
 ON_MECHANISM = {
     "velocity": (Part.POSITION, Part.VELOCITY),
     "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION),
@@ -148,9 +147,9 @@ def boxes(points: Sequence[Array], size: int) -> Boxes:
 
 def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
     """What is drawn on each sheet; everything on both where nothing is asked."""
-    asked = {kind: targets_of(mechanism, kind) for kind in PLANES}
+    asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
     if not any(asked.values()):
-        return dict.fromkeys(PLANES, mechanism.program.answers)
+        return dict.fromkeys(SHEETS, mechanism.program.answers)
     return {kind: found for kind, found in asked.items() if found}
 
 

@@ -19,12 +19,13 @@ from graphkin.classroom.lab.demands import (
     segment_lengths,
     triangle_ratios,
 )
-from graphkin.classroom.lab.drawing_extents import PLANES, VariantSheet, sketches
+from graphkin.classroom.lab.drawing_extents import VariantSheet, sketches
 from graphkin.classroom.lab.held_centres import held
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
 from graphkin.classroom.lab.variant_scales import Loader, Scaling, scaling, taken
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
@@ -209,7 +210,7 @@ def drawn_at(
     return sketches(
         mechanism,
         values,
-        {kind: scales.pace(kind) for kind in PLANES},
+        {kind: scales.pace(kind) for kind in SHEETS},
         triangles=bool(scales.triangles[0]),
         apart=bool(scales.apart[0] > 0),
         rates=scales.rates,

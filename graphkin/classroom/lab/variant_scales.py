@@ -10,8 +10,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphkin.classroom.lab.drawing_extents import PLANES, VariantSheet, sketches
+from graphkin.classroom.lab.drawing_extents import VariantSheet, sketches
 from graphkin.construction.core.component import may_give_way
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.scaling import HEADROOM, LITTLE, SMALL, larger_plans, scales
 from graphkin.drawing.areas import HEIGHT, WIDTH
 from graphkin.drawing.scale import NARROW, preferred
@@ -194,7 +195,7 @@ def enlarged(
 
 def at(seconds: Array) -> dict[str, Array]:
     """The same kL/kv on every sheet."""
-    return dict.fromkeys(PLANES, seconds)
+    return dict.fromkeys(SHEETS, seconds)
 
 
 def some(every: list[Any], which: Array) -> list[Any]:

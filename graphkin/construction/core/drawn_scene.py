@@ -11,6 +11,7 @@ from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.curve_extent import shown
 from graphkin.construction.core.link_poses import LinkPoses
 from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.quantities import MOTION, PLANES, RATE, SLIDING, MotionQuantity
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
 from graphkin.drawing.scale import Extent, Scales, extent_of
@@ -50,7 +51,22 @@ class Drawing:
     @property
     def plane(self) -> Plane:
         """The plan that this sheet shows."""
-        return Plane.VELOCITIES if self.kind == "velocity" else Plane.ACCELERATIONS
+        return PLANES[self.kind]
+
+    @property
+    def vector(self) -> MotionQuantity:
+        """What this sheet finds of points: velocity or acceleration."""
+        return MOTION[self.kind]
+
+    @property
+    def rate(self) -> MotionQuantity:
+        """What it finds of links: angular velocity or angular acceleration."""
+        return RATE[self.kind]
+
+    @property
+    def sliding(self) -> MotionQuantity:
+        """What it finds of blocks along their guides: speed or acceleration."""
+        return SLIDING[self.kind]
 
     @property
     def pole(self) -> str:
@@ -224,19 +240,18 @@ class Drawing:
 
     def turning(self, link: str) -> float | None:
         """Angular velocity or acceleration of a link on this sheet; nought for mere rounding."""
-        quantity = "omega" if self.kind == "velocity" else "epsilon"
-        value = self.trace.value(quantity, link)
+        value = self.trace.value(self.rate.target, link)
         if value is None:
             return None
-        fastest = self.fastest
-        alike = (abs(epsilon) for epsilon in self.all_of("epsilon"))
-        largest = fastest if quantity == "omega" else max(fastest**2, *alike)
+        largest = self.fastest
+        if self.kind == "acceleration":
+            largest = max(largest**2, *map(abs, self.all_of(self.rate.target)))
         return 0.0 if abs(value) < NOISE * largest else float(value)
 
     @cached_property
     def fastest(self) -> float:
         """The largest angular velocity, or what the largest velocity gives over the mechanism."""
-        turning = (abs(omega) for omega in self.all_of("omega"))
+        turning = map(abs, self.all_of(RATE["velocity"].target))
         return max(self.longest(Plane.VELOCITIES) / self.reach, *turning)
 
     def all_of(self, quantity: str) -> list[float]:

@@ -14,8 +14,7 @@ from graphkin.drawing.symbol_markup import symbol
 
 def of_slides(drawing: Drawing) -> Iterator[Relation]:
     """The motion of each block that is asked: the vector of the plan along its guide, its sense."""
-    velocity = drawing.kind == "velocity"
-    what, unit = ("slide speed", "m/s") if velocity else ("slide acceleration", "m/s^2")
+    what, unit = drawing.sliding.target, drawing.sliding.caret_unit
     for block, name, value in slid(drawing):
         size = drawing.settled(abs(value))
         remark = slide_sense(drawing, block, value) if size else ""

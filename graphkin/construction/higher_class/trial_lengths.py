@@ -32,15 +32,14 @@ def of_trial_lengths(drawing: Drawing) -> Iterator[Relation]:
 def turned(drawing: Drawing, step: Step, tag: str, link: str, rate: float) -> Relation:
     """What a tried turning gives a pin, square to its bar: rate times bar."""
     p, q, index = step.says["p"], step.says["q"], index_of(drawing, step.says)
-    velocity, length = drawing.kind == "velocity", length_of(drawing, p, q)
-    name, letter = (f"v_{index}{tag}", "ω") if velocity else (f"a_{index}{tag}^τ", "ε")
+    length, part = length_of(drawing, p, q), "" if drawing.kind == "velocity" else "^τ"
     drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate * length))
     return Relation(
-        symbol(name),
-        f"{symbol(f'{letter}_{link}{tag}')}·{bar(p, q)}",
+        symbol(f"{drawing.vector.letter}_{index}{tag}{part}"),
+        f"{symbol(f'{drawing.rate.letter}_{link}{tag}')}·{bar(p, q)}",
         f"{figure(drawing, rate)}·{figure(drawing, length)}",
         answer(drawing, rate * length),
-        "m/s" if velocity else "m/s^2",
+        drawing.vector.caret_unit,
         drawing.words("calculation.square_drawn", bar=bar(p, q), drawn=drawn),
         over=(p, q),
     )
@@ -48,9 +47,7 @@ def turned(drawing: Drawing, step: Step, tag: str, link: str, rate: float) -> Re
 
 def slid(drawing: Drawing, step: Step, tag: str, rate: float) -> Relation:
     """What is tried of a slider along its guide, chosen as it is."""
-    letter, unit = ("v", "m/s") if drawing.kind == "velocity" else ("a", "m/s^2")
+    name = symbol(f"{drawing.sliding.letter}_{step.says['q']}{tag}")
     drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate))
     remark = drawing.words("calculation.chosen_drawn", drawn=drawn)
-    return Relation(
-        symbol(f"{letter}_{step.says['q']}{tag}"), "", "", figure(drawing, rate), unit, remark
-    )
+    return Relation(name, "", "", figure(drawing, rate), drawing.sliding.caret_unit, remark)

@@ -105,24 +105,20 @@ def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -
 def tried(drawing: Drawing, named: list[int]) -> tuple[str, str]:
     """What a trial tries, and its amount with its unit."""
     steps, values = drawing.trace.program.steps, drawing.trace.values
-    velocity = drawing.kind == "velocity"
     for number in named:
         step = steps[number]
         key = step.action.key if step.action else ""
         if key in RATE_AT:
             size = float(values[step.args[RATE_AT[key]]])
             if key == "driven-slide":
-                letter = "v" if velocity else "a"
-                unit = "m/s" if velocity else "m/s^2"
-                sliding = quantity(drawing, abs(size), unit)
+                sliding = quantity(drawing, abs(size), drawing.sliding.caret_unit)
                 if size:
                     way = heading(values[number] - values[step.args[0]])
                     sliding += f" {drawing.words(f'page.to_{way}')}"
-                return symbol(f"{letter}_{step.says['q']}"), sliding
-            letter, unit = ("ω", "rad/s") if velocity else ("ε", "rad/s^2")
-            turning = quantity(drawing, abs(size), unit)
+                return symbol(f"{drawing.sliding.letter}_{step.says['q']}"), sliding
+            turning = quantity(drawing, abs(size), drawing.rate.caret_unit)
             turning += f" {sense(drawing.words, size)}" if size else ""
-            return symbol(f"{letter}_{step.says['k']}"), turning
+            return symbol(f"{drawing.rate.letter}_{step.says['k']}"), turning
     return "", ""
 
 
@@ -162,10 +158,10 @@ def driver_sentence(drawing: Drawing, step: Step, first: Misclosure, second: Mis
         "second": second.size,
     }
     if driver.kind == "turn":
-        letter, unit = ("ω", "rad/s") if drawing.kind == "velocity" else ("ε", "rad/s^2")
         fields = {key: figure(drawing, size) for key, size in sizes.items()}
-        what = f"*{letter}*_{{{driver_index(driver)}}}"
-        return drawing.words("step.share-turn", what=what, unit=unit, **fields)
+        fields["unit"] = drawing.rate.caret_unit
+        what = f"*{drawing.rate.letter}*_{{{driver_index(driver)}}}"
+        return drawing.words("step.share-turn", what=what, **fields)
     mm = on_paper(drawing)
     fields = {key: drawing.words.fixed(size * mm, 2) for key, size in sizes.items()}
     return drawing.words(
