@@ -10,7 +10,7 @@ from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, set_on, set_on_twice
-from graphkin.construction.coriolis.coincident_points import carried
+from graphkin.construction.guides.coincident_points import carried
 
 
 class AskedQuantity(NamedTuple):

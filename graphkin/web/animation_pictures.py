@@ -8,6 +8,7 @@ from functools import cached_property
 
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.quantities import MOTION
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field
@@ -41,7 +42,6 @@ STEEPEST = 2.5
 """Ratio of two round numbers that follow one another, at most."""
 SMALL = 2.5
 """Height of captions, in mm."""
-UNITS = {"velocity": "m/s", "acceleration": "m/s²"}
 TRIED = 16
 """Moments over which the places of letters are chosen."""
 EDGE = 3.0
@@ -131,7 +131,7 @@ class Stage:
         words, length = self.words, self.motion.cycle.scene.units["length"]
         yield self.mechanism, escape(words("animation.mechanism")), length, METRES[length]
         for kind, field in self.plans.items():
-            yield field, escape(words(f"sheet.{kind}")), UNITS[kind], 1.0
+            yield field, escape(words(f"sheet.{kind}")), MOTION[kind].unit, 1.0
 
     @property
     def ground(self) -> Iterator[Mark]:

@@ -14,7 +14,7 @@ from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
 from graphkin.cli.report.motion_report import heading, scale_lines, verdict_words
 from graphkin.cli.report.solution_record import Record, motion_of
 from graphkin.construction.core.program import Program, Target
-from graphkin.construction.core.quantities import CENTRES, QUANTITIES, RATES, SLIDING, held
+from graphkin.construction.core.quantities import CENTRES, OF_SLIDES, QUANTITIES, RATES, Sort, held
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.core.solution import (
@@ -222,16 +222,15 @@ def inflection(path: str, name: str, motion: LinkMotion, printer: Printer) -> Re
 
 
 def slide(name: str, solution: Solution, printer: Printer) -> Record:
-    """Motion of a block along its guide; a guide that does not turn has no Coriolis vector."""
-    motion, path = solution.slides.get(name, SlideMotion()), f"slides.{name}"
-    record: Record = {
-        q.attribute: printer.real(f"{path}.{q.attribute}", held(motion, q), (q.target, name))
-        for q in SLIDING.values()
-    }
-    target = "coriolis", name
-    still = motion.coriolis is None and target not in printer.targets
-    vector = 0j if still else motion.coriolis
-    return record | {"coriolis": printer.pair(f"{path}.coriolis", vector, target)}
+    """Motion of a block along its guide; the vector that a guide that does not turn gives is 0."""
+    motion, record = solution.slides.get(name, SlideMotion()), {}
+    for each in OF_SLIDES:
+        path, target = f"slides.{name}.{each.attribute}", (each.target, name)
+        value, is_vector = held(motion, each), each.sort is Sort.VECTOR
+        if is_vector and value is None and target not in printer.targets:
+            value = 0j
+        record[each.attribute] = (printer.pair if is_vector else printer.real)(path, value, target)
+    return record
 
 
 # --- the text ------------------------------------------------------------------------------------

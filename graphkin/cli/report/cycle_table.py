@@ -104,6 +104,6 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
 
 
 def of_slides(cycle: Cycle) -> Iterator[Column]:
-    """Coordinate, speed and acceleration of every block along its guide, and Coriolis vector."""
+    """The motion of every block along its guide."""
     for name, motion in cycle.sure.slides.items():
         yield from own(motion, OF_SLIDES, f"slide_{name}")

@@ -9,7 +9,7 @@ from typing import Any
 from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.solution_record import Record, settings_words
 from graphkin.cli.report.unsure_words import digits_words, is_unsure, unsure_words
-from graphkin.construction.core.quantities import CENTRES, OF_POINTS, RATES, SLIDING, Sort, held
+from graphkin.construction.core.quantities import CENTRES, OF_POINTS, OF_SLIDES, RATES, Sort, held
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.diagnosis.singularity_words import beside_dead_point
@@ -129,13 +129,15 @@ def acceleration_of(scene: Scene, solution: Solution, link: str) -> complex | No
 
 
 def slides_table(slides: Mapping[str, Record]) -> list[str]:
-    """Motion of each block along its guide, and its Coriolis vector."""
-    heads = [f"{each.words}, {each.unit}" for each in SLIDING.values()]
-    keys = [each.attribute for each in SLIDING.values()]
+    """Motion of each block along its guide, and the vector that the guide's turning adds."""
+    *along, across = OF_SLIDES
+    heads = [f"{each.words}, {each.unit}" for each in along]
+    heads += [f"{across.words} x, {across.unit}", f"y, {across.unit}"]
     rows: list[list[Any]] = [
-        [name, *(slide[key] for key in keys), *slide["coriolis"]] for name, slide in slides.items()
+        [name, *(slide[each.attribute] for each in along), *slide[across.attribute]]
+        for name, slide in slides.items()
     ]
-    return table(["block", *heads, "Coriolis x, m/s²", "y, m/s²"], rows) if rows else []
+    return table(["block", *heads], rows) if rows else []
 
 
 def scale_lines(scales: Mapping[str, float | None]) -> list[str]:

@@ -10,9 +10,11 @@ from typing import Any, Protocol
 from graphkin.construction.core.quantities import (
     CENTRES,
     OF_POINTS,
+    OF_SLIDES,
     RATES,
     SLIDING,
     MotionQuantity,
+    Sort,
     held,
     names_asked,
 )
@@ -147,9 +149,14 @@ def centres(scene: Scene, solution: Solution) -> Record:
 
 
 def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
-    """Motion of a block along its guide; a guide that does not turn has no Coriolis vector."""
-    found = {q.attribute: real(held(motion, q)) for q in SLIDING.values() if wanted(q, name)}
-    return found and found | {"coriolis": pair(motion.coriolis or 0j)}
+    """Motion of a block along its guide; the vector that a guide that does not turn gives is 0."""
+    if not wanted(SLIDING["position"], name):
+        return {}
+    found = ((q, held(motion, q)) for q in OF_SLIDES)
+    return {
+        q.attribute: real(value) if q.sort is Sort.NUMBER else pair(value or 0j)
+        for q, value in found
+    }
 
 
 def witness(verdict: Verdict | None) -> Record:

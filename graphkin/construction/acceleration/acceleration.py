@@ -15,7 +15,7 @@ from graphkin.construction.core.vocabulary import (
     parallel_to,
     similar_point,
 )
-from graphkin.construction.coriolis.coincident_points import (
+from graphkin.construction.guides.coincident_points import (
     accelerated,
     omega_of,
     tangential_effect,

@@ -18,7 +18,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen, named
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, meet
-from graphkin.construction.coriolis.coincident_points import omega_of
+from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, Ratio

@@ -36,7 +36,7 @@ from graphkin.construction.core.vocabulary import (
     set_velocity,
     square_at,
 )
-from graphkin.construction.coriolis.coincident_points import omega_of
+from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross

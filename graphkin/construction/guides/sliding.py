@@ -10,7 +10,6 @@ from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import part_along
-from graphkin.construction.coriolis.coincident_points import image_under, second_image_under
 from graphkin.construction.coriolis.coriolis import (
     CoriolisComponent,
     coriolis_of,
@@ -18,6 +17,7 @@ from graphkin.construction.coriolis.coriolis import (
     lay_back,
     lay_off_turned,
 )
+from graphkin.construction.guides.coincident_points import image_under, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.structure.joints import Joint, partner

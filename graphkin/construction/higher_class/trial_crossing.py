@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphkin.construction.core.pen import Pen, named
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import meet, parallel_to
-from graphkin.construction.coriolis.coincident_points import image_under
+from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.higher_class.trial_actions import line_through

@@ -14,7 +14,7 @@ from graphkin.construction.core.bases import bases, ending
 from graphkin.construction.core.pen import Pen, Says, image, named, second_image
 from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.vocabulary import distance, part_along, sum_of
-from graphkin.construction.coriolis.coincident_points import image_under, omega_of
+from graphkin.construction.guides.coincident_points import image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.higher_class.higher import Each, cut_at, slide_of

@@ -33,7 +33,7 @@ from graphkin.construction.core.vocabulary import (
     similar_point,
     turned_velocity,
 )
-from graphkin.construction.coriolis.coincident_points import carried, omega_of, second_image_under
+from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (

@@ -18,7 +18,7 @@ from graphkin.construction.core.vocabulary import (
     sum_of,
     turned_velocity,
 )
-from graphkin.construction.coriolis.coincident_points import image_under, omega_of, source_of
+from graphkin.construction.guides.coincident_points import image_under, omega_of, source_of
 from graphkin.construction.guides.guide_actions import driven_slide
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes

@@ -160,7 +160,7 @@ def of_links(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pa
 
 
 def of_slides(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
-    """Coordinate, speed, acceleration and Coriolis vector of every block."""
+    """The motion of every block along its guide."""
     for name, slide in solution.slides.items():
         j = solved.loops.guide_index(name)
         if j is not None:

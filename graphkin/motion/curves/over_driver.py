@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from graphkin.construction.core.quantities import RATES, held
 from graphkin.motion.curves.sampled import Sampled, moving_points, turning_links
 from graphkin.motion.driving import TURN
 from graphkin.writers.plot_style import (
@@ -115,18 +116,16 @@ def of_links(found: Sampled, links: Sequence[str]) -> Figure:
         lines = ", ".join(f"{n}: {'-'.join(line_of(found, n))}" for n in links if line_of(found, n))
         which = f" ({lines})" if len(lines) < LINE else ", from its first point to its second"
         panels.append((f"Angle of the line of each link{which}", "deg", angles))
-    for quantity, letter, words, unit in (
-        ("omega", "\\omega", "Angular velocity, counter-clockwise positive", "rad/s"),
-        ("epsilon", "\\varepsilon", "Angular acceleration", "rad/s²"),
-    ):
+    turning = "Angular velocity, counter-clockwise positive", "Angular acceleration"
+    for rate, letter, words in zip(RATES, ("\\omega", "\\varepsilon"), turning, strict=True):
         curves: list[Curve] = []
         for i, name in enumerate(links):
-            value = getattr(found.solution.links[name], quantity)
+            value = held(found.solution.links[name], rate)
             if value is not None:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape)
                 curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
         if curves:
-            panels.append((words, unit, curves))
+            panels.append((words, rate.unit, curves))
     return stacked(found, f"Turning of the links{more}", panels)
 
 
