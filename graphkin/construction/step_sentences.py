@@ -112,7 +112,7 @@ def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, s
     """The key of the sentence of a step that draws the mechanism."""
     scene, steps = drawing.scene, drawing.trace.program.steps
     if key in ("ray", "along-bar") and "g" in step.says:
-        ways = sum(len(link.slides) + len(link.rolls) for link in scene.links.values())
+        ways = sum(len(link.paths) for link in scene.links.values())
         return "guide" if ways == 1 and scene.links[step.says["g"]].slides else "guide-named"
     if key == "ray" and "line" in fields:
         return "ray-produced" if "produced" in fields else "ray-against"

@@ -1,4 +1,4 @@
-"""The vector equations of a plan: motions about pins, along guides, at contacts, and what is given.
+"""The vector equations of a plan: motions about pins and along guides, and what is given.
 
 What is not crossed in the plan but computed and laid off stands with its numbers.
 """
@@ -11,15 +11,14 @@ from graphkin.construction.core.component import laid_off as component_laid_off
 from graphkin.construction.core.drawn_scene import TAGS, Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import (
-    arrow_of,
     index_of,
     is_driven,
     rate_symbol,
     vector_of,
     way_of,
 )
-from graphkin.construction.core.plan_vector import plan_vector, sign_of
-from graphkin.construction.core.program import CONTACT, Plane, Step
+from graphkin.construction.core.plan_vector import sign_of
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.sentence_fields import fields_of
@@ -190,8 +189,7 @@ def slider(drawing: Drawing, sought: str, step: Step) -> tuple[str, str]:
     point, _, link = sought.partition("@")
     block = drawing.scene.links[step.says["g"]]
     if not link:
-        ways = [*(slide.on for slide in block.slides), *(rolls.on for rolls in block.rolls)]
-        link = ways[0] if point in block.points else block.name
+        link = block.paths[0].on if point in block.points else block.name
     return point, point + ("" if link.isdigit() and point[-1].isalpha() else ",") + link
 
 
@@ -206,41 +204,6 @@ def given_along(drawing: Drawing, number: int, step: Step, letter: str) -> Relat
         "m/s" if letter == "v" else "m/s^2",
         f"∥ {way_of(drawing, step.says['g'])}",
     )
-
-
-# --- at a contact --------------------------------------------------------------------------------
-
-
-def of_contacts(drawing: Drawing) -> Iterator[Relation]:
-    """The velocities at contacts that the plan holds by another name, for nothing slips there."""
-    if drawing.kind != "velocity":
-        return
-    for contact, index, (tail, tip), key in at_contacts(drawing):
-        arrow = arrow_of(drawing, tail, tip)
-        vector = plan_vector(arrow) if arrow else None
-        if vector is None or vector.symbol == f"v_{index}":
-            continue
-        name = symbol(vector.symbol)
-        size = drawing.settled(abs(drawing.trace.values[tip] - drawing.trace.values[tail]))
-        fields = {"contact": symbol(f"v_{contact}"), "v": name}
-        remark = drawing.words(f"calculation.{key}", **fields)
-        yield Relation(symbol(f"v_{index}"), name, "", answer(drawing, size), "m/s", remark)
-
-
-def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], str]]:
-    """The velocities at contacts that are used: contact, index, ends in the plan, what to say."""
-    targets, pole = drawing.trace.program.targets, -1
-    contacts = {found for (_, name), found in targets.items() if name.startswith(CONTACT)}
-    for number, step, _ in drawing.steps(drawing.plane, Plane.NUMBERS):
-        p, q = step.says.get("p", ""), step.says.get("q", "")
-        match step.action.key if step.action else "":
-            case "pole":
-                pole = number
-            case "square-to" if "c" in step.says:
-                yield p, p, (pole, step.args[0]), "no_slip"
-            case "omega" if step.args[1] in contacts:
-                key = "contact_rests_opposite" if step.args[3] == pole else "no_slip"
-                yield q, index_of(drawing, step.says), (step.args[2], step.args[3]), key
 
 
 def is_laid_off(drawing: Drawing, step: Step) -> bool:

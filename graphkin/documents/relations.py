@@ -22,7 +22,8 @@ from graphkin.construction.higher_class.misclosure import Misclosure, driver_of,
 from graphkin.construction.higher_class.trial_lengths import of_trial_lengths
 from graphkin.construction.rate_relations import FINE, of_sum, of_turning, within
 from graphkin.construction.registry import COMPONENTS
-from graphkin.construction.vector_equations import is_laid_off, of_contacts, of_equations
+from graphkin.construction.rolling.contact_velocities import of_contacts
+from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import TAGS, bar, symbol
 from graphkin.numbers.plane import Ratio, Vector

@@ -97,8 +97,7 @@ def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
 def check_alone(scene: Scene, findings: Findings) -> None:
     """Every moving link has points and touches another: by a pin, a guide, a track or a wheel."""
     links = (scene.frame, *scene.links.values())
-    carriers = {slide.on for link in links for slide in link.slides}
-    carriers |= {rolling.on for link in links for rolling in link.rolls}
+    carriers = {path.on for link in links for path in link.paths}
     shared = Counter(point for link in links for point in link.points)
     for link in scene.links.values():
         place = f"links.{link.name}"
@@ -107,7 +106,7 @@ def check_alone(scene: Scene, findings: Findings) -> None:
         pinned = any(shared[point] > 1 for point in link.points)
         if not link.points:
             findings.add(place, "a link without points", "points, such as P = [0, 0] or P-Q = 30")
-        elif not (pinned or link.slides or link.rolls or link.wheels or link.name in carriers):
+        elif not (pinned or link.paths or link.wheels or link.name in carriers):
             found = f"link {link.name} touches no other"
             findings.add(place, found, "a point that another link has too, slides or rolls")
 
@@ -191,7 +190,7 @@ def check_branches(scene: Scene, findings: Findings) -> None:
 def side_hint(scene: Scene, name: str, side: Side) -> str:
     """Where a side belongs that is written under a link: a block takes a way, a pin a side."""
     pin = side_of_pin(scene, name, side)
-    if scene.links[name].slides or scene.links[name].rolls:
+    if scene.links[name].paths:
         return f'link {name} slides or rolls: {name} = "forward" or "backward"; a side is for a pin'
     return f"sides are written under the pin's name: {pin}"
 

@@ -17,7 +17,7 @@ def check_blocks(scene: Scene, findings: Findings) -> None:
 
 def check_bare(scene: Scene, link: Link, findings: Findings) -> None:
     """A link on one pin and nothing else would spin about it unless a driver turns it."""
-    if len(link.points) != 1 or link.slides or link.wheels or link.rolls:
+    if len(link.points) != 1 or link.paths or link.wheels:
         return
     point = link.points[0]
     if carries(scene, link.name) or is_driven(scene, link.name):
@@ -72,15 +72,14 @@ def hangs(scene: Scene, link: Link) -> bool:
     """Whether a link has one pin and no guide, no track, no wheel and no driver."""
     others = (scene.frame, *(each for each in scene.links.values() if each is not link))
     pins = [point for point in link.points if any(point in other.points for other in others)]
-    free = not (link.slides or link.rolls or link.wheels or carries(scene, link.name))
+    free = not (link.paths or link.wheels or carries(scene, link.name))
     return free and len(pins) == 1 and not is_driven(scene, link.name)
 
 
 def carries(scene: Scene, name: str) -> bool:
     """Whether a guide or a track lies on a link."""
     links = scene.links.values()
-    slides = any(slide.on == name for link in links for slide in link.slides)
-    return slides or any(rolling.on == name for link in links for rolling in link.rolls)
+    return any(path.on == name for link in links for path in link.paths)
 
 
 def is_driven(scene: Scene, name: str) -> bool:

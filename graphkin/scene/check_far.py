@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.scene.findings import Findings
-from graphkin.scene.model import FRAME, At, Rolling, Scene, Slide
+from graphkin.scene.model import FRAME, At, Scene
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.text.errors import SceneError
 
@@ -51,8 +51,7 @@ def fixed_places(scene: Scene) -> Iterator[tuple[Quantity, Quantity]]:
         if isinstance(placing, At):
             yield placing.x, placing.y
     for link in scene.links.values():
-        joints: tuple[Slide | Rolling, ...] = (*link.slides, *link.rolls)
-        for joint in joints:
+        for joint in link.paths:
             if joint.on == FRAME and isinstance(joint.through, tuple):
                 yield joint.through
 

@@ -163,6 +163,10 @@ class Rolling(NamedTuple):
     turns: Mapping[str, Quantity] = {}
 
 
+GuideOrTrack = Slide | Rolling
+"""What leads a link."""
+
+
 class Profile(NamedTuple):
     """The edge by which a link touches another: an arc about a point of the link, only drawn.
 
@@ -183,6 +187,11 @@ class Link(NamedTuple):
     wheels: tuple[Wheel, ...] = ()
     rolls: tuple[Rolling, ...] = ()
     profiles: tuple[Profile, ...] = ()
+
+    @property
+    def paths(self) -> tuple[GuideOrTrack, ...]:
+        """What it slides and rolls on."""
+        return (*self.slides, *self.rolls)
 
 
 class Driver(NamedTuple):

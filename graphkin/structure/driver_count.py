@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import combinations
 
 from graphkin.scene.known_names import named, quoted
-from graphkin.scene.model import FRAME, Driver, Link, Rolling, Scene, Slide
+from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
 from graphkin.structure.impossible_joints import impossible
@@ -250,8 +250,7 @@ def begins(short: str, long: str) -> bool:
 
 def points_used(link: Link) -> Iterator[str]:
     """The points by which a link's guides and tracks are written, and the centres of its wheels."""
-    joints: tuple[Slide | Rolling, ...] = (*link.slides, *link.rolls)
-    for joint in joints:
+    for joint in link.paths:
         if isinstance(joint.through, str):
             yield joint.through
         if isinstance(joint, Slide):

@@ -127,8 +127,7 @@ def spare(scene: Scene, name: str) -> bool:
     """Whether a link could be left out: no driver moves it, and nothing slides or rolls on it."""
     driven = {end for driver in scene.drivers for end in (driver.link, driver.against)}
     links = scene.links.values()
-    carriers = {slide.on for link in links for slide in link.slides}
-    carriers |= {rolling.on for link in links for rolling in link.rolls}
+    carriers = {path.on for link in links for path in link.paths}
     return name not in driven | carriers | {FRAME}
 
 

@@ -9,14 +9,14 @@ from graphkin.construction.core.amounts import in_mm, written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
-from graphkin.scene.model import FRAME, At, Link, Rolling, Slide
+from graphkin.scene.model import FRAME, At, GuideOrTrack, Link
 from graphkin.scene.quantity import Quantity, shortest
 
 FINE = 4
 """Decimals of angles and places that are reckoned from those of the scene."""
 
 
-def straight(drawing: Drawing, path: Slide | Rolling, *, on_paper: bool = False) -> str:
+def straight(drawing: Drawing, path: GuideOrTrack, *, on_paper: bool = False) -> str:
     """A line through a point at an angle: to the axis of the frame, or of a link that turns.
 
     Its point is told as the scene has it, or as it is drawn.

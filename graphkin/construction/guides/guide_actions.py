@@ -142,7 +142,7 @@ def size(height: Real) -> Real:
 
 @action("from-foot")
 def from_foot(foot: Point, pin: Point, way: int) -> Point:
-    """Direction of the tangent from its point of contact to the pin."""
+    """Direction of the tangent from its foot to the pin."""
     line = way * (pin - foot)
     return line / abs(line)
 

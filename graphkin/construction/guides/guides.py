@@ -18,7 +18,7 @@ from graphkin.construction.guides.guide_actions import (
     way_between,
 )
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.scene.model import FRAME, Rolling, Slide
+from graphkin.scene.model import FRAME, GuideOrTrack, Slide
 from graphkin.structure.pairs import Sliding
 
 
@@ -41,7 +41,7 @@ def direction_on(pen: Pen, shapes: LinkShapes, link: str, direction: int) -> int
     return pen.draw(turned, axis(pen, shapes, link), direction)
 
 
-def local_line(pen: Pen, shapes: LinkShapes, slide: Slide | Rolling, on: str) -> tuple[int, int]:
+def local_line(pen: Pen, shapes: LinkShapes, slide: GuideOrTrack, on: str) -> tuple[int, int]:
     """A point of a guide or track and a second one ahead of it, in the axes of their link."""
     along = slide.along if isinstance(slide, Slide) else None
     if along is not None:
@@ -56,7 +56,7 @@ def local_line(pen: Pen, shapes: LinkShapes, slide: Slide | Rolling, on: str) ->
         return start, pen.draw(polar, start, pen.given("direction", slide.angle), pen.given("one"))
 
 
-def guide_line(pen: Pen, shapes: LinkShapes, slide: Slide | Rolling, on: str, name: str) -> int:
+def guide_line(pen: Pen, shapes: LinkShapes, slide: GuideOrTrack, on: str, name: str) -> int:
     """A guide or track of a known link, in the plane; its point is where coordinates begin."""
     along = slide.along if isinstance(slide, Slide) else None
     if along is not None:

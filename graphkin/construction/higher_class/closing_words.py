@@ -19,7 +19,7 @@ from graphkin.drawing.marks import Arc
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Circle
-from graphkin.scene.model import Rolling, Slide
+from graphkin.scene.model import Slide
 
 IDLE = "idle "
 """What the name of a sentence that tells of an idle link begins with; the link's name follows."""
@@ -87,8 +87,7 @@ def found_place(drawing: Drawing, step: Step) -> dict[str, str]:
     if where.action is None or where.action.key != "part":
         return {}
     link, size = drawing.scene.links[step.says["k"]], float(drawing.trace.values[step.args[1]])
-    paths: list[Slide | Rolling] = [*link.slides, *link.rolls]
-    path = next(path for path in paths if path.on == step.says.get("h", path.on))
+    path = next(path for path in link.paths if path.on == step.says.get("h", path.on))
     zero = path.along[0] if isinstance(path, Slide) and path.along else path.through
     assert zero is not None
     side = heading(drawing.trace.values[step.args[0]].along * (-1 if size < 0 else 1))

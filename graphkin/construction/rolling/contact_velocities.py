@@ -1,0 +1,44 @@
+"""The velocities of points of contact: nothing slips, so both have one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.naming import arrow_of, index_of
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.relation import Relation, answer
+from graphkin.construction.rolling.contact_points import PointOfContact
+from graphkin.drawing.symbol_markup import symbol
+
+
+def of_contacts(drawing: Drawing) -> Iterator[Relation]:
+    """The velocities at contacts that the plan holds by another name, for nothing slips there."""
+    if drawing.kind != "velocity":
+        return
+    for contact, index, (tail, tip), key in at_contacts(drawing):
+        arrow = arrow_of(drawing, tail, tip)
+        if arrow is None or arrow.says["symbol"] == f"v_{index}":
+            continue
+        name = symbol(arrow.says["symbol"])
+        size = drawing.settled(abs(drawing.trace.values[tip] - drawing.trace.values[tail]))
+        fields = {"contact": symbol(f"v_{contact}"), "v": name}
+        remark = drawing.words(f"calculation.{key}", **fields)
+        yield Relation(symbol(f"v_{index}"), name, "", answer(drawing, size), "m/s", remark)
+
+
+def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], str]]:
+    """The velocities at contacts that are used: contact, index, ends in the plan, what to say."""
+    program, pole = drawing.trace.program, -1
+    contacts = {each.point for each in constructions(program, PointOfContact)}
+    for number, step, _ in drawing.steps(drawing.plane, Plane.NUMBERS):
+        p, q = step.says.get("p", ""), step.says.get("q", "")
+        match step.action.key if step.action else "":
+            case "pole":
+                pole = number
+            case "square-to" if "c" in step.says:
+                yield p, p, (pole, step.args[0]), "no_slip"
+            case "omega" if step.args[1] in contacts:
+                key = "contact_rests_opposite" if step.args[3] == pole else "no_slip"
+                yield q, index_of(drawing, step.says), (step.args[2], step.args[3]), key
