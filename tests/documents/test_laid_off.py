@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.construction.core.component import LaidOff
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, drawn_between
 from graphkin.construction.result_tables import vector_rows
+from graphkin.construction.rolling.rolling_normal import RollingNormal
 from graphkin.construction.sentence_fields import fields_of
 from graphkin.documents.relations import relations
 from graphkin.drawing.marks import Text
@@ -16,20 +19,28 @@ from tests.mechanisms import SHIPPED
 LAID = (
     "turned-velocity",
     "centripetal",
-    "lay-off",
-    "lay-off-coriolis",
-    "lay-back-coriolis",
     "driven-tangential",
     "driven-slide",
 )
-"""The actions that lay off a vector in a plan."""
+"""The actions that lay off a vector in a plan, beside those of components."""
 WHICH = [(lab, 7) for lab in SHIPPED] + [(name, None) for name in SCENES]
+
+
+def component_laid_off(step):
+    """The component of whose vector a step lays off the end; None for others."""
+    kind = construction(step)
+    if isinstance(kind, LaidOff):
+        return kind.component
+    return kind if isinstance(kind, RollingNormal) and step.role == "image" else None
 
 
 def laid_off(drawing):
     """The symbols of the vectors that are laid off in the right plan, with their lengths in mm."""
     for number, step, _ in drawing.steps(drawing.plane):
-        if step.action and step.action.key in LAID and number not in drawing.tags:
+        component = component_laid_off(step)
+        if component is not None and number not in drawing.tags:
+            yield component.symbol, drawn_between(drawing, step.args[0], number, step.plane)
+        elif step.action and step.action.key in LAID and number not in drawing.tags:
             size = drawn_between(drawing, step.args[0], number, step.plane)
             yield fields_of(drawing, step, step.says)["vector"], size
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.naming import arrow_of, index_of
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.rolling.contact_points import PointOfContact
@@ -19,9 +20,10 @@ def of_contacts(drawing: Drawing) -> Iterator[Relation]:
         return
     for contact, index, (tail, tip), key in at_contacts(drawing):
         arrow = arrow_of(drawing, tail, tip)
-        if arrow is None or arrow.says["symbol"] == f"v_{index}":
+        vector = plan_vector(arrow) if arrow else None
+        if vector is None or vector.symbol == f"v_{index}":
             continue
-        name = symbol(arrow.says["symbol"])
+        name = symbol(vector.symbol)
         size = drawing.settled(abs(drawing.trace.values[tip] - drawing.trace.values[tail]))
         fields = {"contact": symbol(f"v_{contact}"), "v": name}
         remark = drawing.words(f"calculation.{key}", **fields)
