@@ -65,7 +65,8 @@ class VisibleSteps:
         if number not in self.parts:
             self.parts[number] = canvas = MovingCanvas(self.binder)
             step, kind = self.step(number), construction(self.step(number))
-            if kind is not None and kind.is_whole(self.binder.places.values):
+            known = self.binder.places.values
+            if kind is not None and number in known and kind.is_whole(known):
                 kind.marks(canvas, step.role)
         return self.parts[number]
 

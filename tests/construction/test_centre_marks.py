@@ -17,7 +17,9 @@ from graphkin.construction.core.curve_marks import (
     ring,
 )
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.solution import Curve
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
@@ -266,6 +268,30 @@ def test_a_crank_has_its_pin_for_its_inflection_circle():
     page = page_of(drawing)
     assert not [m for m in page.marks if getattr(m, "cls", "").startswith("inflection")]
     assert any("is its fixed pin" in s.markup for s in sentences(drawing))
+
+
+def test_an_inflection_pole_at_infinity_is_told_by_its_sentence_alone():
+    """With the crank square to the guide the rod does not turn, but begins to."""
+    text = HEAD + SLIDER_CRANK.replace("angle = 60", "angle = 90") + "[ask]\ninflection = [2]\n"
+    mechanism = Mechanism(read_text(text, "slider-crank", None, {}))
+    drawing = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))[-1]
+    told = "W2, the inflection pole of link 2, is at infinity"
+    assert any(told in plain(said.markup) for said in sentences(drawing))
+    notes = [m for m in page_of(drawing).marks if getattr(m, "name", "") == "note"]
+    assert not any("infinity" in plain(note.markup) for note in notes)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_line_and_point_of_a_centre_is_part_of_its_construction(name):
+    ask = "centres = [1, 2, 3, 'all']\npoles = [1, 2, 3]\ninflection = [1, 2, 3]"
+    steps = drawn(name, ask)[0].trace.program.steps
+    own = [
+        (number, step)
+        for number, step in enumerate(steps)
+        if step.part in (Part.CENTRE, Part.POLE) and step.plane is Plane.MECHANISM
+    ]
+    assert own and not [step for _, step in own if step.says]
+    assert all(getattr(construction(step), step.role) == number for number, step in own)
 
 
 # --- centrodes and paths -------------------------------------------------------------------------

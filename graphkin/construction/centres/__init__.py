@@ -1,1 +1,1 @@
-"""Instantaneous centres, poles and inflection circles."""
+"""Instantaneous centres, relative centres and poles."""

@@ -12,9 +12,10 @@ from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.vocabulary import action
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import Action, action, meet
 from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, Ratio, cross
 
@@ -57,13 +58,9 @@ class LineToCentre(Construction):
         """The line, as far as the centre."""
         canvas.ray(self.name)
 
-    def clause(self, drawing: Drawing, role: str = "") -> str:
-        """What is said of it within the sentence of its centre."""
-        raise NotImplementedError
-
     def places(self, drawing: Drawing) -> Places:
         """The places through which it is drawn, those at infinity left out."""
-        raise NotImplementedError
+        return {}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +86,7 @@ class VelocityNormal(LineToCentre):
         """The pin, and the pole and the image between which its velocity stands in the plan."""
         return self.place, self.pole, self.image
 
-    def clause(self, drawing: Drawing, role: str = "") -> str:
+    def clause(self, drawing: Drawing, role: str) -> str:
         """At the point the perpendicular to its velocity."""
         fields = {"p": symbol(self.point), "v": symbol(f"v_{self.point}")}
         return drawing.words("step.velocity-normal", **fields)
@@ -126,8 +123,8 @@ class Centre(Construction):
         return f"{self.called} {self.link}" if role == "found" else ""
 
     def symbols(self) -> Mapping[str, str]:
-        """Its link."""
-        return {"k": escape(self.link)}
+        """The centre, the point that it is found from, and its link."""
+        return {"name": symbol(self.name), "p": symbol(self.point), "k": escape(self.link)}
 
     def is_by_hand(self, drawing: Drawing) -> bool:
         """Whether the lines that lead to it meet on a sheet."""
@@ -178,21 +175,96 @@ class Centre(Construction):
             return "everywhere"
         return "far" if drawing.place(value) is None else ""
 
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The lines that lead to it."""
+        return tuple(way.line for way in self.ways) if self.is_by_hand(drawing) else ()
+
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """Through what lines it is found, and how they find it."""
-        ways = self.ways if self.is_by_hand(drawing) else ()
-        parts = [clause for line in ways if (clause := line.clause(drawing))]
-        key = self.sentence_key(drawing)
-        return "; ".join([*parts, drawing.words(f"step.{key}", **self.fields(drawing))])
+        """How its lines find it, or where it is."""
+        return drawing.words(f"step.{self.sentence_key(drawing)}", **self.fields(drawing))
 
     def sentence_key(self, drawing: Drawing) -> str:
         """The key of what is said of it itself."""
-        raise NotImplementedError
+        return self.key
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """What fills the gaps of that."""
-        names = {"name": symbol(self.name), "p": symbol(self.point)}
-        return names | {"k": escape(self.link)}
+        return dict(self.symbols())
+
+
+@dataclass(frozen=True, kw_only=True)
+class TwoPointCentre(Centre):
+    """A centre by what two points of its link do, of which ``other`` is the second: the steps of
+    the pole ``o`` of the plan, of their ``places`` and of their ``images``.
+    """
+
+    letter: ClassVar[str]
+    quantity: ClassVar[str]
+    part: ClassVar[Part]
+    plane: ClassVar[Plane]
+    action: ClassVar[Action]
+
+    other: str = ""
+    o: int | None = None
+    places: tuple[int, ...] = ()
+    images: tuple[int, ...] = ()
+
+    def lines_to(self, drawing: Drawing) -> list[Places]:
+        """From each of its two points."""
+        points = (self.point, self.other) if self.other else ()
+        return [{point: drawing.standing.spot(point)} for point in points]
+
+    def oddity(self, drawing: Drawing) -> str:
+        """Also that it is still: a point of the bar, to which the hand's lines do not lead."""
+        lost = self.crossing is not None and not self.is_by_hand(drawing)
+        return super().oddity(drawing) or ("still" if lost else "")
+
+    def sentence_key(self, drawing: Drawing) -> str:
+        """By what is odd about it; a fixed pin needs no lines."""
+        how = "" if self.crossing is not None else "pivot" if self.other else "turned"
+        suffix = self.oddity(drawing) or how
+        return f"{self.key}-{suffix}" if suffix else self.key
+
+    def fields(self, drawing: Drawing) -> dict[str, str]:
+        """Both points."""
+        bars = {"q": symbol(self.other), "bar": bar(self.point, self.other)} if self.other else {}
+        return super().fields(drawing) | bars
+
+    @classmethod
+    def lines_at(cls, pen: Pen, points: tuple[str, str], o: int) -> tuple[LineToCentre, ...]:
+        """The lines at the two points that meet in it."""
+        raise NotImplementedError
+
+    @classmethod
+    def draw(cls, pen: Pen, base: Base, points: tuple[str, str]) -> int:
+        """Draw it: by the hand's way where neither point is a fixed pin."""
+        o, name = pen.pole(cls.plane), centre_name(cls.letter, base.link)
+        places = tuple(pen.the("position", point) for point in points)
+        images = tuple(pen.the(cls.quantity, point) for point in points)
+        with pen.on(cls.part, Plane.MECHANISM):
+            crossing, ways = None, tuple[LineToCentre, ...]()
+            if o not in images:
+                with pen.hands_way():
+                    ways = cls.lines_at(pen, points, o)
+                    crossing = pen.draw(meet, *(way.line for way in ways))
+            ends = o, *places, *images
+            found = pen.draw(cls.action, *ends, name=name, by_hand=crossing)
+        kind = cls(
+            name=name,
+            link=base.link,
+            point=points[0],
+            other=points[1],
+            o=o,
+            places=places,
+            images=images,
+            ways=ways,
+            crossing=crossing,
+            found=found,
+        )
+        return pen.make(kind).found
+
+
+# --- off the field -------------------------------------------------------------------------------
 
 
 def mark_away(canvas: Canvas, value: Ratio, name: str, point: str, ray: bool) -> None:

@@ -22,7 +22,6 @@ from graphkin.construction.centres.centre import (
     meet_anywhere,
     normals_at,
     two_points,
-    way_to,
 )
 from graphkin.construction.centres.relative_centre import normals_meet, relative_centre
 from graphkin.construction.core.bases import Base
@@ -119,10 +118,14 @@ class InflectionPoint(LineToCentre):
         else:
             super().marks(canvas, role)
 
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The ray on which the point is laid off."""
+        return (self.ray.line,) if role == "found" else ()
+
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The ray, and what is laid off on it."""
+        """What is laid off on the ray."""
         values = drawing.trace.values
-        said = drawing.words(
+        return drawing.words(
             "step.inflection-point",
             name=symbol(self.letter),
             p=symbol(self.name),
@@ -130,9 +133,8 @@ class InflectionPoint(LineToCentre):
             omega=symbol(f"ω_{self.link}"),
             drawn=drawn_amount(drawing, abs(values[self.found] - values[self.ray.place])),
         )
-        return f"{self.ray.clause(drawing)}; {said}"
 
-    def clause(self, drawing: Drawing, role: str = "") -> str:
+    def clause(self, drawing: Drawing, role: str) -> str:
         """The perpendicular in it."""
         fields = {"w": symbol(self.letter), "p": symbol(self.name)}
         return drawing.words("step.inflection-square", **fields)
@@ -184,9 +186,9 @@ class InflectionCircle(Centre):
         return tuple(way.ray for way in self.ways if isinstance(way, InflectionPoint))
 
     def mark_far(self, canvas: Canvas) -> None:
-        """Only a note."""
+        """Only a note; of one at infinity the sentence says all."""
         drawing, value = canvas.drawing, self.value(canvas.drawing)
-        if not drawing.is_everywhere(value) and way_to(value):
+        if not self.oddity(drawing):
             canvas.note(far_words(drawing, value, self.name, self.point))
 
     def around(self, drawing: Drawing) -> tuple[str, Circle] | None:

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.centres.centre import (
-    Centre,
-    Places,
-    VelocityNormal,
+    LineToCentre,
+    TwoPointCentre,
     centre_name,
     normals_at,
     two_points,
@@ -24,8 +23,8 @@ from graphkin.construction.core.drawn_scene import NOISE
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import action, meet
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.construction.core.vocabulary import Action, action
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Ratio, cross, dot
 from graphkin.scene.model import FRAME
@@ -48,18 +47,27 @@ def instant_centre(o: Point, p: Point, q: Point, image_p: Point, image_q: Point)
 
 
 @dataclass(frozen=True, kw_only=True)
-class InstantCentre(Centre):
-    """The centre of a link by the velocities of its points ``point`` and ``other``: the steps of
-    their ``places``, of their ``images``, and of the pole ``o`` of the plan.
-    """
+class InstantCentre(TwoPointCentre):
+    """The centre of a link where the normals to the velocities of two points cross (Chasles)."""
 
     key: ClassVar[str] = "instant-centre"
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.centre"}
+    letter: ClassVar[str] = "I"
+    quantity: ClassVar[str] = "velocity"
+    part: ClassVar[Part] = Part.CENTRE
+    plane: ClassVar[Plane] = Plane.VELOCITIES
+    action: ClassVar[Action] = instant_centre
 
-    other: str
-    o: int
-    places: tuple[int, int]
-    images: tuple[int, int]
+    @classmethod
+    def lines_at(cls, pen: Pen, points: tuple[str, str], o: int) -> tuple[LineToCentre, ...]:
+        """The normals to their velocities."""
+        return normals_at(pen, points, o)
+
+    @property
+    def pole(self) -> int:
+        """The step of the pole of the velocity plan."""
+        assert self.o is not None
+        return self.o
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The centre, with the line through the tips of two parallel velocities."""
@@ -69,34 +77,28 @@ class InstantCentre(Centre):
 
     def mark_tips(self, canvas: Canvas) -> None:
         """The line through the tips of two parallel velocities, and those not drawn elsewhere."""
-        drawing, pole = canvas.drawing, canvas.value(self.o)
+        drawing, pole = canvas.drawing, canvas.value(self.pole)
         drawn = {step.args[:3] for _, step, _ in drawing.mechanism_steps() if step.arrow}
         vectors = []
         for name, (place, image) in self.parallel(drawing).items():
             tail = canvas.value(place)
             way = drawing.at_scale(Plane.VELOCITIES, canvas.value(image) - pole)
             vectors.append((tail, way))
-            if (place, self.o, image) not in drawn:
+            if (place, self.pole, image) not in drawn:
                 canvas.vector(f"v_{name}", drawing.kind, tail, tail + way)
         if vectors:
             canvas.through_tips(*vectors)
 
-    def lines_to(self, drawing: Drawing) -> list[Places]:
-        """From each of its two points."""
-        return [{point: drawing.standing.spot(point)} for point in (self.point, self.other)]
-
     def oddity(self, drawing: Drawing) -> str:
-        """Whether the normals do not cross: it is a point at rest, or on the line of the tips."""
+        """Of parallel velocities it lies on the line through their tips, if no point is at rest."""
         odd = super().oddity(drawing)
-        if odd or self.crossing is None or self.is_by_hand(drawing):
-            return odd
-        return "still" if self.resting(drawing) else "tips"
+        return "tips" if odd == "still" and not self.resting(drawing) else odd
 
     def resting(self, drawing: Drawing) -> str:
         """The first of its points that is at rest; nothing where none is."""
         values, least = drawing.trace.values, NOISE * (drawing.largest or 1.0)
         ends = zip((self.point, self.other), self.images, strict=True)
-        still = (name for name, image in ends if abs(values[image] - values[self.o]) <= least)
+        still = (name for name, image in ends if abs(values[image] - values[self.pole]) <= least)
         return next(still, "")
 
     def parallel(self, drawing: Drawing) -> dict[str, tuple[int, int]]:
@@ -107,22 +109,15 @@ class InstantCentre(Centre):
         values = drawing.trace.values
         if self.oddity(drawing) != "tips":
             return {}
-        ways = [values[image] - values[self.o] for image in self.images]
+        ways = [values[image] - values[self.pole] for image in self.images]
         if abs(cross(*ways)) > PARALLEL * abs(ways[0]) * abs(ways[1]):
             return {}
         ends = zip(self.places, self.images, strict=True)
         return dict(zip((self.point, self.other), ends, strict=True))
 
-    def sentence_key(self, drawing: Drawing) -> str:
-        """By what is odd about it; a fixed pin needs no lines."""
-        if odd := self.oddity(drawing):
-            return f"{self.key}-{odd}"
-        return self.key if self.crossing is not None else f"{self.key}-pivot"
-
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """Its points, and the one at rest."""
-        ends = {"q": symbol(self.other), "bar": bar(self.point, self.other)}
-        return super().fields(drawing) | ends | {"rest": symbol(self.resting(drawing))}
+        """Also the point at rest."""
+        return super().fields(drawing) | {"rest": symbol(self.resting(drawing))}
 
 
 def set_before(drawing: Drawing) -> Mapping[int, int]:
@@ -145,47 +140,20 @@ def set_before(drawing: Drawing) -> Mapping[int, int]:
 
 
 def draw_centre(pen: Pen, base: Base) -> None:
-    """The instantaneous centre of a link: where the normals to two velocities cross (Chasles)."""
+    """The instantaneous centre of a link, by two of its points or by how it turns."""
     points = two_points(pen, base)
-    if points is None:
-        by_turning(pen, base)
-        return
-    o, name = pen.pole(Plane.VELOCITIES), centre_name("I", base.link)
-    p, q = (pen.the("position", point) for point in points)
-    a, b = (pen.the("velocity", point) for point in points)
-    with pen.on(Part.CENTRE, Plane.MECHANISM):
-        crossing, normals = None, tuple[VelocityNormal, ...]()
-        if o not in (a, b):
-            with pen.hands_way():
-                normals = normals_at(pen, points, o)
-                crossing = pen.draw(meet, *(normal.line for normal in normals))
-        found = pen.draw(instant_centre, o, p, q, a, b, name=name, by_hand=crossing)
-    pen.make(
-        InstantCentre(
-            name=name,
-            link=base.link,
-            point=points[0],
-            other=points[1],
-            o=o,
-            places=(p, q),
-            images=(a, b),
-            ways=normals,
-            crossing=crossing,
-            found=found,
-        )
-    )
-    pen.want("centre", base.link, found)
+    if points is not None:
+        pen.want("centre", base.link, InstantCentre.draw(pen, base, points))
+    elif pen.has("omega", base.link) and pen.has("velocity", base.start):
+        pen.want("centre", base.link, by_turning(pen, base))
 
 
-def by_turning(pen: Pen, base: Base) -> None:
+def by_turning(pen: Pen, base: Base) -> int:
     """The centre of a link of which one point is known, and how it turns: with its guide."""
-    if not pen.has("omega", base.link) or not pen.has("velocity", base.start):
-        return
-    o, zero = pen.pole(Plane.VELOCITIES), pen.given("nought")
+    o, zero, name = pen.pole(Plane.VELOCITIES), pen.given("nought"), centre_name("I", base.link)
     ends = [pen.the(what, base.start) for what in ("position", "velocity")]
     with pen.on(Part.CENTRE, Plane.MECHANISM):
         turning = pen.the("omega", base.link)
-        name = centre_name("I", base.link)
         found = pen.draw(relative_centre, *ends, turning, o, o, zero, name=name)
-    pen.make(RelativeCentre(name=name, first=FRAME, link=base.link, point=base.start, found=found))
-    pen.want("centre", base.link, found)
+    kind = RelativeCentre(name=name, first=FRAME, link=base.link, point=base.start, found=found)
+    return pen.make(kind).found

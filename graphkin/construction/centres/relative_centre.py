@@ -100,7 +100,7 @@ class LineOfCentres(LineToCentre):
     letters: tuple[str, str]
     ends: tuple[int, int]
 
-    def clause(self, drawing: Drawing, role: str = "") -> str:
+    def clause(self, drawing: Drawing, role: str) -> str:
         """Both centres; of which one is at infinity that is named last."""
         places = [drawing.place(drawing.trace.values[end]) for end in self.ends]
         m, n = map(symbol, self.letters if places[0] is not None else self.letters[::-1])
@@ -123,10 +123,6 @@ class PairCentre(Centre):
         """Of which link, and against which where that is not the frame."""
         against = "" if self.first == FRAME else f" against link {self.first}"
         return super().title(role) + against if role == "found" else ""
-
-    def sentence_key(self, drawing: Drawing) -> str:
-        """One sentence alone."""
-        return self.key
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Both links."""
@@ -219,17 +215,18 @@ class RelativeCentre(PairCentre):
         """The letter by which it is known already."""
         return super().fields(drawing) | {"same": self.equal(drawing)}
 
-    def lines_of(self, drawing: Drawing) -> tuple[LineOfCentres, ...]:
-        """The lines of centres that meet in it."""
-        ways = self.ways if self.is_by_hand(drawing) else ()
-        return tuple(line for line in ways if isinstance(line, LineOfCentres))
-
     def crossed(self, drawing: Drawing) -> str:
-        """Itself with the two lines that meet in it, as I₁₃ (I₁₂I₂₃, I₁₄I₃₄)."""
-        lines = ("".join(map(symbol, line.letters)) for line in self.lines_of(drawing))
+        """Itself with the two lines of centres that meet in it, as I₁₃ (I₁₂I₂₃, I₁₄I₃₄).
+
+        Nothing where two such lines do not meet, or meet at infinity.
+        """
+        lines = [line for line in self.ways if isinstance(line, LineOfCentres)]
+        if len(lines) != 2 or not self.is_by_hand(drawing) or self.oddity(drawing):
+            return ""
+        pairs = ("".join(map(symbol, line.letters)) for line in lines)
         same, name = self.equal(drawing), symbol(self.name)
         called = f"{name} = {same}" if same else name
-        return f"{called} ({drawing.words('list_mark').join(lines)})"
+        return f"{called} ({drawing.words('list_mark').join(pairs)})"
 
 
 def with_centres_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
@@ -241,10 +238,9 @@ def with_centres_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
     kinds = [(said, construction(steps[said.step])) for said in found if said.step >= 0]
     at_once = [said for said, kind in kinds if isinstance(kind, PinCentre | GuideCentre)]
     crossed = [
-        (said, kind.crossed(drawing))
+        (said, markup)
         for said, kind in kinds
-        if isinstance(kind, RelativeCentre)
-        if len(kind.lines_of(drawing)) == 2 and not kind.oddity(drawing)
+        if isinstance(kind, RelativeCentre) and (markup := kind.crossed(drawing))
     ]
     if at_once:
         guided = any(isinstance(kind, GuideCentre) for _, kind in kinds)

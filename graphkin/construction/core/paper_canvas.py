@@ -87,9 +87,7 @@ class PaperCanvas:
     def point(self, name: str, at: Any) -> None:
         """A small named point."""
         place, own = self.plot.field(at), self.step.name
-        self.plot.board.marks.append(
-            CircleMark(*place, DOT, "point construction", own, self.number)
-        )
+        self.circled(place, "point construction", DOT)
         self.plot.board.labels.append(
             Label(symbol(name), "construction", place, 2.5, own, self.number, radius=DOT)
         )
@@ -152,37 +150,35 @@ class PaperCanvas:
         point = self.drawing.place(value)
         if point is None or not self.plot.field.holds(point, WITHIN):
             return False
-        (x, y), (cls, name) = self.plot.field(point), self.centre_look
-        radius = RING if self.is_under_pin(point) else SMALL
+        (x, y), cls, name = self.plot.field(point), f"centre {self.plot.colour}", self.step.name
+        self.circled((x, y), cls, RING if self.is_under_pin(point) else SMALL)
         self.plot.board.marks += (
-            CircleMark(x, y, radius, cls, name, self.number),
             LineMark(x - ARM, y, x + ARM, y, cls, name, self.number),
             LineMark(x, y - ARM, x, y + ARM, cls, name, self.number),
         )
         name_point(self.plot, self.number, self.step, (x, y), ARM)
         return True
 
-    @property
-    def centre_look(self) -> tuple[str, str]:
-        """The class and the name of the marks of a centre."""
-        return f"centre {self.plot.colour}", self.step.name
-
     def is_under_pin(self, point: complex) -> bool:
         """Whether the pin of a point covers the middle of a centre."""
         places = self.drawing.positions.values()
         return any(self.size(place - point) < FIXED for place in places)
 
+    def circled(self, at: XY, cls: str, radius: float) -> None:
+        """A circle that bears the step's name."""
+        self.plot.board.marks.append(CircleMark(*at, radius, cls, self.step.name, self.number))
+
     def ring(self, at: Any) -> None:
         """The ring around a pin that is a centre, with the centre's letter."""
         place = self.plot.field(at)
-        self.plot.board.marks.append(CircleMark(*place, RING, *self.centre_look, self.number))
+        self.circled(place, f"centre {self.plot.colour}", RING)
         name_point(self.plot, self.number, self.step, place, RING)
 
     def spot(self, at: Any) -> None:
         """A small point with its letter, where the field holds it."""
         if self.plot.field.holds(at, WITHIN):
-            place, look = self.plot.field(at), ("point construction", self.step.name)
-            self.plot.board.marks.append(CircleMark(*place, DOT, *look, self.number))
+            place = self.plot.field(at)
+            self.circled(place, "point construction", DOT)
             name_point(self.plot, self.number, self.step, place, DOT)
 
     def circle(self, circle: Circle, look: str) -> None:
