@@ -147,10 +147,9 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
 def of_trials(drawing: Drawing) -> Iterator[Relation]:
     """What two trial plans lay off, and where between them the right one lies: what they miss
     grows in proportion."""
-    part = Part.VELOCITY if drawing.kind == "velocity" else Part.ACCELERATION
     yield from of_trial_lengths(drawing)
     for number, step, value in drawing.steps(Plane.NUMBERS):
-        if step.action is None or step.action.key != "share" or step.part is not part:
+        if step.action is None or step.action.key != "share" or step.part is not Part(drawing.kind):
             continue
         users = [user for user in drawing.children.get(number, ()) if is_point(drawing, user)]
         steps = drawing.trace.program.steps

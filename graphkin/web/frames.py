@@ -153,7 +153,7 @@ def shown_range(cycle: Cycle) -> tuple[float, float]:
     if len(at) < LEAST:
         return low, high
     grown = np.zeros(len(at))
-    for name in ("velocity", "acceleration"):
+    for name in SHEETS:
         rates = [getattr(point, name) for point in cycle.solution.points.values()]
         sizes = [np.abs(np.broadcast_to(r, len(rows))[rows]) for r in rates if r is not None]
         largest = np.max(sizes, axis=0) if sizes else grown

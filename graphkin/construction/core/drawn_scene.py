@@ -98,8 +98,7 @@ class Drawing:
             if self.kind == "acceleration"
             else (Part.POSITION, Part.CENTRE)
         )
-        arrows = Part.ACCELERATION if self.kind == "acceleration" else Part.VELOCITY
-        parts = (*own, arrows)
+        parts = (*own, Part(self.kind))
         return tuple(drawn for drawn in self.steps(Plane.MECHANISM) if drawn[1].part in parts)
 
     def place(self, centre: Ratio) -> complex | None:

@@ -15,7 +15,6 @@ from graphkin.drawing.marks import LineMark
 from graphkin.numbers.arithmetic import larger, smaller
 from graphkin.numbers.plane import dot
 
-PARTS = {"velocity": Part.VELOCITY, "acceleration": Part.ACCELERATION}
 LOOKS = {"laid off": "trial", "locus of a trial": "trial", "gap": "trial-line"}
 """The lines of a gap by their names: what is laid off, the line that its point should lie on from
 the end of that, and the way to it from the point."""
@@ -36,7 +35,7 @@ def measured(drawing: Drawing) -> Iterator[tuple[int, Step]]:
     trace = drawing.trace
     for _, share, _ in drawing.steps(Plane.NUMBERS):
         called = share.action is not None and share.action.key == "share"
-        if called and share.part is PARTS[drawing.kind] and share.by_hand not in trace.values:
+        if called and share.part is Part(drawing.kind) and share.by_hand not in trace.values:
             yield from ((number, trace.program.steps[number]) for number in share.args)
 
 
