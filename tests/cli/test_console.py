@@ -14,7 +14,7 @@ from graphkin import __version__
 from graphkin.cli.console import BROKEN_PIPE
 from tests.cli.conftest import ROOT, Run, command, python
 
-HEAVY = ("shapely", "reportlab", "svgwrite", "matplotlib")
+HEAVY = ("shapely", "reportlab", "svgwrite", "matplotlib", "jinja2", "pikepdf", "filelock")
 
 
 def test_help_shows_examples_and_every_command(run: Run) -> None:

@@ -16,6 +16,8 @@ HEAVY = (
     "matplotlib",
     "reportlab",
     "svgwrite",
+    "jinja2",
+    "pikepdf",
     "numba",
     "flint",
     "mpmath",

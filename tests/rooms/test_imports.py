@@ -175,7 +175,16 @@ def loaded_by(code: str) -> set[str]:
     return set(run.stdout.split())
 
 
-HEAVY = {"numpy", "shapely", "matplotlib", "reportlab", "svgwrite"}
+HEAVY = {
+    "numpy",
+    "shapely",
+    "matplotlib",
+    "reportlab",
+    "svgwrite",
+    "jinja2",
+    "pikepdf",
+    "filelock",
+}
 
 
 def test_importing_graphkin_loads_none_of_the_heavy_libraries():
