@@ -12,9 +12,10 @@ from graphkin.accuracy.compared_positions import ground_of, places_around
 from graphkin.accuracy.methods import found_singly
 from graphkin.mechanism import load
 from graphkin.numbers.kinds import ball_kind, decimal_kind
+from tests.chosen import CHOSEN, FOLDER
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
-EVERY = ["pump", "pump-collinear", *sorted(str(path) for path in SCENES.glob("*.toml"))]
+WHICH = ["pump", *(str(FOLDER / f"{name}.toml") for name in CHOSEN)]
 POSITIONS = 4
 TIGHT = 1e4
 """A ball of 53 bits may be so many times the bound of a double."""
@@ -25,7 +26,7 @@ def reference(name: str, count: int = POSITIONS):
     return reference_of(places_around(ground, count), answers_of(ground.piece.course.program))
 
 
-@pytest.mark.parametrize("name", EVERY, ids=lambda name: Path(name).stem)
+@pytest.mark.parametrize("name", WHICH, ids=lambda name: Path(name).stem)
 def test_doubles_keep_to_their_bound_and_every_ball_holds_the_truth(name):
     found = agreement(reference(name))
     assert found.bound < 1e-10

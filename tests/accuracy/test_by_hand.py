@@ -16,7 +16,8 @@ from graphkin.documents.sheet_documents import scales
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Line, line_meets_line
-from tests.accuracy.originals import EVERY_SCENE, SCENES, TRIANGLE, pump, scene, triangle
+from tests.accuracy.originals import TRIANGLE, pump, scene, triangle
+from tests.chosen import CHOSEN
 from tests.mechanisms import mechanism_of
 
 FOUR_BAR = """
@@ -84,7 +85,7 @@ def test_the_flattest_crossing_of_the_pump_is_the_pole_of_the_plate():
     assert degrees(worst.angle) == pytest.approx(17.5, abs=0.05)
 
 
-@pytest.mark.parametrize("name", EVERY_SCENE)
+@pytest.mark.parametrize("name", CHOSEN)
 def test_every_crossing_has_a_letter_and_an_angle(name):
     trace = scene(name).trace
     for crossing in crossings(trace):

@@ -15,7 +15,8 @@ from graphkin.accuracy.pencil.redrawing import closer_of, read_off, redrawn
 from graphkin.construction.core.program import Plane
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
-from tests.accuracy.originals import D_AWAY, EVERY_SCENE, pump, scene
+from tests.accuracy.originals import D_AWAY, pump, scene
+from tests.chosen import CHOSEN
 
 COUNT = 2000
 
@@ -29,7 +30,7 @@ def enlarged(exact, times: float):
     )
 
 
-@pytest.mark.parametrize("name", EVERY_SCENE)
+@pytest.mark.parametrize("name", CHOSEN)
 def test_a_perfect_pencil_gives_the_exact_answers_of_every_scene(name):
     many = simulated(scene(name), Pencil(0.0), 2)
     for answer in many.answers:

@@ -340,8 +340,7 @@ def test_names_and_ids_are_text(opened: Opened, tmp_path: Path):
     assert rows["id"] == HOSTILE
 
 
-@pytest.mark.parametrize("look", ["light", "dark"])
-@pytest.mark.parametrize("width", [1280, 390])
+@pytest.mark.parametrize(("look", "width"), [("light", 1280), ("dark", 390)])
 def test_the_task_page_is_accessible(
     opened: Opened,
     folder: Path,

@@ -64,7 +64,7 @@ CIRCLES = """view => [...view.querySelectorAll('circle:is(.pin,.point,.pole)[dat
   .filter(circle => !circle.hasAttribute('visibility'))
   .map(circle => [circle.dataset.of, circle.getAttribute('cx'), circle.getAttribute('cy')])
   .map(row => row.map(Number))"""
-FEW = ("pump", "slotted-lever", "oldham", "gears-ring", "rapid-return")
+FEW = ("pump", "slotted-lever", "rapid-return")
 
 
 @cache
@@ -253,8 +253,8 @@ def moved(drawing: Drawing, mechanism: Mechanism, degrees: float) -> Trace:
     return run(program, needed, mechanism.scene.values, FLOAT, overrides=overrides)
 
 
-@pytest.mark.parametrize("degrees", [20.0, 80.0, 121.5])
-@pytest.mark.parametrize("name", ["pump", "slotted-lever", "oldham"])
+@pytest.mark.parametrize("degrees", [20.0, 121.5])
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
 def test_points_move_to_where_python_draws_them(opened: Opened, pages: Path, name, degrees):
     page, mechanism = opened(pages / f"{name}.html", **DESKTOP), mechanism_of(name)
     page.goto(f"{(pages / name).as_uri()}.html#step=99&x={degrees}")
@@ -354,7 +354,7 @@ START = "`φ = ${graphkinMotion.start.toFixed(1)}°`"
 
 
 @pytest.mark.parametrize("name", FEW)
-@pytest.mark.parametrize("shape", ["desktop", "phone", "small", "lying"])
+@pytest.mark.parametrize("shape", ["desktop", "small"])
 def test_buttons_and_drawing_stay_where_they_are(opened: Opened, pages: Path, name, shape):
     page = opened(pages / f"{name}.html", **SHAPES[shape])
     places = """() => ['.sheet:not([hidden]) .view', '#next', '#stops', '#driver']
@@ -372,7 +372,7 @@ def test_buttons_and_drawing_stay_where_they_are(opened: Opened, pages: Path, na
     assert len(found) == 1
 
 
-@pytest.mark.parametrize("name", FEW)
+@pytest.mark.parametrize("name", FEW[:1])
 def test_zoom_comes_only_when_it_is_asked_for(opened: Opened, pages: Path, name):
     page = opened(pages / f"{name}.html", **DESKTOP)
     pressed = "document.getElementById('follow').getAttribute('aria-pressed')"
@@ -523,7 +523,7 @@ HEADS = """() => [...document.querySelectorAll('.sheet:not([hidden]) .halo .arro
 })"""
 
 
-@pytest.mark.parametrize("step, count", [(5, 1), (6, 2), (10, 2), (12, 1), (20, 2)])
+@pytest.mark.parametrize("step, count", [(5, 1), (6, 2), (20, 2)])
 def test_a_vector_that_is_drawn_shows_where_it_points(opened: Opened, pages: Path, step, count):
     page = opened(pages / "pump.html", viewport={"width": 1280, "height": 800})
     page.evaluate(f"location.hash = '#step={step}'")
@@ -596,8 +596,10 @@ def test_what_is_told_of_an_enlarged_detail_goes_with_it(opened: Opened, pages: 
 # --- every reader --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("name", ["pump", "slotted-lever", "pump-task", "nasty"])
+@pytest.mark.parametrize(
+    ("name", "shape"),
+    [*(("pump", shape) for shape in SHAPES), ("pump-task", "phone"), ("nasty", "desktop")],
+)
 def test_axe_finds_nothing_against_the_page(opened: Opened, pages: Path, name, shape):
     page = opened(pages / f"{name}.html", **SHAPES[shape])
     page.keyboard.press("2")

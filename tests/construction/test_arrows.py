@@ -6,7 +6,8 @@ import pytest
 
 from graphkin.construction.core.program import CONTACT, Plane
 from tests.chance.checking import case
-from tests.documents.sheet_tools import SCENES, mechanism_named
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "pump-collinear", "slotted-lever", "offset-slider-crank")
 SEEDS = range(60)
@@ -30,7 +31,7 @@ def not_drawn(program):
     return missing
 
 
-@pytest.mark.parametrize("name", [*LABS, *SCENES])
+@pytest.mark.parametrize("name", [*LABS, *CHOSEN])
 def test_right_triangles_start_from_what_the_velocity_plan_shows(name):
     assert not not_drawn(mechanism_named(name, 7 if name in LABS else None).program)
 
@@ -77,7 +78,7 @@ def both_ways(program):
     }
 
 
-@pytest.mark.parametrize("name", [*LABS, *SCENES])
+@pytest.mark.parametrize("name", [*LABS, *CHOSEN])
 def test_no_segment_of_the_velocity_plan_is_drawn_in_both_senses(name):
     assert not both_ways(mechanism_named(name, 7 if name in LABS else None).program)
 
@@ -94,7 +95,7 @@ def small(name):
     return name.replace("_v", "").replace("_", "").replace(",", "").lower()
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", CHOSEN)
 def test_the_ends_of_a_relative_velocity_bear_the_letters_of_its_index(name):
     """But for the pole, on which what is fixed falls, and for contacts that plates carry."""
     program = mechanism_named(name).program

@@ -15,9 +15,9 @@ from graphkin.mechanism import Mechanism, point_of
 from graphkin.numbers.plane import Vector
 from graphkin.scene.model import FRAME
 from tests.chance.checking import case
+from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import (
     KINDS,
-    SCENES,
     calculations,
     drawings,
     drawn,
@@ -30,7 +30,7 @@ from tests.documents.sheet_tools import (
 from tests.mechanisms import mechanism_of
 
 LABS = ("pump", "pump-collinear", "slotted-lever", "offset-slider-crank")
-WHICH = [(lab, n) for lab in LABS for n in (1, 7, 16, 30)] + [(name, None) for name in SCENES]
+WHICH = [(lab, n) for lab in LABS for n in (7, 30)] + [(name, None) for name in CHOSEN]
 SIGNS = {"velocity": "v", "acceleration": "a"}
 PLANES = {"velocity": Plane.VELOCITIES, "acceleration": Plane.ACCELERATIONS}
 SEEDS = range(40)
@@ -160,7 +160,7 @@ def test_no_two_vectors_on_the_mechanism_cover_one_another(which):
         assert len(ends) == len(set(ends))
 
 
-@pytest.mark.parametrize("name", [*LABS, *SCENES])
+@pytest.mark.parametrize("name", [*LABS, *CHOSEN])
 def test_any_point_beneath_another_may_be_asked_for(name):
     mechanism = mechanism_named(name, 7 if name in LABS else None)
     assert not not_drawn(asking(mechanism, beneath(mechanism.scene)))

@@ -14,7 +14,7 @@ from graphkin.construction.drivers.driver_relations import of_driver
 from graphkin.drawing.richtext import escape
 from graphkin.mechanism import load
 from graphkin.text import words
-from tests.documents.sheet_tools import SCENES as ALL
+from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import drawing_of, drawings
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
@@ -64,7 +64,7 @@ def test_a_parameter_put_into_an_expression_is_named_once_with_its_unit():
     assert "*B**A* = *l* = 100 mm" in given(drawing_of("centrodes-cardan", None, "velocity"))
 
 
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", CHOSEN)
 def test_no_name_of_a_parameter_is_printed_that_nothing_else_takes(name):
     """What is named among the data is put into an expression of the calculation, and told all."""
     (drawing, *_) = drawings(name)

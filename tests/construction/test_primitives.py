@@ -33,8 +33,8 @@ from graphkin.numbers.plane import (
 from tests.mechanisms import angles, directions, log_scaled, signs
 
 EPS = 2.0**-52
-MANY = settings(max_examples=400, deadline=None, derandomize=True, database=None)
-SEARCH = settings(MANY, max_examples=4000, phases=[Phase.generate])
+MANY = settings(max_examples=150, deadline=None, derandomize=True, database=None)
+SEARCH = settings(MANY, max_examples=800, phases=[Phase.generate])
 
 
 def mpc(z: complex) -> Any:

@@ -7,13 +7,14 @@ import pytest
 from graphkin.construction.result_tables import tables
 from graphkin.drawing.areas import TABLES
 from graphkin.drawing.marks import Text, reach
-from tests.documents.sheet_tools import SCENES, drawings
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import drawings
 
-EVERY = [(name, None) for name in SCENES] + [("pump", n) for n in (1, 9, 28)]
+WHICH = [(name, None) for name in CHOSEN] + [("pump", n) for n in (1, 9)]
 
 
 @pytest.mark.parametrize("empty", [False, True])
-@pytest.mark.parametrize(("name", "n"), EVERY)
+@pytest.mark.parametrize(("name", "n"), WHICH)
 def test_tables_stand_within_their_field(name, n, empty):
     for drawing in drawings(name, n):
         for mark in tables(drawing, TABLES, empty=empty):

@@ -10,7 +10,8 @@ from graphkin.construction.drivers.driver_relations import of_driver
 from graphkin.construction.rolling.contact_velocities import of_contacts
 from graphkin.construction.vector_equations import of_equations
 from graphkin.drawing.symbol_markup import symbol
-from tests.documents.sheet_tools import SCENES, drawings
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
 
 STANDS = (" =", " ∥", " ⊥", " by similarity")
@@ -46,7 +47,7 @@ def told(drawing: Drawing) -> set[str]:
     return {line.split(mark)[0] for line in lines for mark in STANDS if mark in line} | {*whole}
 
 
-@pytest.mark.parametrize("name", [*SHIPPED, *SCENES])
+@pytest.mark.parametrize("name", [*SHIPPED, *CHOSEN])
 def test_every_asked_vector_has_its_equation(name):
     sheets = drawings(name, 7 if name in SHIPPED else None)
     for drawing in sheets:

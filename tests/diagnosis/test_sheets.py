@@ -10,7 +10,8 @@ from graphkin.documents.sheet_documents import hand_out, scales, targets_of
 from graphkin.drawing.marks import Text
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
-from tests.diagnosis.scope import FILES, accelerations, asking, counted, shipped, velocities
+from tests.chosen import CHOSEN
+from tests.diagnosis.scope import accelerations, asking, counted, shipped, velocities
 
 BEYOND = (Part.ACCELERATION, Part.NORMAL, Part.POLE)
 
@@ -41,7 +42,7 @@ def test_accelerations_that_need_velocities_bring_their_sheet(view):
     assert ("the velocities that the accelerations need" in texts) == (view == "task")
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", ["pump", *CHOSEN])
 def test_whatever_velocity_an_acceleration_needs_is_drawn_and_no_other(name):
     mechanism = accelerations(name)
     program = mechanism.program
@@ -71,7 +72,7 @@ def test_the_witness_of_a_sheet_judges_what_it_shows(monkeypatch):
     assert all(p.acceleration is None for p in solution.points.values())
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", ["pump", *CHOSEN])
 def test_nothing_of_an_acceleration_is_drawn_for_a_velocity(name):
     mechanism = velocities(name)
     program = mechanism.program

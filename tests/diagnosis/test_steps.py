@@ -28,6 +28,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Ask
 from graphkin.scene.read_scene import read_text
+from tests.chosen import CHOSEN
 from tests.diagnosis.scope import (
     FILES,
     accelerations,
@@ -41,7 +42,7 @@ from tests.diagnosis.scope import (
     velocities,
 )
 
-EVERY = pytest.mark.parametrize("name", FILES)
+EVERY = pytest.mark.parametrize("name", ["pump", *CHOSEN])
 CORIOLIS = {"coriolis", "lay-off-coriolis", "lay-back-coriolis"}
 OF_WHEELS = {room.__name__ for room in (contact_points, counted_turn, wheel_actions)}
 OF_ACCELERATION = {"centripetal", "driven-tangential", "normal", "epsilon", "rolling-normal"}

@@ -13,9 +13,10 @@ from graphkin.loops.equations import Equations
 from graphkin.loops.witness import examine
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
-from tests.diagnosis.scope import FILES, asking, shipped, velocities
+from tests.chosen import CHOSEN
+from tests.diagnosis.scope import asking, shipped, velocities
 
-EVERY = pytest.mark.parametrize("name", FILES)
+EVERY = pytest.mark.parametrize("name", ["pump", *CHOSEN])
 SLOW = {"close", "share"}
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import cos, hypot, radians, sin
-from pathlib import Path
 
 import numpy as np
 import shapely
@@ -25,12 +24,12 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.text.errors import PageError
+from tests.chosen import FOLDER, STUDENTS
 from tests.mechanisms import SHIPPED, shipped
 
 KINDS = ("velocity", "acceleration")
-STUDENTS = range(1, 31)
-EVERY = [(lab, n) for lab in SHIPPED for n in STUDENTS]
-"""All variants of the shipped labs."""
+VARIANTS = [(lab, n) for lab in SHIPPED for n in STUDENTS]
+"""Variants of the shipped labs."""
 
 VECTORS = (
     "velocity",
@@ -209,9 +208,6 @@ centres = [2]
 }
 """Scenes beside the shipped ones."""
 
-FOLDER = Path(__file__).resolve().parents[2] / "examples" / "scenes"
-SCENES = tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
-"""The example scenes."""
 DRAWN = (
     "crank-fixed-slot",
     "crank-slot",

@@ -11,10 +11,10 @@ import shapely
 
 from graphkin.drawing.marks import Page, reach
 from graphkin.text import LANGUAGES, words
+from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import (
-    DRAWN,
-    EVERY,
     OTHERS,
+    VARIANTS,
     calculations,
     kind_of,
     named,
@@ -23,8 +23,8 @@ from tests.documents.sheet_tools import (
 )
 from tests.mechanisms import SHIPPED
 
-WHICH = [(lab, n, language) for lab in SHIPPED for n in (1, 7, 16, 30) for language in ("en", "ro")]
-WHICH += [(name, None, "en") for name in (*OTHERS, *DRAWN)]
+WHICH = [(lab, n, language) for lab in SHIPPED for n in (7, 30) for language in ("en", "ro")]
+WHICH += [(name, None, "en") for name in (*OTHERS, *CHOSEN)]
 
 SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 POWER = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
@@ -66,7 +66,7 @@ def equations(pages) -> list[tuple[str, str, str]]:
     return found
 
 
-ALL = [(lab, n, "en") for lab, n in EVERY] + WHICH
+ALL = [(lab, n, "en") for lab, n in VARIANTS] + WHICH
 
 
 @pytest.mark.parametrize("which", dict.fromkeys(ALL), ids=named)

@@ -22,10 +22,9 @@ from graphkin.drawing.richtext import extent
 from graphkin.drawing.style import BRIEF, NOW, SHAFT, STYLES, style_of
 from graphkin.scene.scene_files import names
 from graphkin.text import LANGUAGES, words
+from tests.chosen import CHOSEN, STUDENTS
 from tests.documents.sheet_tools import (
-    EVERY,
-    SCENES,
-    STUDENTS,
+    VARIANTS,
     Drawn,
     collisions,
     drawings,
@@ -48,11 +47,11 @@ TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
 OTHERS = [language for language in LANGUAGES if language != "en"]
 """The languages whose pages are not looked at elsewhere."""
-TRANSLATED = [(lab, n, language) for lab, n in EVERY for language in OTHERS]
-TRANSLATED += [(name, None, OTHERS[i % len(OTHERS)]) for i, name in enumerate(SCENES)]
-TRANSLATED += [(lab, n, "en") for lab in names() if lab not in SHIPPED for n in STUDENTS[::7]]
-VIEWED = [(lab, n) for lab in names() for n in (1, 10, 20, 30)]
-VIEWED += [(name, None) for name in SCENES]
+TRANSLATED = [(lab, n, language) for lab, n in VARIANTS for language in OTHERS]
+TRANSLATED += [(name, None, OTHERS[i % len(OTHERS)]) for i, name in enumerate(CHOSEN)]
+TRANSLATED += [(lab, n, "en") for lab in names() if lab not in SHIPPED for n in STUDENTS[:2]]
+VIEWED = [(lab, n) for lab in names() for n in (1, 20)]
+VIEWED += [(name, None) for name in CHOSEN]
 
 
 def faults(page: Page) -> str:
@@ -145,7 +144,7 @@ def test_every_mark_is_as_wide_as_its_class_declares():
     """Line group 0.5 of ISO 128, and thinner for what only helps; each class is declared."""
     widths = {0.13, 0.18, 0.25, 0.35, 0.4, 0.5, 0.7}
     assert {style.width for style in STYLES.values()} - {0} <= widths
-    for name in SCENES:
+    for name in CHOSEN:
         for kind in kinds_of(name):
             for mark in drawn(name, None, kind).page.marks:
                 first = mark.cls.split()[0]

@@ -14,8 +14,8 @@ from graphkin.drawing.richtext import plain
 from graphkin.drawing.style import style_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import LANGUAGES
+from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import (
-    SCENES,
     calculations,
     drawings,
     drawn,
@@ -26,8 +26,8 @@ from tests.documents.sheet_tools import (
 )
 from tests.mechanisms import SHIPPED
 
-WHICH = [(lab, 7, language) for lab in SHIPPED for language in LANGUAGES]
-WHICH += [(name, None, language) for name in SCENES for language in LANGUAGES]
+WHICH = [(lab, 7) for lab in SHIPPED] + [(name, None) for name in CHOSEN]
+WHICH = [(*which, LANGUAGES[i % 3]) for i, which in enumerate(WHICH)]
 LEFT_OPEN = re.compile(r"[{}]|None|nan\b|  | [,;)]|\( |[;,]$|^[;,]|= *[;,]|∥ *[;,]|⊥ *[;,]")
 """What a sentence looks like in which something is missing."""
 BREAKS = re.compile(r" {2}(?=\S)")

@@ -11,7 +11,8 @@ from graphkin.drawing.areas import A3_AREA
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import extent, plain
 from graphkin.text import words
-from tests.documents.sheet_tools import SCENES, mechanism_named
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import shipped
 
 MIDDLE = 210.0
@@ -61,7 +62,7 @@ def test_it_stands_between_the_witness_and_the_centring_mark(language, n):
         assert line.x - extent(line.markup, line.height)[0] > end + 2
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", CHOSEN)
 def test_every_scene_has_one_where_lines_cross(name):
     mechanism = mechanism_named(name)
     for drawing in drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("ro")):

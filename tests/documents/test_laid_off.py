@@ -13,7 +13,8 @@ from graphkin.construction.sentence_fields import fields_of
 from graphkin.documents.relations import relations
 from graphkin.drawing.marks import Text
 from graphkin.drawing.symbol_markup import symbol
-from tests.documents.sheet_tools import SCENES, drawings, drawn
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import drawings, drawn
 from tests.mechanisms import SHIPPED
 
 LAID = (
@@ -23,7 +24,7 @@ LAID = (
     "driven-slide",
 )
 """The actions that lay off a vector in a plan, beside those of components."""
-WHICH = [(lab, 7) for lab in SHIPPED] + [(name, None) for name in SCENES]
+WHICH = [(lab, 7) for lab in SHIPPED] + [(name, None) for name in CHOSEN]
 
 
 def component_laid_off(step):

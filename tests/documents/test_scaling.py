@@ -12,7 +12,8 @@ from graphkin.drawing.scale import FINE, Scales, digits
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import PageError, SceneError
-from tests.documents.sheet_tools import HEAD, OTHERS, SCENES, mechanism_named
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import HEAD, OTHERS, mechanism_named
 
 OMEGA = 12.0
 FOUR_BAR = OTHERS["four-bar with a coupler point"]
@@ -52,7 +53,7 @@ def said(mechanism, kind, view="key", language="en"):
 # --- as large as the page takes ------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", CHOSEN)
 def test_ka_is_kv_squared_over_kL_wherever_no_scene_says_otherwise(name):
     found = scales(mechanism_named(name))
     assert found.ka == pytest.approx(found.kv**2 / found.kL, rel=1e-12)

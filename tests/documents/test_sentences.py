@@ -23,12 +23,12 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
+from tests.chosen import CHOSEN
 from tests.documents.made_up import HEAD
 from tests.documents.sheet_tools import SCENES, drawings, drawn, kinds_of, named
 
-LABS = [(lab, n) for lab in ("pump", "pump-collinear", "slotted-lever") for n in (1, 7, 20)]
-LABS += [("offset-slider-crank", n) for n in (1, 7, 20)]
-ALL = [*((name, None) for name in SCENES), *LABS]
+LABS = [(lab, n) for lab in ("pump", "slotted-lever") for n in (7, 20)]
+ALL = [*((name, None) for name in CHOSEN), *LABS]
 HIGHER = (
     "rapid-return",
     "rod-and-wheel",

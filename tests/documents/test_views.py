@@ -24,6 +24,7 @@ from graphkin.drawing.style import NOW, TINTS, style_of
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import FRAME, Ask
 from graphkin.text import words as words_of
+from tests.chosen import CHOSEN, FOLDER
 from tests.documents.centre_scenes import four_bar
 from tests.mechanisms import mechanism_of
 
@@ -34,7 +35,7 @@ SOME += [str(SCENES / f"{name}.toml") for name in ("stephenson-2-ternary", "rod-
 
 UNDRAWN = {"close", "share", "c", "ν none"}
 """The names of sentences that may draw nothing: of numbers, of trials without a locus."""
-ALL = ["pump", *(str(path) for path in sorted(SCENES.glob("*.toml")))]
+ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in CHOSEN)]
 
 
 @cache

@@ -21,7 +21,8 @@ from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from tests.documents.sheet_tools import SCENES, drawings, drawn
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import drawings, drawn
 
 WHEELS = ("gears-pair", "gears-planet", "gears-rack", "gears-ring", "rod-and-wheel", "roller")
 
@@ -72,7 +73,7 @@ def test_a_fixed_ring_stands_on_hatched_ground_in_the_task_too():
 
 
 @pytest.mark.parametrize("view", ["key", "task"])
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", CHOSEN)
 def test_every_point_that_bears_a_letter_has_a_circle(name, view):
     for kind in {drawing.kind for drawing in drawings(name)}:
         page = drawn(name, None, kind, view)

@@ -623,7 +623,7 @@ def test_rare_ways_to_write_a_scene_have_their_sentences(name, language):
     assert every_page(rare(name), words(language))
 
 
-PAGES = [(lab, n, language) for lab in SHIPPED for n in (7, 17) for language in LANGUAGES]
+PAGES = [(lab, n, language) for lab in SHIPPED for n in (7,) for language in LANGUAGES]
 PAGES += [(name, None, language) for name in list(OTHERS)[1:3] for language in LANGUAGES]
 
 

@@ -118,11 +118,10 @@ def test_a_scene_is_right_by_both_routes(scene: Path) -> None:
     assert run("check", scene).exit_code == 0
 
 
-@pytest.mark.parametrize("language", ["en", "ro"])
 @pytest.mark.parametrize("view", ["task", "key"])
-@pytest.mark.parametrize("scene", SCENES, ids=named)
-def test_a_scene_gives_its_sheets(scene: Path, view: str, language: str, tmp_path: Path) -> None:
-    result = run("sheet", scene, "-o", tmp_path, "--view", view, "--lang", language)
+def test_a_scene_gives_its_sheets(view: str, tmp_path: Path) -> None:
+    scene = SCENES[0]
+    result = run("sheet", scene, "-o", tmp_path, "--view", view)
     assert result.exit_code == 0, result.stderr
     expected = {f"{scene.stem}-{document.format(view)}" for document in DOCUMENTS}
     assert {path.name for path in tmp_path.iterdir()} == expected

@@ -1,16 +1,13 @@
-"""Every scene that is shipped: solved, proved by the second route, told by check, and drawn."""
+"""Every scene that is shipped: solved, proved by the second route, rigid; and the chosen few."""
 
 from __future__ import annotations
 
 import pytest
-from click.testing import CliRunner
 
-from graphkin.cli.main import app
 from graphkin.construction.core.solution import FAIR
-from graphkin.documents.sheet_documents import hand_out
 from graphkin.scene.model import FRAME
 from graphkin.text import LANGUAGES
-from graphkin.writers.files import rendered
+from tests.chosen import CHOSEN
 from tests.examples.scenes import FILES, is_rigid, mechanism, motion
 
 ROWS = {
@@ -80,24 +77,20 @@ def test_links_are_rigid(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_check_tells_of_a_scene(name: str) -> None:
-    said = CliRunner().invoke(app, ["check", str(FILES[name])])
-    assert said.exit_code == 0, said.stderr
-    assert len(said.stdout.splitlines()) > 5
-
-
-@pytest.mark.parametrize("name", FILES)
-def test_a_scene_gives_its_sheets(name: str) -> None:
-    parts = hand_out(mechanism(name), view="key")
-    files = {}
-    for part in parts:
-        files |= rendered(f"{name}-{part.kind}", part.kind, part.pages, ("svg",))
-    assert files
-    assert all(content.startswith(b"<") for content in files.values())
-
-
-@pytest.mark.parametrize("name", FILES)
 def test_a_title_is_given_in_every_language_or_in_one_for_all(name: str) -> None:
     scene = mechanism(name).scene
     assert scene.titles.keys() in (set(), set(LANGUAGES))
     assert scene.titles.get("en", scene.title) == scene.title
+
+
+def traits(name: str) -> set[object]:
+    """The actions of a scene's program, what its drivers move and against what, what it asks."""
+    program, scene = mechanism(name).program, mechanism(name).scene
+    actions = {step.action.key for step in program.steps if step.action}
+    drivers = {(driver.kind, driver.against == FRAME) for driver in scene.drivers}
+    return actions | drivers | {key for key, asked in scene.ask._asdict().items() if asked}
+
+
+def test_the_chosen_scenes_have_all_that_any_scene_has() -> None:
+    every, chosen = (set().union(*map(traits, names)) for names in (FILES, CHOSEN))
+    assert every == chosen

@@ -205,7 +205,7 @@ def test_a_label_is_never_run_into_its_line():
     assert labelled("in range 12", ["link upper"]) == ["in range 12 link upper"]
 
 
-@pytest.mark.parametrize("title", ["$x^$", "$$", "50 $ and 5 \\\\$ more", "\\\\frac{", "a_b^c"])
+@pytest.mark.parametrize("title", ["$x^$ a_b^c \\\\frac{", "50 $ and 5 \\\\$ more"])
 def test_a_title_is_text_and_no_formula(title):
     scene = replace(load("pump", n=7).scene, title=title)
     files = picture_files(cycle(Mechanism(scene), steps=8), "pump", ["png"])

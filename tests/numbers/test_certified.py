@@ -17,6 +17,7 @@ from graphkin.cli.report.solution_record import record
 from graphkin.construction.core.results import gathered
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind, decimal_kind
+from tests.chosen import CHOSEN
 from tests.mechanisms import HEAD, mechanism_of
 from tests.numbers.conftest import TOUCHING
 
@@ -168,7 +169,7 @@ def test_the_structure_is_that_of_the_usual_record():
                 assert float(proved[path]) == pytest.approx(value, rel=1e-12, abs=1e-13)
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in SCENES.glob("*.toml")))
+@pytest.mark.parametrize("name", CHOSEN)
 def test_every_scene_prints_and_tells_what_it_does_not_print(name):
     mechanism = load(SCENES / f"{name}.toml")
     usual = record(mechanism.scene, mechanism.solve(), None, None)

@@ -47,7 +47,7 @@ STEPS = {
     if isinstance(value, Action) and value.value.__module__ == room.__name__
 }
 """Every action, once, under its module and name."""
-DRAWS = 12
+DRAWS = 4
 TRIALS = 200
 ROUNDINGS = 16
 """Rounding units of a value's size and condition that a step may lose."""
@@ -148,14 +148,23 @@ def cases(name: str) -> list[tuple[dict[int, tuple[Fraction, ...]], list[Any], l
     pytest.fail(f"only {len(found)} places were found where the step can be drawn")
 
 
-def held(found: list[Any], reference: list[Any], condition: list[float], unit: float) -> None:
+def held(
+    name: str, found: list[Any], reference: list[Any], condition: list[float], unit: float
+) -> None:
     """Hold every value to the bound."""
     for value, true, moved in zip(found, reference, condition, strict=True):
         allowed = ROUNDINGS * unit * (float(abs(true)) + moved)
-        assert nk.far(value, true) <= allowed
+        assert nk.far(value, true) <= allowed, name
 
 
-every_step = pytest.mark.parametrize("name", STEPS)
+ROOMS = sorted({name.partition(".")[0] for name in STEPS})
+every_room = pytest.mark.parametrize("room", ROOMS)
+
+
+def every(room: str) -> list[tuple[Any, ...]]:
+    """Every case of every step of a room: its name, program, inputs, reference and conditions."""
+    names = [name for name in STEPS if name.startswith(f"{room}.")]
+    return [(name, built(name)[0], *case) for name in names for case in cases(name)]
 
 
 def test_the_vocabulary_is_there():
@@ -164,67 +173,66 @@ def test_the_vocabulary_is_there():
     assert "trial_actions.share" in STEPS
 
 
-@every_step
-def test_a_step_on_one_scene_in_floats(name):
-    for inputs, reference, condition in cases(name):
-        found = nk.by_one(built(name)[0], FLOAT, inputs)
-        assert all(type(value) in (float, complex) for value in found)
-        held(found, reference, condition, nk.UNITS["float"])
+@every_room
+def test_a_step_on_one_scene_in_floats(room):
+    for name, work, inputs, reference, condition in every(room):
+        found = nk.by_one(work, FLOAT, inputs)
+        assert all(type(value) in (float, complex) for value in found), name
+        held(name, found, reference, condition, nk.UNITS["float"])
 
 
 @pytest.mark.parametrize("kind", nk.ARRAYS)
-@every_step
-def test_a_step_on_arrays(name, kind):
-    for inputs, reference, condition in cases(name):
-        found = nk.by_array(built(name)[0], kind, nk.arrays_of(kind, inputs))
-        assert all(nk.is_of(value, kind) for value in found)
-        held(found, reference, condition, nk.UNITS[kind])
+@every_room
+def test_a_step_on_arrays(room, kind):
+    for name, work, inputs, reference, condition in every(room):
+        found = nk.by_array(work, kind, nk.arrays_of(kind, inputs))
+        assert all(nk.is_of(value, kind) for value in found), name
+        held(name, found, reference, condition, nk.UNITS[kind])
 
 
 @pytest.mark.parametrize("kind", nk.ARRAYS)
-@every_step
-def test_a_step_keeps_its_type_beside_what_all_variants_share(name, kind):
-    inputs, reference, condition = cases(name)[0]
-    for number in inputs:
-        one, others = {number: inputs[number]}, {n: v for n, v in inputs.items() if n != number}
-        for shared, moving in ((one, others), (others, one)):
-            work = nk.with_shared(built(name)[0], shared)
-            found = nk.by_array(work, kind, nk.arrays_of(kind, moving))
-            assert all(nk.is_of(value, kind) for value in found)
-            held(found, reference, condition, nk.UNITS[kind])
+@every_room
+def test_a_step_keeps_its_type_beside_what_all_variants_share(room, kind):
+    for name, work, inputs, reference, condition in every(room)[::DRAWS]:
+        for number in inputs:
+            one, others = {number: inputs[number]}, {n: v for n, v in inputs.items() if n != number}
+            for shared, moving in ((one, others), (others, one)):
+                found = nk.by_array(nk.with_shared(work, shared), kind, nk.arrays_of(kind, moving))
+                assert all(nk.is_of(value, kind) for value in found), name
+                held(name, found, reference, condition, nk.UNITS[kind])
 
 
-@every_step
-def test_a_step_in_emitted_source(name):
-    for inputs, reference, condition in cases(name):
-        found = nk.by_source(built(name)[0], nk.arrays_of("float64", inputs))
-        held(found, reference, condition, nk.UNITS["float64"])
+@every_room
+def test_a_step_in_emitted_source(room):
+    for name, work, inputs, reference, condition in every(room):
+        found = nk.by_source(work, nk.arrays_of("float64", inputs))
+        held(name, found, reference, condition, nk.UNITS["float64"])
 
 
 @pytest.mark.parametrize("digits", nk.DIGITS)
-@every_step
-def test_a_step_in_decimals_never_asks_for_numpy(name, digits, monkeypatch):
-    work, known = built(name)[0], cases(name)
+@every_room
+def test_a_step_in_decimals_never_asks_for_numpy(room, digits, monkeypatch):
+    known = every(room)
     monkeypatch.setitem(__import__("sys").modules, "numpy", None)
-    for inputs, reference, condition in known:
+    for name, work, inputs, reference, condition in known:
         found = nk.by_one(work, decimal_kind(digits), inputs)
         for value, true, moved in zip(found, reference, condition, strict=True):
             allowed = 10.0**-digits * (float(abs(true)) + moved)
-            assert float(abs(value - true)) <= allowed
+            assert float(abs(value - true)) <= allowed, name
 
 
 @pytest.mark.parametrize("bits", nk.BITS)
-@every_step
-def test_a_step_in_balls_contains_the_value_and_is_narrow(name, bits, monkeypatch):
+@every_room
+def test_a_step_in_balls_contains_the_value_and_is_narrow(room, bits, monkeypatch):
     from graphkin.numbers.kinds import ball_kind
 
-    work, known = built(name)[0], cases(name)
+    known = every(room)
     monkeypatch.setitem(__import__("sys").modules, "numpy", None)
-    for inputs, reference, condition in known:
-        kind = ball_kind(bits)
+    kind = ball_kind(bits)
+    for name, work, inputs, reference, condition in known:
         found = nk.by_one(work, kind, inputs)
         with kind.working():
             for value, true, moved in zip(found, reference, condition, strict=True):
                 ball = nk.as_ball(value)
-                assert nk.contains(ball, true)
-                assert nk.width(ball) <= NARROW * 2.0**-bits * (float(abs(true)) + moved)
+                assert nk.contains(ball, true), name
+                assert nk.width(ball) <= NARROW * 2.0**-bits * (float(abs(true)) + moved), name

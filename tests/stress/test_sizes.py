@@ -26,7 +26,7 @@ from tests.stress.cases import (
 )
 
 KINDS: tuple[Case, ...] = (FourBar(), SliderCrank(), Lever(), DrivenSlide())
-ANGLES = ["0", "60", "90", "180", "270", "-45.5"]
+ANGLES = ["0", "60", "180", "-45.5"]
 
 
 def sized(case: Case, factor: Fraction, speed: Fraction) -> Case:
@@ -44,10 +44,10 @@ def ten(power: int) -> Fraction:
 
 
 @pytest.mark.parametrize("case", KINDS, ids=lambda case: type(case).__name__)
-@pytest.mark.parametrize("size", [-29, -20, -7, 0, 7, 20, 29])
+@pytest.mark.parametrize("size", [-29, -7, 7, 29])
 def test_no_size_and_no_speed_is_too_small_or_too_large(case, size):
     """Lengths of 1e-7 m give what lengths of 1 m give; no tolerance is a length."""
-    for speed in (-29, -9, 0, 9, 29):
+    for speed in (-29, 0, 29):
         here = sized(case, ten(size), ten(speed))
         solution = held(here)
         assert here.mechanism().witness(solution).agrees
@@ -62,7 +62,7 @@ def test_tiny_and_huge_mechanisms_go_through_all_the_commands(case, size, tmp_pa
 
 
 @pytest.mark.parametrize("case", [FourBar(), SliderCrank()], ids=lambda case: type(case).__name__)
-@pytest.mark.parametrize("speed", ["1/10**9", "10**9", "0"])
+@pytest.mark.parametrize("speed", ["1/10**9", "0"])
 def test_slow_and_fast_drivers_go_through_all_the_commands(case, speed, tmp_path):
     said = commanded(replace(case, speed=speed), tmp_path, DRAWN)
     assert set(statuses(said).values()) == {0}, {k: v.stderr for k, v in said.items()}

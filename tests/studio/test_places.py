@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import tomllib
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -16,13 +15,14 @@ from graphkin.studio.problem_places import LINE, LONE, MarkedProblem, marked
 from graphkin.studio.toml_spans import Path as Keys
 from graphkin.studio.toml_spans import spans, values
 from graphkin.text.errors import GraphkinError, Problem, SceneError
+from tests.chosen import CHOSEN, FOLDER
 from tests.scene.conftest import DATA
 from tests.scene.test_problems import CASES, PLANETS, SAID, SEVERAL
 
 PLANET = (DATA / "planet.toml").read_text(encoding="utf-8")
 PUMP = scene_files.find("pump").read_text(encoding="utf-8")
 SCENES = [
-    *sorted((Path(__file__).resolve().parents[2] / "examples" / "scenes").glob("*.toml")),
+    *(FOLDER / f"{name}.toml" for name in CHOSEN),
     *(scene_files.find(name) for name in scene_files.names()),
 ]
 HEADED = ("links.2", "links.5", "drivers[0]", "drivers")

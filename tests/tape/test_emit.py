@@ -113,9 +113,7 @@ def assert_same(ours, plain, steps) -> None:
 
 
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize(
-    "name", ["pump", "pump-collinear", "six-bar", "engine", "crank-rocker", "offset-slider-crank"]
-)
+@pytest.mark.parametrize("name", ["pump", "six-bar", "engine"])
 def test_emitted_source_gives_the_values_of_the_batch_run(tmp_path, name, way):
     mechanism, arrays = case(tmp_path, name)
     assert_same(*both(mechanism, arrays, way=way), mechanism.program.steps)

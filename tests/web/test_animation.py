@@ -29,10 +29,7 @@ SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 NAMES = (
     "pump",
     "slotted-lever",
-    "oldham",
-    "trammel",
     "gears-ring",
-    "roller",
     "five-bar",
     "four-bar-change-point",
     "stephenson-3-crank",
@@ -141,8 +138,7 @@ def closely(name: str, *, beside: bool) -> Stage:
     return stage(motion(cycle(mechanism), words("en")), words("en"), beside=beside)
 
 
-@pytest.mark.parametrize("beside", [False, True])
-@pytest.mark.parametrize("name", ["pump", "slotted-lever", "rapid-return"])
+@pytest.mark.parametrize(("name", "beside"), [("pump", False), ("slotted-lever", True)])
 def test_plans_fill_a_third_of_their_panes_at_the_median(name, beside):
     """A scale for the peaks alone would make a dot of what is seen most of the time."""
     set_up = closely(name, beside=beside)
@@ -336,7 +332,7 @@ def test_the_first_picture_is_the_drawn_position():
 
 
 def test_the_command_writes_both(run: Run, tmp_path: Path):  # noqa: F811
-    args = ("cycle", "slotted-lever", "-o", tmp_path, "--format", "gif,html", "--steps", "24")
+    args = ("cycle", "slotted-lever", "-o", tmp_path, "--format", "gif,html", "--steps", "8")
     result = run(*args)
     assert result.exit_code == 0, result.output
     names = {path.name for path in tmp_path.iterdir()}
@@ -385,4 +381,4 @@ def test_a_page_says_when_it_cannot_move_one_of_several_drivers(run: Run, tmp_pa
     result = run(*args, "--format", "html")
     assert result.exit_code == 2
     assert "--format gif" in result.stderr
-    assert run(*args, "--format", "gif", "--steps", "24").exit_code == 0
+    assert run(*args, "--format", "gif", "--steps", "8").exit_code == 0

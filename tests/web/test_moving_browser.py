@@ -23,14 +23,10 @@ from tests.web.test_moving import LIMIT, compared, fields, page_of
 SCENES = (
     "pump",
     "slotted-lever",
-    "offset-slider-crank",
-    "oldham",
     "gears-ring",
     "gears-rack",
     "oscillating-slide",
-    "four-bar-crank-rocker",
     "rapid-return",
-    "stephenson-2-ternary",
     "trammel",
     "excavator-relative",
 )

@@ -434,8 +434,8 @@ def test_a_script_that_would_end_early_is_refused(bad):
 # --- what it says --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", sorted(SCENES))
-def test_every_scene_has_a_page_of_moderate_size(name):
+@pytest.mark.parametrize("name", FEW)
+def test_a_page_is_of_moderate_size(name):
     page = page_of(name)
     assert len(page) < ALLOWED
     assert page.count('class="sheet"') == len(sheets_of(name))

@@ -1,0 +1,36 @@
+"""The scenes and students that the tests of pages look at: a few that have it all, or every one.
+
+``EVERY=1 pytest`` looks at every one, as a change of layout wants.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parents[1] / "examples" / "scenes"
+SCENES = tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+"""The example scenes."""
+EVERY = os.environ.get("EVERY") == "1"
+CHOSEN = (
+    SCENES
+    if EVERY
+    else (
+        "centrodes-roller",
+        "crank-slot",
+        "excavator-relative",
+        "gears-pair",
+        "gears-rack",
+        "instant-centres",
+        "jumper",
+        "mobility-cam",
+        "rod-and-wheel",
+        "roller-plates",
+        "six-bar",
+        "stephenson-2-ternary",
+        "trammel",
+    )
+)
+"""Those of them that have every action, driver and question that any has."""
+STUDENTS = range(1, 31) if EVERY else (1, 7, 16, 29)
+"""The variants of a lab."""
