@@ -91,6 +91,6 @@ def traits(name: str) -> set[object]:
     return actions | drivers | {key for key, asked in scene.ask._asdict().items() if asked}
 
 
-def test_the_chosen_scenes_have_all_that_any_scene_has() -> None:
-    every, chosen = (set().union(*map(traits, names)) for names in (FILES, CHOSEN))
+def test_the_pump_and_the_chosen_scenes_have_all_that_any_scene_has() -> None:
+    every, chosen = (set().union(*map(traits, names)) for names in (FILES, ("pump", *CHOSEN)))
     assert every == chosen
