@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -10,6 +11,13 @@ from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.construction.core import vocabulary
 from graphkin.construction.core.program import Given, Part, Plane, Program, Step
 from graphkin.construction.core.run import run
+from graphkin.construction.normal_component.normal_component import (
+    NormalComponent,
+    bar_line,
+    normal,
+    normal_by_hand,
+    turn_over,
+)
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
 from graphkin.numbers.arithmetic import FLOAT
@@ -56,19 +64,24 @@ def triangle(ratio: float, bar: float = 0.1) -> Original:
     image = given(Plane.VELOCITIES)
     tip = draw(vocabulary.set_velocity, pin, pole, image, seconds)
     square = draw(vocabulary.square_at, tip, pivot)
-    line = draw(vocabulary.bar_line, pivot, pin)
+    line = draw(bar_line, pivot, pin)
     foot = draw(vocabulary.meet, square, line)
-    end = draw(vocabulary.turn_over, foot, pin)
-    hand = draw(vocabulary.normal_by_hand, pin, end, seconds, plane=Plane.NUMBERS)
+    end = draw(turn_over, foot, pin)
+    hand = draw(normal_by_hand, pin, end, seconds, plane=Plane.NUMBERS)
     found = put(
         Step(
-            vocabulary.normal,
+            normal,
             (pivot, pin, pole, image),
             Part.NORMAL,
             Plane.NUMBERS,
             by_hand=hand,
         )
     )
+    corners = {"tip": tip, "edge": square, "line": line, "cut": foot, "end": end}
+    ends = {"pivot": pivot, "pin": pin, "pivot_image": pole, "pin_image": image}
+    made = NormalComponent(index="BA", p="A", q="B", v="BA", **ends, **corners)
+    for role, number in made.given():
+        steps[number] = replace(steps[number], of=made, role=role)
     program = Program(tuple(steps), {TRIANGLE: found})
     values = {pin: complex(bar), image: 1j * ratio * bar}
     trace = run(program, range(len(steps)), {}, FLOAT, overrides=values)

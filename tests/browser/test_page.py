@@ -23,7 +23,8 @@ from graphkin.web.protocol import telling
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import step_page, task_page
 from tests.browser.opening import Opened, barred
-from tests.documents.sheet_tools import SCENES, mechanism_named
+from tests.chosen import SCENES
+from tests.documents.sheet_tools import mechanism_named
 from tests.web.test_page import NASTY
 
 DESKTOP = {"viewport": {"width": 1440, "height": 900}}

@@ -9,7 +9,8 @@ import pytest
 
 from graphkin.construction.core.pen import letter
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Plane
+from graphkin.construction.coriolis.coriolis import CoriolisComponent
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism, point_of
 from graphkin.numbers.plane import Vector
@@ -213,7 +214,7 @@ def test_the_point_of_the_frame_under_another_stands_still_and_has_no_arrow_in_t
 def test_corners_of_coriolis_triangles_bear_letters_that_no_point_bears(name, letters):
     """A point E has its images e and e′ in the plans."""
     mechanism = mechanism_named(name, 7 if name in LABS else None)
-    steps = [s for s in mechanism.program.steps if s.part is Part.NORMAL and "k" in s.says]
+    steps = [s for s in mechanism.program.steps if isinstance(s.of, CoriolisComponent)]
     found = {s.name[0] for s in steps if s.name and s.name[0] not in "ac"}
     points = {name[0] for name in mechanism.scene.frame.points}
     points |= {name[0] for link in mechanism.scene.links.values() for name in link.points}

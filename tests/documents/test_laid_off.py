@@ -43,7 +43,11 @@ def laid_off(drawing):
             yield component.symbol, drawn_between(drawing, step.args[0], number, step.plane)
         elif step.action and step.action.key in LAID and number not in drawing.tags:
             size = drawn_between(drawing, step.args[0], number, step.plane)
-            yield fields_of(drawing, step, step.says)["vector"], size
+            made = construction(step)
+            if isinstance(made, LaidOff):
+                yield made.component.symbol, size
+            else:
+                yield fields_of(drawing, step, step.says)["vector"], size
 
 
 @pytest.mark.parametrize("which", WHICH, ids=str)

@@ -23,9 +23,9 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from tests.chosen import CHOSEN
+from tests.chosen import CHOSEN, SCENES
 from tests.documents.made_up import HEAD
-from tests.documents.sheet_tools import SCENES, drawings, drawn, kinds_of, named
+from tests.documents.sheet_tools import drawings, drawn, kinds_of, named
 
 LABS = [(lab, n) for lab in ("pump", "slotted-lever") for n in (7, 20)]
 ALL = [*((name, None) for name in CHOSEN), *LABS]

@@ -16,7 +16,8 @@ from graphkin.text import LANGUAGES, words
 from graphkin.web.legend import meanings
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.step_page import step_page
-from tests.documents.sheet_tools import SCENES, mechanism_named
+from tests.chosen import SCENES
+from tests.documents.sheet_tools import mechanism_named
 
 FEW = ("pump", "slotted-lever", "oscillating-slide", "gears-planet", "oldham", "gears-ring")
 

@@ -28,7 +28,8 @@ from graphkin.web.protocol import PageProtocol, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.step_page import step_page, task_page
 from graphkin.writers.svg import number
-from tests.documents.sheet_tools import SCENES, mechanism_named
+from tests.chosen import SCENES
+from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "offset-slider-crank", "slotted-lever")
 FEW = (*LABS, "oldham", "gears-ring", "rapid-return", "centrodes-cardan", "eight-link-1")
