@@ -89,9 +89,9 @@ def moved(before: list[Mark], after: list[Mark]) -> bool:
     )
 
 
-FOLLOWED = ("crank-slot", "oldham", "rapid-return", "stephenson-2-binary", "gears-planet", "roller")
+FOLLOWED = ("crank-slot", "oldham", "rapid-return", "gears-planet")
 """Example scenes of which every step is followed."""
-CASES = [(lab, n, kind) for lab in SHIPPED for n in (9, 22) for kind in KINDS]
+CASES = [(lab, n, kind) for lab in SHIPPED for n in (9,) for kind in KINDS]
 CASES += [(name, None, kind) for name in OTHERS for kind in KINDS if name != "parallelogram"]
 MORE = [(name, None, kind) for name in FOLLOWED for kind in KINDS]
 

@@ -11,7 +11,7 @@ from graphkin.loops.witness.examine import examine
 from graphkin.structure.groups import Higher
 from tests.chance.checking import case
 
-SEEDS = (9, 16, 52, 78, 302, 434, 690, 1263)
+SEEDS = (9, 16, 78, 302, 690)
 """Plates, wheels on long tracks, drivers within, windows narrower than a degree."""
 
 

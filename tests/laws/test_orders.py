@@ -9,11 +9,12 @@ import pytest
 from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
+from tests.chosen import CHOSEN
 from tests.examples.scenes import FILES
 from tests.orders import reordered
 
 HERE = Path(__file__).parents[1]
-SCENES = FILES | {
+SCENES = {name: FILES[name] for name in ("pump", *CHOSEN)} | {
     path.stem: path
     for folder in (HERE / "scenes", HERE / "scene" / "data")
     for path in sorted(folder.glob("*.toml"))

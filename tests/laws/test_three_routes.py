@@ -1,4 +1,4 @@
-"""A hundred mechanisms made at random: construction, vector loops and exact differences agree."""
+"""Mechanisms made at random: construction, vector loops and exact differences agree."""
 
 import pytest
 
@@ -22,7 +22,7 @@ SEEN = {
 """Seeds of a longer run at which a route once erred, and what is special there."""
 
 
-@pytest.mark.parametrize("seed", [*range(106), *sorted(SEEN.keys() - set(range(106)))])
+@pytest.mark.parametrize("seed", [*range(60), *sorted(SEEN.keys() - set(range(60)))])
 def test_three_routes_agree(seed):
     made = case(seed)
     if made is None:

@@ -6,6 +6,8 @@ import mpmath
 import numpy as np
 import pytest
 
+from tests.chosen import STUDENTS
+
 CASES = {
     "pump": {
         "v": -3.826845090,
@@ -67,7 +69,7 @@ def pump_by_circles(q, collinear):
 
 
 @pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("n", range(1, 31))
+@pytest.mark.parametrize("n", STUDENTS)
 def test_every_student_number_against_central_differences(name, n, sheet, solved):
     with mpmath.workdps(40):
         omega = (300 + 10 * n) * mpmath.pi / 30
