@@ -39,7 +39,7 @@ from tests.classroom.grading.students import marker_of
 ORDINARY = HONEST[1]
 
 
-@pytest.mark.parametrize(("place", "kind"), list(enumerate(HONEST))[::2], ids=lambda k: str(k))
+@pytest.mark.parametrize(("place", "kind"), list(enumerate(HONEST))[::2], ids=str)
 def test_nobody_of_an_honest_class_is_named(place, kind):
     """Careful, weak and sloppy ones, each with one of three labs in turn."""
     lab = LABS[place % len(LABS)]
