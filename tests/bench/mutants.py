@@ -1,0 +1,142 @@
+"""Which small mistakes no test finds: ``python -m tests.bench.mutants 12 --seed 1``.
+
+A mutant is the program with one sign, operator, comparison, constant or pair of arguments wrong.
+Each is tried in a copy by the tests of its room and by those of what is kept of all outputs, until
+the first that fails. ``--only PATH…`` takes the mutants from some modules. What survives is printed
+with its line; a survivor wants a test, or is equivalent.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import random
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[2]
+ENDLESS = 900
+"""Seconds after which a mutant counts as found: it does not come to an end."""
+SWAPPED: dict[type[ast.AST], type[ast.AST]] = {
+    ast.Add: ast.Sub,
+    ast.Sub: ast.Add,
+    ast.Mult: ast.Div,
+    ast.Div: ast.Mult,
+    ast.Lt: ast.LtE,
+    ast.LtE: ast.Lt,
+    ast.Gt: ast.GtE,
+    ast.GtE: ast.Gt,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+    ast.Is: ast.IsNot,
+    ast.IsNot: ast.Is,
+    ast.In: ast.NotIn,
+    ast.NotIn: ast.In,
+    ast.And: ast.Or,
+    ast.Or: ast.And,
+}
+
+
+class Mutant(NamedTuple):
+    """A module with one expression of it written otherwise."""
+
+    path: Path
+    line: int
+    before: str
+    after: str
+    source: str
+
+
+def otherwise(node: ast.AST) -> ast.expr | None:
+    """An expression with one mistake in it; None where there is none to make."""
+    match node:
+        case ast.BinOp(left, op, right) if type(op) in SWAPPED:
+            return ast.BinOp(left, SWAPPED[type(op)](), right)
+        case ast.Compare(left, [op], others) if type(op) in SWAPPED:
+            return ast.Compare(left, [SWAPPED[type(op)]()], others)
+        case ast.BoolOp(op, values):
+            return ast.BoolOp(SWAPPED[type(op)](), values)
+        case ast.UnaryOp(ast.USub() | ast.Not(), operand):
+            return operand
+        case ast.Constant(bool(value)):
+            return ast.Constant(not value)
+        case ast.Constant(int(value)):
+            return ast.Constant(value + 1)
+        case ast.Constant(float(value)):
+            return ast.Constant(value * 1.01 if value else 1.0)
+        case ast.Call(func, [one, other, *rest], keywords) if ast.dump(one) != ast.dump(other):
+            return ast.Call(func, [other, one, *rest], keywords)
+    return None
+
+
+def annotations(tree: ast.AST) -> set[ast.AST]:
+    """What stands in annotations, which nothing runs."""
+    roots = [
+        getattr(node, name, None) for node in ast.walk(tree) for name in ("annotation", "returns")
+    ]
+    return {inner for root in roots if root is not None for inner in ast.walk(root)}
+
+
+def mutants(path: Path) -> Iterator[Mutant]:
+    """Every mutant of a module whose mistake stands on one line."""
+    source = path.read_text(encoding="utf-8")
+    tree, lines = ast.parse(source), source.splitlines(keepends=True)
+    still = annotations(tree)
+    for node in ast.walk(tree):
+        made = None if node in still else otherwise(node)
+        if made is None or node.lineno != node.end_lineno:
+            continue
+        line = lines[node.lineno - 1].encode()
+        before = line[node.col_offset : node.end_col_offset].decode()
+        after = f"({ast.unparse(made)})"
+        changed = line[: node.col_offset] + after.encode() + line[node.end_col_offset :]
+        text = [*lines[: node.lineno - 1], changed.decode(), *lines[node.lineno :]]
+        try:
+            ast.parse("".join(text))
+        except SyntaxError:
+            continue  # within an f-string a node's place may be that of the whole
+        yield Mutant(path.relative_to(ROOT), node.lineno, before, after, "".join(text))
+
+
+def survives(mutant: Mutant) -> bool:
+    """Whether no test of the mutant's room, and no kept output, changes."""
+    with TemporaryDirectory() as name:
+        copy = Path(name) / "copy"
+        listed = subprocess.check_output(["git", "ls-files", "-z"], cwd=ROOT, text=True)
+        for path in filter(None, listed.split("\0")):
+            (copy / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / path, copy / path)
+        (copy / mutant.path).write_text(mutant.source, encoding="utf-8")
+        room = Path("tests") / mutant.path.parts[1]
+        rooms = [str(room)] if (copy / room).is_dir() else []
+        command = [sys.executable, "-m", "pytest", "-q", "-x", "tests/golden", *rooms]
+        try:
+            ran = subprocess.run(
+                command, cwd=copy, capture_output=True, timeout=ENDLESS, check=False
+            )
+        except subprocess.TimeoutExpired:
+            return False
+        return ran.returncode == 0
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    """Try some mutants, and print those that survive."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("count", type=int, nargs="?", default=12)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--only", nargs="+", type=Path, metavar="PATH")
+    told = parser.parse_args(words)
+    paths = told.only or sorted((ROOT / "graphkin").rglob("*.py"))
+    every = [mutant for path in paths for mutant in mutants(path.resolve())]
+    for mutant in random.Random(told.seed).sample(every, min(told.count, len(every))):
+        fate = "SURVIVES" if survives(mutant) else "found"
+        print(f"{fate:8} {mutant.path}:{mutant.line}: {mutant.before} → {mutant.after}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
