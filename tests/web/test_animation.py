@@ -23,6 +23,7 @@ from graphkin.web.frames import GROWN, FrameSequence, motion
 from graphkin.web.gif import PAUSE, gif
 from graphkin.web.moving_labels import crossed, obstacles
 from graphkin.web.panes import AIR, AREA, HELD, PICTURE, aside, leaves, room_in, seated
+from graphkin.web.player import player_page
 from tests.cli.conftest import Run, run  # noqa: F401
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -188,6 +189,16 @@ def test_a_plan_is_moved_aside_no_more_than_needed_and_without_a_jump(low, size,
     assert (
         abs(aside(low, low + grown, low + part * grown, start, end) - way) <= 2 * abs(more) + SLACK
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "ends"),
+    [("pump", "°", ("−32.62°", "186.9°")), ("trammel", " mm", ("−220.0 mm", "220.0 mm"))],
+)
+def test_the_driver_is_told_in_its_own_unit(name, unit, ends):
+    page = player_page(shown(name), words("en"))
+    assert f'"unit":"{unit}"' in page
+    assert f"The mechanism reaches from {ends[0]} to {ends[1]};" in page
 
 
 STRONG = ("link", "guide", "slider", "block", "guide-bar")
