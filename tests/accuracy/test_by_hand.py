@@ -17,7 +17,7 @@ from graphkin.drawing.scale import Scales
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Line, line_meets_line
 from tests.accuracy.originals import TRIANGLE, pump, scene, triangle
-from tests.chosen import CHOSEN
+from tests.chosen import CHOSEN, FOLDER
 from tests.mechanisms import mechanism_of
 
 FOUR_BAR = """
@@ -192,7 +192,7 @@ def test_what_is_foretold_at_a_stated_ka_is_drawn():
 @pytest.mark.parametrize("name", ["gears-rack", "roller"])
 def test_the_angle_of_a_wheel_is_no_answer_of_a_drawing(name):
     """Everything that can be read off is a motion, a centre or a pole; the program holds more."""
-    mechanism = load(SCENES / f"{name}.toml")
+    mechanism = load(FOLDER / f"{name}.toml")
     exact = original(mechanism, scales(mechanism), mechanism.program.answers)
     read = {answer.target[0] for answer in answers(exact)}
     assert "turned" in {quantity for quantity, _ in exact.targets}
