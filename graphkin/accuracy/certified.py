@@ -233,7 +233,7 @@ def decimals(ball: Any, digits: int) -> Decimals:
     if low == high == 0:
         return Decimals("0")
     if low <= 0 <= high:
-        return Decimals(None, f"nought within ±{next_power(max(-low, high))}: not decided")
+        return Decimals(None, f"zero within ±{next_power(max(-low, high))}: not decided")
     first, second = rounded(low, digits), rounded(high, digits)
     if first == second:
         return Decimals(written(*first, digits))

@@ -140,7 +140,7 @@ def branch_hint(raw: object) -> str:
     ends = words[-1].split("-")
     for end in ends if len(words) == 3 and len(ends) == 2 else ():
         if re.fullmatch(r"0\w*", end) and is_name(f"O{end[1:]}"):
-            return f"{end} begins with a nought: did you mean O{end[1:]}, with the letter?"
+            return f"{end} begins with a zero: did you mean O{end[1:]}, with the letter?"
     close = nearest(words[0], (*SIDES, *WAYS, "closure"))
     return close if words[0] not in (*SIDES, *WAYS, "closure") else ""
 

@@ -78,7 +78,7 @@ def test_a_line_has_a_degree_for_each_millimetre_of_the_point():
     [({"point": -1.0}, "point"), ({"line": float("nan")}, "line"), ({"grid": -0.1}, "grid")],
 )
 def test_a_pencil_that_cannot_be_is_refused_by_name(wrong, name):
-    with pytest.raises(SceneError, match=f"pencil.{name}: .* a number, nought or more"):
+    with pytest.raises(SceneError, match=f"pencil.{name}: .* a number, zero or more"):
         Pencil(**wrong)
 
 

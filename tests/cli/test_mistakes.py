@@ -301,7 +301,7 @@ CASES = {
     "a nought for a letter": (
         ROCKER,
         [('"left of A-O2"', '"left of A-02"')],
-        "02 begins with a nought: did you mean O2, with the letter?",
+        "02 begins with a zero: did you mean O2, with the letter?",
     ),
     "a side misspelt": (ROCKER, [('"left of', '"lef of')], "did you mean left?"),
     "a way misspelt": (ROCKER, [('"forward"', '"forwards"')], "did you mean forward?"),

@@ -108,7 +108,7 @@ def test_a_centre_on_the_line_of_parallel_velocities_is_found_by_their_tips():
     text = next(line for line in said("roller-plates") if "I3" in line)
     assert text.startswith("the velocities of O and A are parallel")
     assert any(
-        line == "I1, the instantaneous centre of link 1, is C, whose velocity is nought"
+        line == "I1, the instantaneous centre of link 1, is C, whose velocity is zero"
         for line in said("roller")
     )
 
@@ -174,8 +174,8 @@ def test_a_wheel_that_rolls_on_a_rack_that_turns_is_told_by_both_their_turnings(
     ("name", "kind", "line"),
     [
         ("roller-plates", "acceleration", "l′ falls on o′, for v1 is constant"),
-        ("mobility-five-bar", "velocity", "d falls on o, for ω4 is nought"),
-        ("mobility-five-bar", "acceleration", "d′ falls on o′, for ω4 is nought"),
+        ("mobility-five-bar", "velocity", "d falls on o, because ω4 is zero"),
+        ("mobility-five-bar", "acceleration", "d′ falls on o′, because ω4 is zero"),
     ],
 )
 def test_why_a_point_falls_on_the_pole_is_told(name, kind, line):

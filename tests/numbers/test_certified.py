@@ -183,7 +183,7 @@ def test_every_scene_prints_and_tells_what_it_does_not_print(name):
                 if plain.get(path) is not None:
                     assert float(text) == pytest.approx(plain[path], rel=1e-8, abs=1e-9)
             elif plain.get(path) is not None:
-                assert told[path].startswith("nought within ±1e-")
+                assert told[path].startswith("zero within ±1e-")
                 assert abs(plain[path]) < 1e-9
     assert all(words.endswith("not decided") for words in told.values())
     assert certified_text(mechanism.scene, found, None).count("not decided") >= len(told)
@@ -229,12 +229,12 @@ def test_a_ball_prints_where_both_ends_round_alike(middle, radius, digits, text)
 @pytest.mark.parametrize(
     ("middle", "radius", "digits", "doubt"),
     [
-        ("0", "1e-61", 30, "nought within ±1e-60: not decided"),
-        ("1e-70", "9e-61", 30, "nought within ±1e-60: not decided"),
+        ("0", "1e-61", 30, "zero within ±1e-60: not decided"),
+        ("1e-70", "9e-61", 30, "zero within ±1e-60: not decided"),
         ("1.2345", "0.0006", 3, "known within ±1e-3 only: not decided"),
         ("1.235", "1e-50", 3, "known within ±1e-49 only: not decided"),
         ("1", "1e-30", 40, "known within ±1e-29 only: not decided"),
-        ("3", "4", 3, "nought within ±1e1: not decided"),
+        ("3", "4", 3, "zero within ±1e1: not decided"),
     ],
 )
 def test_a_ball_whose_ends_round_apart_says_so(middle, radius, digits, doubt):
@@ -353,7 +353,7 @@ def test_what_is_not_decided_is_told_and_leaves_with_one(run):
     result = run("solve", SCENES / "rod-and-wheel.toml", "--digits", 30)
     assert result.exit_code == 1
     assert "graphkin: not certified: slides.2.acceleration\n" in result.stderr
-    assert "nought within ±1e-" in result.stdout
+    assert "zero within ±1e-" in result.stdout
 
 
 def test_what_is_not_asked_need_not_be_decided(run):

@@ -72,7 +72,7 @@ def test_syntax_errors_name_their_line() -> None:
         ("angle = “30*k”", 'use straight quotes: "'),
         ("angle = „30*k“", 'use straight quotes: "'),
         ("length = 37,5", "numbers are written with a point: 37.5"),
-        ("length = 012", "a number has no nought in front: 12"),
+        ("length = 012", "a number has no zero in front: 12"),
         ("length = 1 2", PARTS),
         ("length = ", f"the value is missing: {VALUE}"),
         ("length = .5", "a point has digits on both sides: 40.0, 0.5"),

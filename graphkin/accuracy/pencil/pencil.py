@@ -31,7 +31,7 @@ class Pencil:
 
     def __post_init__(self) -> None:
         problems = [
-            Problem(f"pencil.{name}", f"{value:g} {unit}", "a number, nought or more")
+            Problem(f"pencil.{name}", f"{value:g} {unit}", "a number, zero or more")
             for name, value, unit in (
                 ("point", self.point, "mm"),
                 ("line", self.degrees, "degrees"),

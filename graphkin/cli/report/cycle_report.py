@@ -200,7 +200,7 @@ def loop_words(cycle: Cycle, loop: Loop) -> list[str]:
     lines += verdict(loop)
     lines.append(reach_words(sweep, loop))
     if loop.more:
-        lines.append("the groups that hang on this loop may narrow the range further")
+        lines.append("the groups that depend on this loop may narrow the range further")
     return lines
 
 
