@@ -184,7 +184,9 @@ def test_what_is_only_rounding_is_nought_even_where_nothing_else_is_there():
     assert cells_of(first)["ω2"] == cells_of(then)["ε2"] == ("0", "")
     assert {cells[1:] for name, cells in cells_of(then).items() if name != "ε2"} == {("0.00", "0")}
     assert not [line for line in lines_of(found) if "·10" in line]
-    assert plain(sentences(then)[-1].markup).startswith("nothing is set on the mechanism, for all")
+    assert plain(sentences(then)[-1].markup).startswith(
+        "nothing is set on the mechanism, because all"
+    )
 
 
 @pytest.mark.parametrize("which", WHICH, ids=named)

@@ -10,6 +10,7 @@ import pytest
 import shapely
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane
 from graphkin.construction.result_tables import tables
 from graphkin.documents.sheet_documents import hand_out
@@ -144,8 +145,8 @@ def names_of(page: Drawn, mark: Mark) -> set[str]:
     """The markups that a mark may be called by."""
     names = {symbol(mark.name), symbol(mark.name.partition("_")[0])}
     if mark.step is not None and is_vector(mark):
-        said = page.drawing.trace.program.steps[mark.step].says
-        names = {symbol(said["symbol"])} if "symbol" in said else {symbol(mark.name)}
+        vector = plan_vector(page.drawing.trace.program.steps[mark.step])
+        names = {symbol(vector.symbol if vector else mark.name)}
     return names
 
 

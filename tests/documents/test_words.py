@@ -549,8 +549,12 @@ def fields(sentence: str) -> set[str]:
 
 
 def literals() -> set[str]:
-    """Every string that stands in the code by itself."""
+    """Every string that stands in the code by itself, and those that a template puts together."""
     found = set()
+    for path in CODE.rglob("*.html"):
+        quoted = set(re.findall(r'"([\w. -]+)"', path.read_text(encoding="utf-8")))
+        begun = [text for text in quoted if text.endswith(".")]
+        found |= quoted | {first + last for first in begun for last in quoted}
     for path in CODE.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, str):

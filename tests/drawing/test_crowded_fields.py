@@ -101,7 +101,7 @@ def test_a_letter_without_room_is_refused():
 def test_a_coriolis_component_of_nought_is_said_and_not_drawn(name):
     """At 270° the block stands on its guide, or the slot is square to the line of the shafts."""
     _, drawing = drawings(name, angle=270)
-    assert "= 0, for" in told(drawing)
+    assert "= 0, because" in told(drawing)
     assert len(hand_out(mechanism(name, angle=270))) == 3
 
 

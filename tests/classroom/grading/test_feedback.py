@@ -91,7 +91,7 @@ def test_what_is_somewhat_over_is_told_beside_what_is_allowed():
     [
         (137.0, "140 times the expected value"),
         (1 / 3.3, "3.3 times smaller than the expected value"),
-        (0.0, "nought, which the expected value is not"),
+        (0.0, "zero, which the expected value is not"),
         (1e-320, "times smaller"),
         (1e300, "times the expected value"),
     ],
