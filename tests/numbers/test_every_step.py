@@ -6,43 +6,25 @@ import inspect
 import random
 from fractions import Fraction
 from functools import cache
+from importlib import import_module
+from pkgutil import walk_packages
 from typing import Any
 
 import pytest
 
-from graphkin.construction.centres import centre_actions
-from graphkin.construction.core import vocabulary
+from graphkin import construction
 from graphkin.construction.core.program import Given, Part, Plane, Program, Step
 from graphkin.construction.core.vocabulary import Action
-from graphkin.construction.coriolis import coriolis
-from graphkin.construction.guides import guide_actions
-from graphkin.construction.higher_class import trial_actions
-from graphkin.construction.links import counted_turn
-from graphkin.construction.normal_component import normal_component
-from graphkin.construction.rolling import (
-    contact_points,
-    rolling_normal,
-    wheel_actions,
-)
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.kinds import decimal_kind
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from tests.numbers import number_kinds as nk
 
+ROOM = "graphkin.construction."
+MODULES = [import_module(found.name) for found in walk_packages(construction.__path__, ROOM)]
 STEPS = {
     f"{room.__name__.rpartition('.')[2]}.{name}": value
-    for room in (
-        vocabulary,
-        normal_component,
-        coriolis,
-        guide_actions,
-        wheel_actions,
-        contact_points,
-        counted_turn,
-        rolling_normal,
-        centre_actions,
-        trial_actions,
-    )
+    for room in MODULES
     for name, value in vars(room).items()
     if isinstance(value, Action) and value.value.__module__ == room.__name__
 }
