@@ -10,6 +10,7 @@ import ast
 import re
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
+from threading import Lock
 from typing import NamedTuple, NoReturn
 
 from graphkin.scene.findings import shown, visible
@@ -21,6 +22,9 @@ TIME = "t"
 RESERVED = frozenset((*FUNCTIONS, CONSTANT, TIME))
 """Names that no parameter may have."""
 
+ONE_AT_A_TIME = Lock()
+"""Python's parser is entered by one thread at a time, as requests to the studio come at once: two at
+a time may end with "AST constructor recursion depth mismatch" on Python 3.11.7."""
 LONGEST = 500
 DEEPEST = 60
 WIDEST = 1000
@@ -97,7 +101,8 @@ def parse(text: str) -> Tree:
     refuse_foreign(text)
     flat = " ".join(text.split())
     try:
-        body = ast.parse(flat, mode="eval").body
+        with ONE_AT_A_TIME:
+            body = ast.parse(flat, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise UnreadableError(f"{shown(flat)} is not an expression") from None
     return convert(body, flat, 0)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import random
 import re
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from graphkin.scene.expression import parse
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
 
@@ -93,3 +95,10 @@ def test_an_expression_ends_in_a_value_or_in_one_sentence(time: bool) -> None:
                 numbers = (driver.position, driver.speed, driver.acceleration)
                 assert all(math.isfinite(each.si(scene.values)) for each in numbers), text
     assert min(told, valued) > CASES / 10
+
+
+def test_expressions_are_read_by_many_threads_at_once():
+    """As the requests to the studio come."""
+    text = "+".join(f"({j}*(a-{j}))" for j in range(30))
+    with ThreadPoolExecutor(8) as pool:
+        assert len({repr(tree) for tree in pool.map(parse, [text] * 400)}) == 1
