@@ -23,8 +23,8 @@ RESERVED = frozenset((*FUNCTIONS, CONSTANT, TIME))
 """Names that no parameter may have."""
 
 ONE_AT_A_TIME = Lock()
-"""Python's parser is entered by one thread at a time, as requests to the studio come at once: two at
-a time may end with "AST constructor recursion depth mismatch" on Python 3.11.7."""
+"""Python's parser is entered by one thread at a time, though requests to the studio come at once:
+two may end with "AST constructor recursion depth mismatch" on Python 3.11.7."""
 LONGEST = 500
 DEEPEST = 60
 WIDEST = 1000
