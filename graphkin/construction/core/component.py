@@ -103,10 +103,10 @@ class Component(Construction):
         steps = drawing.trace.program.steps
         own: str = steps[getattr(self, role)].name
         base, count = own.partition("_")[0], 0
-        for number, other in drawing.normals:
+        for _, other in drawing.normals:
             kind = construction(other)
             if other.name.partition("_")[0] == base and kind and not kind.is_hidden(drawing):
-                count += number in drawing.trace.values
+                count += 1
         return base if count == 1 else own
 
     def is_computed(self, scales: Scales | TriangleChoice) -> bool:
