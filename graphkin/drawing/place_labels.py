@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 
@@ -44,7 +44,7 @@ def spots_on(boards: Sequence[FieldContent], more: Sequence[Sequence[Mark]]) -> 
     return [[next(found) for _ in board.labels] for board in boards]
 
 
-@cache
+@lru_cache(maxsize=1)
 def keep_memory() -> None:
     """Keep the memory of arrays for the next ones: handed back, it takes a tenth of a page's time.
 
