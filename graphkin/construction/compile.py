@@ -16,6 +16,7 @@ from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.higher_class import higher, two_trials
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.normal_component import klein
 from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
@@ -50,6 +51,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
     write_turning(pen, shapes)
     write_velocities(pen, shapes, standing)
     write_accelerations(pen, shapes, standing)
+    klein.refuse_unused(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)
     return pen.program()

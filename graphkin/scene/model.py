@@ -262,7 +262,10 @@ class Ask(NamedTuple):
 
 
 class Sheet(NamedTuple):
-    """What the title block and the page say beyond the drawing."""
+    """What the title block and the page say beyond the drawing.
+
+    ``method`` is how normal components are constructed: by right triangles, or Klein's way.
+    """
 
     owner: str = ""
     author: str = ""
@@ -274,6 +277,7 @@ class Sheet(NamedTuple):
     sheets: int = 2
     enlarge: Quantity | None = None
     ka: Quantity | None = None
+    method: str = "triangles"
 
 
 @dataclass(frozen=True, slots=True)

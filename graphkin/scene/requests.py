@@ -22,6 +22,8 @@ CENTRES_ASKED = "centres"
 ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
+METHODS = ("triangles", "klein")
+"""How normal components are constructed."""
 MOST = 500
 
 
@@ -138,6 +140,9 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
     if language not in LANGUAGES:
         hint = nearest(language, LANGUAGES)
         findings.add(table.at("language"), shown(language), listed(LANGUAGES), hint)
+    method = table.text("method", METHODS[0])
+    if method not in METHODS:
+        findings.add(table.at("method"), shown(method), listed(METHODS), nearest(method, METHODS))
     sheets = table.take("sheets")
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
         findings.add(table.at("sheets"), shown(sheets), "1 or 2")
@@ -153,6 +158,7 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         sheets=2 if not isinstance(sheets, int) else sheets,
         enlarge=read_positive(table, measures, "enlarge"),
         ka=read_positive(table, measures, "ka"),
+        method=method,
     )
     table.finish()
     return sheet

@@ -24,6 +24,7 @@ from graphkin.construction.guides.guide_actions import driven_slide
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
+from graphkin.construction.normal_component.klein import crank_of, klein_component
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
@@ -116,8 +117,11 @@ def cross(
     pen: Pen, shapes: LinkShapes, name: str, point: str, sides: list[tuple[Joint, str]]
 ) -> None:
     """The second image of a point from the lines on which two pairs leave it free."""
+    crank = crank_of(pen, sides)
     normals = {
-        pair.point: normal_component(pen, pair.point, name)
+        pair.point: klein_component(pen, shapes, crank, sides, name)
+        if crank
+        else normal_component(pen, pair.point, name)
         for pair, _ in sides
         if isinstance(pair, Pin)
     }

@@ -7,7 +7,7 @@ what the perpendicular cuts off (lab, figure 4).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from string import digits
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -235,8 +235,17 @@ class NormalComponent(Component):
 # --- planning it ---------------------------------------------------------------------------------
 
 
-def normal_component(pen: Pen, pivot: str, pin: str) -> int:
-    """The normal component of a pin about a pivot; by hand the right triangle on the mechanism."""
+def normal_component(
+    pen: Pen,
+    pivot: str,
+    pin: str,
+    kind: Callable[..., NormalComponent] = NormalComponent,
+    drawn: Callable[[str], dict[str, int]] | None = None,
+) -> int:
+    """The normal component of a pin about a pivot; by hand the right triangle on the mechanism.
+
+    ``drawn`` draws it in the way of another ``kind``, from its index.
+    """
     key = ("normal", pivot, pin)
     if key in pen.shared:
         return pen.shared[key]
@@ -245,12 +254,12 @@ def normal_component(pen: Pen, pivot: str, pin: str) -> int:
     relative_arrow(pen, pin, pivot)
     index = about(pen, pin, pivot)
     with pen.on(Part.NORMAL, Plane.MECHANISM), pen.calls_for(Effect.NORMAL):
-        triangle = right_triangle(pen, places, images, letter(pin), index)
+        own = drawn(index) if drawn else right_triangle(pen, places, images, letter(pin), index)
     with pen.on(Part.NORMAL, Plane.NUMBERS), pen.calls_for(Effect.NORMAL):
-        read, name = triangle["read"], f"a_{index}^ν"
-        vector = pen.draw_shared(key, normal, *places, *images, name=name, by_hand=read)
+        name = f"a_{index}^ν"
+        vector = pen.draw_shared(key, normal, *places, *images, name=name, by_hand=own["read"])
     pen.make(
-        NormalComponent(
+        kind(
             index=index,
             p=letter(pivot),
             q=letter(pin),
@@ -260,7 +269,7 @@ def normal_component(pen: Pen, pivot: str, pin: str) -> int:
             pivot_image=images[0],
             pin_image=images[1],
             vector=vector,
-            **triangle,
+            **own,
         )
     )
     return vector

@@ -1,0 +1,264 @@
+"""Klein's construction for a slider-crank whose crank turns at a constant speed.
+
+With the crank itself for its velocity, every velocity turned by 90° lies on the mechanism: that of
+the slider square to its guide, that of the slider about the crank pin along the rod. The common
+chord of the circle with that velocity for radius and of the circle on the rod as diameter cuts off
+the normal component on the rod, and the slider's acceleration on the parallel to its guide.
+
+Source: F. Klein's construction, as in Theory of Machines by R. S. Khurmi and J. K. Gupta, ch. 15.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphkin.construction.core.bases import Base
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.component import Measured, TriangleChoice
+from graphkin.construction.core.naming import plan_amount, rate_symbol
+from graphkin.construction.core.pen import Pen, letter, owned
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import action, meet
+from graphkin.construction.guides.guides import known_guide
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.normal_component.normal_component import (
+    NormalComponent,
+    bar_line,
+    bare,
+    normal_component,
+)
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real, smaller
+from graphkin.numbers.plane import Circle, Line, circles_sine, dot, line_meets_line
+from graphkin.scene.model import FRAME
+from graphkin.structure.groups import other_of
+from graphkin.structure.joints import Joint
+from graphkin.structure.pairs import Pin, Sliding
+from graphkin.text.errors import Problem, StructureError
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.drawing.scale import Scales
+
+METHOD = "klein"
+"""What a scene writes as [sheet] method."""
+
+# --- its value, and the steps of the hand's way --------------------------------------------------
+
+
+@action("square-to-guide")
+def square_to_guide(centre: Point, guide: Line) -> Line:
+    """Through the centre of the crank the perpendicular to the guide."""
+    return Line(centre, 1j * guide.along)
+
+
+@action("circle-through")
+def circle_through(centre: Point, point: Point) -> Circle:
+    """The circle about a point through another."""
+    return Circle(centre, abs(point - centre))
+
+
+@action("circle-on-diameter")
+def circle_on_diameter(p: Point, q: Point) -> Circle:
+    """The circle that has the way between two points for diameter (Thales)."""
+    return Circle((p + q) / 2, abs(q - p) / 2)
+
+
+@action("common-chord", margin=circles_sine)
+def common_chord(m: Circle, n: Circle) -> Line:
+    """The line through the two points where circles meet: their radical axis."""
+    way = n.centre - m.centre
+    square = dot(way, way)
+    share = (square + m.radius * m.radius - n.radius * n.radius) / (2 * square)
+    return Line(m.centre + way * share, 1j * way)
+
+
+@action("chord-cuts-guide")
+def chord_cuts_guide(chord: Line, centre: Point, guide: Line) -> Point:
+    """Where the chord cuts the parallel to the guide through the centre of the crank."""
+    return line_meets_line(chord, Line(centre, guide.along))
+
+
+@action("klein-by-hand")
+def klein_by_hand(pin: Point, foot: Point, omega: Real) -> Point:
+    """The normal component read off the rod: omega squared times the way from foot to pin."""
+    return omega * omega * (pin - foot)
+
+
+# --- what it is ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class KleinComponent(NormalComponent):
+    """a_ν = v²/l of the slider's pin ``q`` about the crank pin ``p``, by the common chord.
+
+    The perpendicular ``across`` the guide at the ``centre`` of the crank cuts the ``line`` of the
+    rod in ``corner``; the circle ``around`` the crank pin through it and the circle ``over`` the
+    rod have the ``chord`` that cuts the rod in ``foot`` and the parallel to the guide in ``whole``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = (
+        "across",
+        "line",
+        "corner",
+        "around",
+        "over",
+        "chord",
+        "foot",
+        "whole",
+        "read",
+        "vector",
+    )
+    reasons: ClassVar[Mapping[str, str]] = {"corner": "why.klein", "foot": "why.chord"}
+    lines: ClassVar[Mapping[str, str]] = {
+        "line": "{p}{q}",
+        "across": "⊥ to the guide at {o}",
+        "chord": "the common chord",
+    }
+    laid_off: ClassVar[frozenset[str]] = frozenset()
+
+    o: str
+    centre: int
+    omega: int
+    across: int | None = None
+    corner: int | None = None
+    around: int | None = None
+    over: int | None = None
+    chord: int | None = None
+    foot: int | None = None
+    whole: int | None = None
+
+    def title(self, role: str) -> str:
+        """What it is called in a report."""
+        return f"Klein's construction for {self.q} about {self.p}"
+
+    def symbols(self) -> Mapping[str, str]:
+        """The centre of the crank, the pins, and the letter of the corners."""
+        return {**super().symbols(), "o": symbol(self.o)}
+
+    # --- drawing it ------------------------------------------------------------------------------
+
+    def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
+        """The turned velocity, and what the chord cuts off the rod."""
+        assert self.corner is not None and self.foot is not None
+        pivot = canvas.value(self.pivot)
+        yield canvas.value(self.corner) - pivot
+        yield canvas.value(self.foot) - pivot
+
+    def room(self, canvas: Canvas | Measured) -> Any:
+        """The same as of any triangle, and by how much the circles reach one another."""
+        assert self.corner is not None
+        pivot, pin, corner = map(canvas.value, (self.pivot, self.pin, self.corner))
+        return smaller(super().room(canvas), canvas.size(pin - pivot) - canvas.size(corner - pivot))
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The velocities turned onto the mechanism, both circles, and what their chord cuts off."""
+        assert self.whole is not None
+        value, drawing = canvas.value, canvas.drawing
+        match role:
+            case "across" | "chord":
+                canvas.line()
+            case "line":
+                canvas.line_beyond()
+            case "around" | "over":
+                canvas.circle(value(getattr(self, role)), "construction")
+            case "corner" | "foot":
+                canvas.point(self.letter(drawing, role), value(getattr(self, role)))
+            case "whole":
+                canvas.segment(value(self.centre), value(self.whole))
+                canvas.point(self.letter(drawing, role), value(self.whole))
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
+        """The circles give it at any scales."""
+        return False
+
+    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+        """The construction in full; by its number where it leaves too little to be drawn."""
+        size = self.size(drawing)
+        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
+        if self.is_left_out(drawing):
+            return "short", self.left_out(drawing)
+        if not drawing.settled(size):
+            return "ν none", drawing.words("step.normal-none", **fields)
+        if self.is_hidden(drawing):
+            drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
+            return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
+        fields["w"] = symbol(f"v_{self.q}")
+        fields["omega"] = rate_symbol(drawing, self.omega)
+        for role in ("corner", "foot", "whole"):
+            fields[role] = symbol(self.letter(drawing, role))
+        return "ν by chord", drawing.words("step.klein", **fields)
+
+
+# --- planning it ---------------------------------------------------------------------------------
+
+
+def crank_of(pen: Pen, sides: list[tuple[Joint, str]]) -> Base | None:
+    """The crank of a slider-crank that the scene wants drawn so; None for any other dyad.
+
+    It turns at a constant speed about a fixed pivot, and the slider moves on a fixed guide.
+    """
+    pins = [pair.point for pair, _ in sides if isinstance(pair, Pin)]
+    on = [pair.links[1] for pair, _ in sides if isinstance(pair, Sliding)]
+    if pen.scene.sheet.method != METHOD or len(pins) != 1 or on != [FRAME]:
+        return None
+    for driver in pen.scene.drivers:
+        steady = driver.kind == "turn" and driver.acceleration.is_zero()
+        if steady and {driver.link, other_of(driver, driver.link)} - {driver.link} == {FRAME}:
+            base = pen.bases[driver.link]
+            fixed = base.start in pen.scene.frame.points
+            if fixed and pins[0] in (base.end, *base.others):
+                return base
+    return None
+
+
+def klein_component(
+    pen: Pen, shapes: LinkShapes, crank: Base, sides: list[tuple[Joint, str]], pin: str
+) -> int:
+    """The normal component of the slider's pin about the crank pin, by Klein's construction."""
+    (pivot,) = (pair.point for pair, _ in sides if isinstance(pair, Pin))
+    (slide,) = (pair for pair, _ in sides if isinstance(pair, Sliding))
+    places = pen.the("position", pivot), pen.the("position", pin)
+    centre, omega = pen.the("position", crank.start), pen.the("omega", crank.link)
+    guide, small = known_guide(pen, shapes, slide), bare(letter(pin))
+
+    def drawn(index: str) -> dict[str, int]:
+        names = [f"{small}{primes}_{index}" for primes in ("″", "‴", "⁗")]
+        with pen.hands_way():
+            across = pen.draw(square_to_guide, centre, guide)
+            line = pen.draw(bar_line, *places)
+            corner = pen.draw(meet, across, line, name=names[0])
+            around = pen.draw(circle_through, places[0], corner)
+            over = pen.draw(circle_on_diameter, *places)
+            chord = pen.draw(common_chord, around, over)
+            foot = pen.draw(meet, chord, line, name=names[1])
+            whole = pen.arrow(chord_cuts_guide, chord, centre, guide, name=names[2])
+            with pen.on(Part.NORMAL, Plane.NUMBERS):
+                read = pen.draw(klein_by_hand, places[0], foot, omega)
+        own = (across, line, corner, around, over, chord, foot, whole, read)
+        return dict(zip(KleinComponent.gives, own, strict=False))
+
+    kind = partial(KleinComponent, o=owned(crank.start), centre=centre, omega=omega)
+    return normal_component(pen, pivot, pin, kind, drawn)
+
+
+def refuse_unused(pen: Pen) -> None:
+    """Raise StructureError where a scene wants Klein's construction and has no place for it."""
+    if pen.scene.sheet.method == METHOD:
+        if not any(isinstance(step.of, KleinComponent) for step in pen.steps):
+            raise StructureError(
+                [
+                    Problem(
+                        "sheet.method",
+                        "no slider-crank for Klein's construction",
+                        "a crank with a constant speed about a fixed pivot, and a rod from it to"
+                        " a block on a fixed guide",
+                        "leave method out for right triangles",
+                    )
+                ]
+            )
