@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.construction.core.amounts import OnPaper
-from graphkin.construction.core.component import Component, components_on
+from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import drawn_between, drawn_in, scale_of, segment_of
@@ -83,10 +83,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
             ("centres", list(of_centres(drawing))),
         ]
     return [
-        *(
-            (kind.section(drawing.scales), list(of_components(drawing, kind)))
-            for kind in COMPONENTS
-        ),
+        *of_components(drawing),
         ("accelerations", plan),
         ("spinning", turning),
         ("slides", list(of_slides(drawing))),
@@ -213,10 +210,15 @@ def drawn(drawing: Drawing, millimetres: OnPaper) -> str:
     return figure(drawing, millimetres if millimetres < 10 else round(millimetres, 3))
 
 
-def of_components(drawing: Drawing, kind: type[Component]) -> Iterator[Relation]:
-    """Each component of a kind, in the order of the work."""
-    found = (each for each in components_on(drawing) if isinstance(each, kind))
-    yield from (component.relation(drawing) for component in found)
+def of_components(drawing: Drawing) -> list[Section]:
+    """The components, in the order of the work within each section."""
+    found: dict[str, list[Relation]] = {}
+    for kind in COMPONENTS:
+        for each in components_on(drawing):
+            if isinstance(each, kind):
+                section = found.setdefault(each.section(drawing.scales), [])
+                section.append(each.relation(drawing))
+    return list(found.items())
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:

@@ -148,9 +148,8 @@ class Component(Construction):
         """What is said of it where it leads to a point that is known; nothing where it is clear."""
         return ""
 
-    @classmethod
-    def section(cls, scales: Scales) -> str:
-        """The section of the calculation that holds its relations."""
+    def section(self, scales: Scales) -> str:
+        """The section of the calculation that holds its relation."""
         raise NotImplementedError
 
     def relation(self, drawing: Drawing) -> Relation:

@@ -269,9 +269,8 @@ class CoriolisComponent(Component):
         beside = abs(cross(pin - pivot, foot - pivot)) / abs(pin - pivot)
         return bool(1000 * beside < NAUGHT * drawing.scales.kL)
 
-    @classmethod
-    def section(cls, scales: Scales) -> str:
-        """The section of the calculation that holds its relations."""
+    def section(self, scales: Scales) -> str:
+        """The section of the calculation that holds its relation."""
         return "coriolis_components"
 
     def relation(self, drawing: Drawing) -> Relation:

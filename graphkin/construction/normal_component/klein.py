@@ -171,6 +171,10 @@ class KleinComponent(NormalComponent):
                 canvas.segment(value(self.centre), value(self.whole))
                 canvas.point(self.letter(drawing, role), value(self.whole))
 
+    def letter(self, drawing: Drawing, role: str) -> str:
+        """The letter of a corner; where the circles cross, that of what their chord gives."""
+        return super().letter(drawing, "foot" if role == "chord" else role)
+
     # --- saying it -------------------------------------------------------------------------------
 
     def is_computed(self, scales: Scales | TriangleChoice) -> bool:
@@ -194,6 +198,10 @@ class KleinComponent(NormalComponent):
             fields[role] = symbol(self.letter(drawing, role))
         return "ν by chord", drawing.words("step.klein", **fields)
 
+    def section(self, scales: Scales) -> str:
+        """The section of the calculation that holds its relation."""
+        return "normals_klein"
+
 
 # --- planning it ---------------------------------------------------------------------------------
 
@@ -208,7 +216,7 @@ def crank_of(pen: Pen, sides: list[tuple[Joint, str]]) -> Base | None:
     if pen.scene.sheet.method != METHOD or len(pins) != 1 or on != [FRAME]:
         return None
     for driver in pen.scene.drivers:
-        steady = driver.kind == "turn" and driver.acceleration.is_zero()
+        steady = driver.kind == "turn" and driver.acceleration.number(pen.scene.values) == 0
         if steady and {driver.link, other_of(driver, driver.link)} - {driver.link} == {FRAME}:
             base = pen.bases[driver.link]
             fixed = base.start in pen.scene.frame.points
@@ -249,16 +257,13 @@ def klein_component(
 
 def refuse_unused(pen: Pen) -> None:
     """Raise StructureError where a scene wants Klein's construction and has no place for it."""
-    if pen.scene.sheet.method == METHOD:
-        if not any(isinstance(step.of, KleinComponent) for step in pen.steps):
-            raise StructureError(
-                [
-                    Problem(
-                        "sheet.method",
-                        "no slider-crank for Klein's construction",
-                        "a crank with a constant speed about a fixed pivot, and a rod from it to"
-                        " a block on a fixed guide",
-                        "leave method out for right triangles",
-                    )
-                ]
-            )
+    used = any(isinstance(step.of, KleinComponent) for step in pen.steps)
+    if pen.scene.sheet.method == METHOD and not used:
+        problem = Problem(
+            "sheet.method",
+            "no slider-crank for Klein's construction",
+            "a crank with a constant speed about a fixed pivot, and a rod from it to a block on a"
+            " fixed guide",
+            "leave method out for right triangles",
+        )
+        raise StructureError([problem])

@@ -193,9 +193,8 @@ class NormalComponent(Component):
         corners = {role: symbol(self.letter(drawing, role)) for role in ("tip", "cut", "end")}
         return "ν1", drawing.words("step.normal", **fields, **corners)
 
-    @classmethod
-    def section(cls, scales: Scales) -> str:
-        """The section of the calculation that holds its relations."""
+    def section(self, scales: Scales) -> str:
+        """The section of the calculation that holds its relation."""
         return "normals_apart" if scales.apart else "normals"
 
     def relation(self, drawing: Drawing) -> Relation:

@@ -103,9 +103,8 @@ class RollingNormal(Component):
             **self.symbols(),
         )
 
-    @classmethod
-    def section(cls, scales: Scales) -> str:
-        """The section of the calculation that holds its relations."""
+    def section(self, scales: Scales) -> str:
+        """The section of the calculation that holds its relation."""
         return "normals_turning"
 
     def relation(self, drawing: Drawing) -> Relation:
