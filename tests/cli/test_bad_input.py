@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import ROOT, Run
+from tests.scene_files import scene_text
 
 SCENES = ROOT / "examples" / "scenes"
 HEAD = """graphkin = 1
@@ -212,18 +213,7 @@ def test_a_guide_on_itself(said: Said) -> None:
 
 
 def test_guides_in_a_circle(said: Said) -> None:
-    text = """[frame]
-O = [0, 0]
-[links.1]
-O-C = 30
-[links.2]
-C = [0, 0]
-A = [10, 0]
-slides = { on = 3, through = "B", angle = 0 }
-[links.3]
-B = [0, 0]
-slides = { on = 2, through = "A", angle = 0 }
-"""
+    text = scene_text("cli/guides-in-a-circle")
     assert said(HEAD + text + CRANK) == (
         "links.3.slides: links 2 and 3 slide on one another, guides in a circle; "
         "expected slides in one of the two links only"
@@ -273,17 +263,7 @@ def test_a_block_with_a_second_guide_whose_angle_is_not_known(said: Said) -> Non
     )
 
 
-PINNED_BLOCKS = """[frame]
-O = [0, 0]
-[links.1]
-O-A = 50
-[links.2]
-C = [0, 0]
-slides = { on = 1, along = "O-A" }
-[links.3]
-C = [0, 0]
-slides = { on = 0, through = [0, 20], angle = 0 }
-"""
+PINNED_BLOCKS = scene_text("cli/pinned-blocks")
 
 
 def test_two_guides_that_are_parallel_in_this_position(said: Said) -> None:
@@ -321,24 +301,7 @@ def test_a_trammel_beyond_its_range(said: Said) -> None:
     assert words.endswith("it closes for driver positions -220 to 220 mm")
 
 
-CYLINDER = """[frame]
-A = [0, 0]
-D = [100, 0]
-[links.1]
-A = [0, 0]
-[links.2]
-B = [0, 0]
-slides = { on = 1, through = "A", angle = 0 }
-[links.3]
-D-B = 60
-[[drivers]]
-slide = 2
-against = 1
-position = 170
-speed = 5
-[branches]
-B = "left of A-D"
-"""
+CYLINDER = scene_text("cli/cylinder")
 
 
 def test_a_cylinder_beyond_its_stroke(said: Said) -> None:
@@ -402,18 +365,7 @@ def test_a_dead_point_of_a_group_of_class_three(said: Said) -> None:
 
 
 def test_a_crank_that_just_touches_is_on_a_dead_point(said: Said) -> None:
-    text = """[frame]
-O1 = [0, 0]
-O2 = [200, 0]
-[links.1]
-O1-A = 100
-[links.2]
-A-B = 60
-[links.3]
-O2-B = 40
-[branches]
-B = "left of A-O2"
-"""
+    text = scene_text("cli/crank-at-its-dead-point")
     words = said(HEAD + text + CRANK.replace("10", "1e-5"))
     assert "AB and O2B are in line, a dead point, but the arcs miss each other by 3.0" in words
     assert words.endswith("it closes at this dead point alone: change the lengths")
@@ -495,33 +447,7 @@ def test_the_point_of_a_link_that_is_not_there(said: Said) -> None:
 
 
 def test_many_mistakes_are_told_at_once_each_at_its_place(said: Said) -> None:
-    text = """[frame]
-O = [0, 0]
-[links.1]
-O-A = 40
-wheel = { centre = "Z", radius = 5 }
-[links.2]
-A-B = 100
-[links.3]
-B = [0, 0]
-slides = { on = 3, through = "O", angle = 0 }
-[links.4]
-C = [0, 0]
-D = [1, 0]
-[[drivers]]
-slide = 1
-position = 60
-speed = 1
-[[drivers]]
-turn = 9
-angle = 1
-speed = 1
-[branches]
-Q = "left of A-B"
-[ask]
-velocity = ["A@7", "B"]
-omega = [8]
-"""
+    text = scene_text("cli/many-mistakes")
     places = [line.partition(":")[0] for line in said(HEAD + text).splitlines()]
     assert places == [
         "links.1.wheel.centre",

@@ -12,6 +12,7 @@ import pytest
 from graphkin import load
 from graphkin.diagnosis.closures import choices
 from tests.cli.conftest import ROOT, Run
+from tests.scene_files import scene_text
 
 
 def test_the_pump_is_told_in_full(run: Run) -> None:
@@ -57,32 +58,7 @@ def test_both_closures_of_each_dyad_are_shown(run: Run) -> None:
     ]
 
 
-WHITWORTH = """graphkin = 1
-title = "Whitworth"
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-[frame]
-O1 = [0, 0]
-O2 = [0, -30]
-[links.1]
-O1-A = 80
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "O2-B" }
-[links.3]
-O2-B = 60
-[links.4]
-B-C = 200
-[links.5]
-C = [0, 0]
-slides = { on = 0, through = "O2", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 60
-speed = 30
-[branches]
-2 = "forward"
-5 = "forward"
-"""
+WHITWORTH = scene_text("cli/whitworth")
 
 
 def test_closures_of_a_swivelling_lever_are_told_apart_by_its_end(run: Run, tmp_path: Path) -> None:
@@ -200,38 +176,7 @@ speed = 1
 [branches]
 B = "left of A-Q"
 """
-TWICE = """
-graphkin = 1
-title = "Stephenson driven twice"
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-Q = [40, -20]
-[links.1]
-O = [0, 0]
-A = [10, 0]
-B = [-10, 0]
-[links.2]
-A-C = 30
-[links.3]
-B-D = 30
-[links.4]
-E = [0, 0]
-C = [10, 10]
-D = [-10, 10]
-[links.5]
-Q-E = 20
-[[drivers]]
-turn = 1
-angle = 90
-speed = 1
-[[drivers]]
-turn = 5
-angle = 90
-speed = 1
-[branches]
-C = "left of A-E"
-"""
+TWICE = scene_text("cli/twice")
 WHEEL = "rolls = { on = 1 }\n"
 SECOND = "[[drivers]]\nturn = 4\nangle = 40\nspeed = 1\n"
 
@@ -348,21 +293,7 @@ def test_a_driver_too_few_is_told_with_the_groups_that_stand(
 def test_a_second_collar_on_the_same_rail_is_two_idle_constraints(run: Run, tmp_path: Path) -> None:
     """One slide would do: the second takes the same distance and the same turning again."""
     path = tmp_path / "collars.toml"
-    text = """
-graphkin = 1
-title = "Two collars"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-B = [30, 0]
-slides = [{ on = 0, through = "O", angle = 0 }, { on = 0, through = [5, 0], angle = 0 }]
-[[drivers]]
-slide = 1
-position = 10
-speed = 4
-"""
+    text = scene_text("cli/two-collars-on-a-rail")
     path.write_text(text, encoding="utf-8")
     assert part(run("check", path).stdout, "rank") == [
         "1, true mobility by the rank of the constraints",
@@ -375,34 +306,7 @@ def test_the_closures_of_a_driven_cylinder_are_those_of_its_dyad(run: Run, tmp_p
     """The rod's pin is mirrored in the line of the two fixed ones; the next group has its own."""
     path = tmp_path / "press.toml"
     path.write_text(
-        """
-graphkin = 1
-title = "Press"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-A = [300, 0]
-[links.arm]
-O-B = 400
-[links.barrel]
-A = [0, 0]
-slides = { on = "rod", along = "B-E" }
-[links.rod]
-B-E = 300
-[links.bar]
-B-C = 500
-[links.ram]
-C = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-slide = "barrel"
-against = "rod"
-position = 250
-speed = 40
-[branches]
-B = "left of O-A"
-ram = "forward"
-""",
+        scene_text("cli/driven-cylinder"),
         encoding="utf-8",
     )
     shown = part(run("check", path).stdout, "closures")

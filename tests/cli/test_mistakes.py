@@ -8,130 +8,16 @@ from __future__ import annotations
 import pytest
 
 from tests.cli.test_bad_input import HEAD, Said, said  # noqa: F401
+from tests.scene_files import scene_text
 
-SLOTTED_LEVER = (
-    HEAD
-    + """[frame]
-O = [0, 0]
-C = [0, 8]
-[links.crank]
-C-P = 4
-[links.block]
-P = [0, 0]
-slides = { on = "lever", along = "O-N" }
-[links.lever]
-O-N = 15
-[links.rod]
-N-R = 6
-[links.ram]
-R = [0, 0]
-slides = { on = 0, through = [0, 13.75], angle = 0 }
-[[drivers]]
-turn = "crank"
-angle = 30
-speed = 6.283185307
-[branches]
-block = "forward"
-ram = "forward"
-"""
-)
+SLOTTED_LEVER = HEAD + scene_text("cli/slotted-lever")
 """Crank and slotted lever with a ram: T. Bevan, The Theory of Machines, chapter 3, example 7."""
-TWO_SLIDERS = (
-    HEAD
-    + """[frame]
-O = [0, 0]
-[links.1]
-O-A = 300
-[links.2]
-A-B = 1200
-B-C = 450
-C = "on A-B"
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.4]
-C-D = 450
-[links.5]
-D = [0, 0]
-slides = { on = 0, through = [1045, 0], angle = 90 }
-[[drivers]]
-turn = 1
-angle = -30
-speed = 2
-[branches]
-3 = "forward"
-5 = "forward"
-"""
-)
+TWO_SLIDERS = HEAD + scene_text("cli/two-sliders")
 """A crank that drives two sliders: Khurmi and Gupta, Theory of Machines, example 8.6."""
-EPICYCLIC = (
-    HEAD
-    + """module = 2
-[frame]
-O = [0, 0]
-[links.A]
-O-S = 20
-wheel = { centre = "O", teeth = 36 }
-[links.C]
-O-P = 81
-[links.B]
-P-Q = 30
-wheel = { centre = "P", teeth = 45 }
-rolls = { on = "A" }
-[[drivers]]
-turn = "C"
-angle = 0
-speed = 15
-[[drivers]]
-turn = "A"
-angle = 0
-speed = -30
-"""
-)
+EPICYCLIC = HEAD + scene_text("cli/epicyclic")
 """An epicyclic pair: Khurmi and Gupta, Theory of Machines, example 13.4."""
-ROCKER = (
-    HEAD
-    + """[frame]
-O1 = [0, 0]
-O2 = [120, 0]
-[links.1]
-O1-A = 40
-[links.2]
-A-B = 110
-[links.3]
-O2-B = 80
-[links.4]
-B-C = 150
-[links.5]
-C = [0, 0]
-slides = { on = 0, through = "O2", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 60
-speed = 12
-[branches]
-B = "left of A-O2"
-5 = "forward"
-"""
-)
-YOKE = (
-    HEAD
-    + """[frame]
-O = [0, 0]
-[links.1]
-O-A = 40
-[links.2]
-A = [0, 0]
-slides = { on = 3, through = "C", angle = 90 }
-[links.3]
-C = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 40
-speed = 10
-"""
-)
+ROCKER = HEAD + scene_text("cli/rocker")
+YOKE = HEAD + scene_text("cli/yoke")
 
 
 def changed(text: str, *changes: tuple[str, str]) -> str:

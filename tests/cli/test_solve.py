@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from tests.cli.conftest import ROOT, Run
+from tests.scene_files import scene_text
 
 PUMP_7 = {
     "v_D": -3.826845090,
@@ -86,22 +87,7 @@ def test_scales_keep_the_right_triangle(pump: Any) -> None:
     assert scales["kv"] == pytest.approx(pump["links"]["1"]["omega"] * scales["kL"], rel=1e-12)
 
 
-TIGHT = """graphkin = 1
-title = "At a scale that does not fit"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 60
-[[drivers]]
-turn = 1
-angle = 30
-speed = 2
-[sheet]
-scale = 0.1
-[ask]
-velocity = ["A"]
-"""
+TIGHT = scene_text("cli/tight")
 
 
 def test_a_scale_that_does_not_fit_stops_what_tells_scales_alone(run: Run, tmp_path: Path) -> None:

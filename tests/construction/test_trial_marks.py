@@ -177,7 +177,7 @@ def test_the_share_is_measured_where_a_crossing_finds_a_point(higher):
 
 def test_gaps_without_a_crossing_are_drawn_square_to_their_lines():
     """From the line of each trial to the point that should lie on it; with a crossing none are."""
-    some = rare("a block that swings on the frame closes a group of class III")
+    some = rare("block-closes-class-iii")
     for drawing in drawings_of(some, proved(some, some.solve()), words("en")):
         marks = sheet(drawing, "key", "1").marks
         gaps = [mark for mark in marks if mark.name == "gap"]

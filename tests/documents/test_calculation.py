@@ -191,7 +191,7 @@ def test_a_centre_at_infinity_is_said_in_words():
 
 
 def test_the_tangential_component_of_a_crank_that_speeds_up_follows_from_epsilon():
-    lines = [line for _, line in relation_lines(calculations("clockwise crank that speeds up"))]
+    lines = [line for _, line in relation_lines(calculations("clockwise-crank"))]
     driven = [line for line in lines if line.startswith("*a*_{A}^{τ} = *ε*_{1}·*O*_{1}*A* = ")]
     assert len(driven) == 1
     assert "= 40·0.1 = 4.000 m/s^2" in driven[0]

@@ -23,6 +23,7 @@ from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import drawings, mechanism_named
 from tests.mechanisms import SHIPPED
+from tests.scene_files import scene_text
 
 ALL = [*((name, None) for name in CHOSEN), *((lab, 7) for lab in SHIPPED)]
 LENGTH = re.compile(r"(−?\d+(?:[.,]\d+)?)\)? (mm|cm|m)\b(?!/)")
@@ -36,29 +37,7 @@ UNNAMED = {
 }
 """Lengths that bear no symbol, as drawn: the arc 60 mm·40° that a rack has rolled on, at 1:1; a
 place that was found; the points (±90; 0) mm of two plates, at 1:2."""
-IN_CENTIMETRES = """graphkin = 1
-title = "Lever with an offset, driven by a block"
-units = { length = "cm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-Q = [40, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "Q-B", offset = 12 }
-[links.3]
-Q-B = 75
-[[drivers]]
-slide = 1
-position = 36
-speed = 20
-[branches]
-2 = "forward"
-[ask]
-velocity = ["B"]
-"""
+IN_CENTIMETRES = scene_text("documents/in-centimetres")
 
 
 def real(scene: Scene, mechanism: Mechanism, before: str) -> float:

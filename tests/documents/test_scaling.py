@@ -14,23 +14,12 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import PageError, SceneError
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import HEAD, OTHERS, mechanism_named
+from tests.scene_files import scene_text
 
 OMEGA = 12.0
-FOUR_BAR = OTHERS["four-bar with a coupler point"]
+FOUR_BAR = OTHERS["four-bar-with-a-coupler-point"]
 """Driven by one crank at 12 rad/s."""
-SLIDE = """
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-slide = 1
-position = 50
-speed = 30
-[ask]
-velocity = ["A"]
-"""
+SLIDE = scene_text("documents/slide")
 
 
 def scene(sheet="", body=FOUR_BAR, **changes):

@@ -26,6 +26,7 @@ from graphkin.text import words
 from tests.chosen import CHOSEN, SCENES
 from tests.documents.made_up import HEAD
 from tests.documents.sheet_tools import drawings, drawn, kinds_of, named
+from tests.scene_files import scene_text
 
 LABS = [(lab, n) for lab in ("pump", "slotted-lever") for n in (7, 20)]
 ALL = [*((name, None) for name in CHOSEN), *LABS]
@@ -40,43 +41,8 @@ NORMAL = re.compile(r"lay off [^;:]*?(\*a\*_\{[^}]*\}\^\{ν\})")
 BAR = re.compile(r"[/·]((?:\*[A-Z]\*(?:_\{[^}]*\})?){2})$")
 ARTICLES = re.compile(r"\b(?:a|da|di|su|in) (?:la|il|lo|le|gli|i) |\b(?:a|da|di|su) l['’]")
 CLASHING = re.compile(r"(?<!\S)(?:a A|a a|e E|e e)")
-WHEEL_AND_BAR = """
-[frame]
-A = [-250, 40]
-R = [0, 0]
-[links.1]
-A-D = 30
-[links.2]
-D-B = 210
-[links.3]
-C-B = 40
-wheel = { centre = "C", radius = 60 }
-rolls = { on = 0, through = "R", angle = 0, start = { 3 = 90 } }
-[[drivers]]
-turn = 1
-angle = 50
-speed = 5
-[branches]
-3 = "closure 1"
-"""
-DRIVEN_LEVER = """
-[frame]
-O = [0, 0]
-C = [120, 0]
-[links.1]
-O-A = 200
-[links.2]
-B = [0, 0]
-slides = { on = 1, along = "O-A" }
-[links.3]
-C-B = 90
-[[drivers]]
-turn = 1
-angle = 40
-speed = 5
-[branches]
-2 = "forward"
-"""
+WHEEL_AND_BAR = scene_text("documents/wheel-and-bar")
+DRIVEN_LEVER = scene_text("documents/driven-lever")
 
 
 @pytest.fixture(params=ALL, ids=named)

@@ -49,6 +49,7 @@ from tests.documents.sheet_tools import (
     within,
 )
 from tests.mechanisms import SHIPPED
+from tests.scene_files import scene_text
 
 FIELDS = ("mechanism", "plan")
 HEAD = 0.41
@@ -350,28 +351,7 @@ def solution_numbers(drawings: list[Drawing]) -> set[str]:
 
 
 def test_a_centre_at_infinity_has_two_parallel_rays_to_the_edge_of_its_field():
-    parallelogram = """graphkin = 1
-title = "Parallelogram"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-Q = [200, 0]
-[links.1]
-O-A = 80
-[links.2]
-A-B = 200
-[links.3]
-Q-B = 80
-[[drivers]]
-turn = 1
-angle = 70
-speed = 10
-[branches]
-B = "left of A-Q"
-[ask]
-velocity = ["B"]
-centres = [2]
-"""
+    parallelogram = scene_text("documents/centre-at-infinity")
     (sheet, _) = hand_out(Mechanism(read_text(parallelogram, "parallelogram")), language="en")
     rays = [m for m in sheet.pages[0].marks if isinstance(m, LineMark) and m.cls == "ray"]
     assert len(rays) == 2

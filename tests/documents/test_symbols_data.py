@@ -14,103 +14,19 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from tests.documents.made_up import HEAD, made_up
 from tests.documents.sheet_tools import drawings, mechanism_named
+from tests.scene_files import scene_text
 
 SCENES = {
     "slides on moving links": (
-        """
-[frame]
-O = [0, 0]
-Q = [0, -100]
-[links.1]
-O-A = 40
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "Q-B", offset = -5 }
-[links.3]
-Q-B = 200
-[links.4]
-C = [0, 0]
-slides = { on = 3, through = [20, 10], angle = 30, pin = true }
-[links.5]
-D = [0, 0]
-slides = { on = 3, along = "Q-B", offset = 8, pin = true }
-[[drivers]]
-turn = 1
-angle = 30
-speed = 2
-[branches]
-2 = "forward"
-[ask]
-slides = [5]
-""",
+        scene_text("documents/slides-on-moving-links"),
         {"O": 0j, "Q": -100j, "A": 40 + 0j, "B": 100j, "C": 30j, "D": 50j},
     ),
     "drivers of every kind": (
-        """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 40
-[links.2]
-A-B = 30
-[links.3]
-C = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.4]
-D = [0, 0]
-wheel = { centre = "D", radius = 20 }
-rolls = { on = 0, through = "O", angle = 10, side = "right", start = { 4 = 45 } }
-[[drivers]]
-turn = 1
-angle = 30
-speed = 2
-[[drivers]]
-turn = 2
-against = 1
-angle = 40
-speed = -3
-acceleration = 7
-[[drivers]]
-slide = 3
-position = 25
-speed = 60
-acceleration = -80
-[[drivers]]
-roll = 4
-position = 12
-speed = 50
-acceleration = 5
-""",
+        scene_text("documents/drivers-of-every-kind"),
         {"O": 0j, "A": 40 + 0j, "B": 40 + 30j, "C": 25 + 0j, "D": 20j},
     ),
     "gears": (
-        """
-module = 4
-[frame]
-O = [0, 0]
-wheel = { centre = "O", teeth = 60, inside = true }
-[links.arm]
-O-P = 80
-[links.planet]
-P = [0, 0]
-wheel = { centre = "P", teeth = 20 }
-rolls = { on = 0, start = { planet = 90 } }
-[links.sun]
-O = [0, 0]
-wheel = { centre = "O", teeth = 20 }
-rolls = { on = "planet" }
-[links.rack]
-B = [0, 0]
-slides = { on = 0, through = [0, -40], angle = 0 }
-[links.pinion]
-O = [0, 0]
-wheel = { centre = "O", radius = 40 }
-rolls = [{ on = "rack", through = "B", angle = 0 }, { on = "planet" }]
-[[drivers]]
-turn = "arm"
-angle = 0
-speed = 2
-""",
+        scene_text("documents/symbols-data-gears"),
         {"O": 0j, "P": 80 + 0j, "B": -40j},
     ),
 }
@@ -167,23 +83,7 @@ def test_a_closure_is_told_by_the_angle_that_it_is_counted_by():
 
 def test_a_closure_is_counted_by_a_link_that_no_driver_holds():
     """The driven coupler is written first, yet its angle is the same in both closures."""
-    text = """
-[frame]
-A = [0, 0]
-D = [60, 5]
-[links.handle]
-B-C = 28
-[links.arm]
-A-B = 40
-[links.link]
-D-C = 35
-[[drivers]]
-turn = "handle"
-angle = 35
-speed = 2
-[branches]
-arm = "closure 1"
-"""
+    text = scene_text("documents/counted-closure")
     clamp = Mechanism(read_text(HEAD + text, "clamp", None, {}))
     (drawing, *_) = drawings_of(clamp, proved(clamp, clamp.solve()), words("en"))
     closes = "of the ways in which links arm, handle, link close take number 1"

@@ -23,37 +23,12 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import drawings, drawn
+from tests.scene_files import scene_text
 
 WHEELS = ("gears-pair", "gears-planet", "gears-rack", "gears-ring", "rod-and-wheel", "roller")
 
 
-RACK_ON_ARM = """graphkin = 1
-title = "rack on an arm"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 200
-[links.2]
-B = [0, 0]
-slides = { on = 1, through = "O", angle = 0, offset = -30 }
-[links.3]
-A = [0, 0]
-Q = [20, 0]
-wheel = { centre = "A", radius = 30 }
-rolls = { on = 2, through = "B", angle = 0, start = { 3 = 0 } }
-[[drivers]]
-turn = 1
-angle = 30
-speed = 2
-[[drivers]]
-turn = 3
-angle = -120
-speed = 5
-[ask]
-velocity = ["B"]
-acceleration = ["B"]
-"""
+RACK_ON_ARM = scene_text("documents/rack-on-arm")
 
 
 def said(name, kind="velocity"):

@@ -15,6 +15,7 @@ from graphkin.construction.guides.slide_symbols import covered
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, polygon
 from graphkin.drawing.symbols import BLOCK, HINGE, PIN, SLOT
 from tests.documents.made_up import board_of, made_up, of_kind
+from tests.scene_files import scene_text
 
 NEAR = 1e-6
 GAP = 0.2
@@ -112,14 +113,7 @@ def test_a_slot_ends_before_the_pins_of_its_lever():
 
 def test_a_slot_of_the_frame_is_hatched_on_both_outer_sides():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-B = [50, 0]
-slides = { on = 0, through = "O", angle = 20, pin = true }
-""",
+        scene_text("drawing/slot-of-the-frame"),
         {"O": 0j, "A": rect(30, radians(20)), "B": rect(30, radians(20)) + 50j},
     )
     board, _ = board_of(drawing)
@@ -157,16 +151,7 @@ slides = {{ on = 0, through = "O", angle = {angle} }}
 
 def test_two_blocks_near_each_other_share_one_pair_of_rails():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.2]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-""",
+        scene_text("drawing/two-blocks-on-rails"),
         {"O": 0j, "A": 10 + 0j, "B": 28 + 0j},
     )
     board, _ = board_of(drawing)
@@ -178,18 +163,7 @@ slides = { on = 0, through = "O", angle = 0 }
 def swivelling_block():
     """A crank whose bar slides through a block that turns about the frame's point C."""
     return made_up(
-        """
-[frame]
-O = [0, 0]
-C = [90, -30]
-[links.1]
-O-A = 40
-[links.2]
-A-B = 150
-[links.3]
-C = [0, 0]
-slides = { on = 2, along = "A-B" }
-""",
+        scene_text("drawing/swivelling-block"),
         {"O": 0j, "C": 90 - 30j, "A": 40j, "B": 40j + 150 * (90 - 70j) / abs(90 - 70j)},
     )
 
@@ -224,35 +198,14 @@ def test_loci_of_a_block_are_drawn_above_it_and_others_below_the_ground():
 
 def test_a_cylinder_holds_the_rod_that_slides_in_it():
     drawing = made_up(
-        """
-[frame]
-A = [0, 0]
-[links.1]
-A = [0, 0]
-[links.2]
-B = [0, 0]
-slides = { on = 1, through = "A", angle = 0 }
-""",
+        scene_text("drawing/cylinder"),
         {"A": 0j, "B": 60 + 25j},
     )
     board, field = board_of(drawing, drivers=False)
     standing = drawing.standing
     assert standing.guideways == ()  # nothing tells how the rod lies
     drawing = made_up(
-        """
-[frame]
-A = [0, 0]
-[links.1]
-A = [0, 0]
-[links.2]
-B = [0, 0]
-slides = { on = 1, through = "A", angle = 0 }
-[[drivers]]
-slide = 2
-against = 1
-position = 65
-speed = 10
-""",
+        scene_text("drawing/cylinder-2"),
         {"A": 0j, "B": 60 + 25j},
         {"1": (60 + 25j) / 65},
     )
@@ -267,15 +220,7 @@ speed = 10
 
 def test_a_guide_beside_its_link_is_joined_to_it_by_an_arm_and_a_filled_corner():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 60
-[links.2]
-B = [0, 0]
-slides = { on = 1, through = [50, 30], angle = 0 }
-""",
+        scene_text("drawing/guide-beside-its-link"),
         {"O": 0j, "A": 60 + 0j, "B": 20 + 30j},
     )
     board, field = board_of(drawing)
@@ -318,16 +263,7 @@ def test_a_multiple_hinge_has_a_circle_for_each_turning_pair(count):
 
 def test_a_bar_goes_on_through_a_pin_where_another_ends():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-A-B = 80
-A-C = 40
-C = "on A-B"
-[links.2]
-C-D = 30
-""",
+        scene_text("drawing/bar-through-a-pin"),
         {"O": 50j, "A": 0j, "B": 80 + 0j, "C": 40 + 0j, "D": 40 + 30j},
     )
     board, _ = board_of(drawing)
@@ -411,18 +347,7 @@ rolls = {{ on = 0 }}
 
 def test_a_rack_takes_the_teeth_of_its_pinion():
     drawing = made_up(
-        """
-module = 4
-[frame]
-O = [0, 0]
-[links.1]
-O = [0, 0]
-wheel = { centre = "O", teeth = 20 }
-rolls = { on = 2, through = "B", angle = 0 }
-[links.2]
-B = [0, 0]
-slides = { on = 0, through = [0, -40], angle = 0 }
-""",
+        scene_text("drawing/rack"),
         {"O": 0j, "B": 70 - 40j},
         {"1": 1 + 0j, "2": 1 + 0j},
     )
@@ -438,17 +363,7 @@ slides = { on = 0, through = [0, -40], angle = 0 }
 
 def test_the_guide_of_a_plate_is_drawn_clear_of_the_wheel_on_it():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-C = [0, 0]
-wheel = { centre = "C", radius = 40 }
-rolls = { on = 2, through = "B", angle = 0 }
-[links.2]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-""",
+        scene_text("drawing/plate-with-wheel-and-guide"),
         {"O": 0j, "B": 0j, "C": 10 + 40j},
         {"1": 1 + 0j, "2": 1 + 0j},
     )
@@ -495,17 +410,7 @@ rolls = {{ on = 0, through = "T", angle = {angle}, side = "{side}" }}
 def test_a_wheel_with_points_on_it_has_spokes_and_neither_bar_nor_plate():
     points = {"T": 0j, "C": 25j, "P": 25 + 25j, "Q": 50j, "R": -25 + 25j}
     drawing = made_up(
-        """
-[frame]
-T = [0, 0]
-[links.1]
-C = [0, 0]
-P = [25, 0]
-Q = [0, 25]
-R = [-25, 0]
-wheel = { centre = "C", radius = 25 }
-rolls = { on = 0, through = "T", angle = 0 }
-""",
+        scene_text("drawing/wheel-with-points"),
         points,
     )
     board, _ = board_of(drawing)
@@ -531,23 +436,7 @@ def test_every_disc_stands_for_its_wheel_at_scale():
 
 def test_two_drivers_at_one_pin_have_arcs_of_different_size_and_their_own_names():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.sun]
-O = [0, 0]
-wheel = { centre = "O", radius = 30 }
-[links.arm]
-O-P = 50
-[[drivers]]
-turn = "arm"
-angle = 40
-speed = 3
-[[drivers]]
-turn = "sun"
-angle = 100
-speed = -2
-""",
+        scene_text("drawing/two-drivers-at-one-pin"),
         {"O": 0j, "P": rect(50, radians(40))},
         {"sun": rect(1, radians(100))},
     )
@@ -561,23 +450,7 @@ speed = -2
 
 def test_a_relative_angle_is_drawn_from_the_axis_of_the_link_it_is_relative_to():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 50
-[links.2]
-A-B = 40
-[[drivers]]
-turn = 1
-angle = 50
-speed = 1
-[[drivers]]
-turn = 2
-against = 1
-angle = -80
-speed = -4
-""",
+        scene_text("drawing/relative-angle"),
         {
             "O": 0j,
             "A": rect(50, radians(50)),
@@ -593,17 +466,7 @@ speed = -4
 
 def test_a_driven_slide_is_dimensioned_from_the_zero_of_its_guide():
     drawing = made_up(
-        """
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 25 }
-[[drivers]]
-slide = 1
-position = 70
-speed = -30
-""",
+        scene_text("drawing/driven-slide"),
         {"O": 0j, "A": rect(70, radians(25))},
     )
     board, field = board_of(drawing, drivers=True)

@@ -15,22 +15,9 @@ from graphkin.loops.freedom import true_mobility
 from graphkin.loops.witness import by_loops, compare, examine
 from graphkin.scene.model import Closure
 from graphkin.text.errors import StructureError, WitnessError
+from tests.scene_files import scene_text
 
-FOUR_BAR = """
-[frame]
-A = [0, 0]
-D = [4, 0]
-[links.1]
-A-B = 1.5
-[links.2]
-B-C = 3.5
-[links.3]
-D-C = 3
-[[drivers]]
-turn = 1
-angle = 75
-speed = 2
-"""
+FOUR_BAR = scene_text("loops/four-bar")
 
 
 def unit(angle):
@@ -120,29 +107,7 @@ def test_an_unknown_closure_number_is_told_with_those_that_are(read):
     assert "of which 0 fit" in str(caught.value)
 
 
-CYLINDER = """
-[frame]
-A = [0, 0]
-D = [4, 0]
-[links.barrel]
-A = [0, 0]
-[links.rod]
-B-E = 3
-slides = { on = "barrel", through = "A", angle = 0 }
-[links.boom]
-D-B = 2
-B-C = 1
-D-C = 2.5
-C = "left of D-B"
-[[drivers]]
-slide = "rod"
-against = "barrel"
-position = 3.5
-speed = 0.8
-acceleration = -1.7
-[branches]
-rod = "closure NUMBER"
-"""
+CYLINDER = scene_text("loops/cylinder")
 
 
 @pytest.mark.parametrize(("number", "sign"), [(1, 1), (2, -1)])
@@ -165,25 +130,7 @@ def test_a_rod_of_driven_length_between_two_moving_links(number, sign, read):
     assert compare(scene, by_loops(scene)).agrees
 
 
-RELATIVE = """
-[frame]
-A = [0, 0]
-D = [4, 0]
-[links.1]
-A-B = 1.5
-[links.2]
-B-C = 3.5
-[links.3]
-D-C = 3
-[[drivers]]
-turn = 2
-against = 1
-angle = -50
-speed = 2
-acceleration = 1
-[branches]
-1 = "closure 1"
-"""
+RELATIVE = scene_text("loops/relative")
 
 
 def test_a_crank_driven_against_another_moving_link(read):
@@ -207,24 +154,7 @@ def test_a_crank_driven_against_another_moving_link(read):
 
 
 def test_oldham_turns_alike_at_both_ends(read):
-    text = """
-[frame]
-A = [0, 0]
-B = [0.3, 0.1]
-[links.1]
-A = [0, 0]
-slides = { on = 3, through = "P", angle = 0 }
-[links.2]
-B = [0, 0]
-slides = { on = 3, through = "P", angle = 90 }
-[links.3]
-P = [0, 0]
-[[drivers]]
-turn = 1
-angle = 30
-speed = 5
-acceleration = 2
-"""
+    text = scene_text("loops/oldham")
     scene = read(text)
     found = assemble(scene)
     motion = found.motion
@@ -236,25 +166,7 @@ acceleration = 2
     assert true_mobility(scene) == 1
 
 
-TRAMMEL = """
-[frame]
-O = [0, 0]
-[links.1]
-A-B = 2
-M = "on A-B"
-A-M = 0.7
-[links.2]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[[drivers]]
-turn = 1
-angle = 130
-speed = 3
-acceleration = 4
-"""
+TRAMMEL = scene_text("loops/trammel")
 
 
 def test_trammel_draws_an_ellipse(read):
@@ -291,32 +203,7 @@ def test_a_batch_without_positions_is_assembled_too(read):
     assert examine(scene, bare, q).agrees.all()
 
 
-RAPID_RETURN = """
-[parameters]
-q = 35
-[frame]
-O = [0, 0]
-G = [-2, 2]
-[links.1]
-O-A = 1
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "P-Q" }
-[links.3]
-P-Q = 6
-[links.4]
-P = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.5]
-Q = [0, 0]
-slides = { on = 0, through = "G", angle = 20 }
-[[drivers]]
-turn = 1
-angle = "q"
-speed = 3
-[branches]
-2 = "closure 1"
-"""
+RAPID_RETURN = scene_text("loops/rapid-return")
 
 
 def test_the_number_of_a_closure_is_held_in_a_batch(read):

@@ -14,37 +14,9 @@ from graphkin.loops.equations import equations
 from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
+from tests.scene_files import scene_text
 
-RAPID_RETURN = """
-[frame]
-O = [0, 0]
-G = [-2, 2]
-[links.1]
-O-A = 1
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "P-Q" }
-[links.3]
-P-Q = 6
-[links.4]
-P = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.5]
-Q = [0, 0]
-slides = { on = 0, through = "G", angle = 20 }
-[links.6]
-Q-R = 12
-[links.7]
-R = [0, 0]
-slides = { on = 0, through = [0, 4], angle = 0 }
-[[drivers]]
-turn = 1
-angle = 35
-speed = 3
-[branches]
-2 = "closure 1"
-7 = "forward"
-"""
+RAPID_RETURN = scene_text("loops/rapid-return-2")
 
 
 def residual(theta):
@@ -106,32 +78,7 @@ def test_the_lever_has_several_closures():
     assert len(roots()) in (2, 4)
 
 
-CLASS_III = """
-[frame]
-O1 = [0, 0]
-O2 = [190, 0]
-O3 = [330, 90]
-[links.1]
-O1-A = 100
-[links.2]
-O2-B = 140
-[links.3]
-A-B = 166
-A-C = 150
-B-C = 110
-C = "left of A-B"
-[links.4]
-C-D = 220
-[links.5]
-O3-D = 60
-[[drivers]]
-turn = 5
-angle = "ANGLE"
-speed = 10
-acceleration = 1
-[branches]
-1 = "closure 6"
-"""
+CLASS_III = scene_text("loops/class-iii")
 DEAD_POINT = Fraction("101.48486907497565")
 """The driver's angle at which the fourth and fifth of the six closures meet, in degrees."""
 

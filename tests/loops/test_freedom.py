@@ -10,62 +10,12 @@ import pytest
 from graphkin.loops.assemble import assemble
 from graphkin.loops.freedom import idle, true_mobility
 from graphkin.text.errors import StructureError, WitnessError
+from tests.scene_files import scene_text
 
-CRANKS = """
-[frame]
-A = [0, 0]
-D = [3, 0]
-F = [1, 0]
-[links.1]
-A-B = 2
-[links.2]
-B-C = 3
-B-E = 1
-E = "on B-C"
-[links.3]
-D-C = 2
-[links.4]
-F-E = 2
-[[drivers]]
-turn = 1
-angle = 60
-speed = 3
-"""
+CRANKS = scene_text("loops/cranks")
 SIDE = '[branches]\nC = "right of B-D"\n'
-TRAMMEL = """
-[frame]
-O = [0, 0]
-[links.1]
-A-B = 2
-A-M = 1
-M = "on A-B"
-[links.2]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.4]
-O-M = 1
-[[drivers]]
-slide = 2
-position = 1
-speed = 1
-"""
-WEDGES = """
-[frame]
-O = [0, 0]
-[links.1]
-P = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.2]
-Q = [0, 0]
-slides = [{ on = 0, through = [1, 0], angle = 90 }, { on = 1, through = "P", angle = 30 }]
-[[drivers]]
-slide = 1
-position = 0
-speed = 2
-"""
+TRAMMEL = scene_text("loops/trammel-2")
+WEDGES = scene_text("loops/wedges")
 
 
 def on_circle(centre, radius, degrees):
@@ -126,48 +76,13 @@ def test_pump_five_bar_and_a_frame(sheet, read, pump_start):
 
 def test_an_angle_that_the_scene_does_not_say_is_named(read):
     """A cross on the slots of two turning discs: its second slot has no angle to the first."""
-    scene = read(
-        """
-[frame]
-A = [0, 0]
-B = [1, 0]
-[links.1]
-A = [0, 0]
-[links.2]
-B = [0, 0]
-[links.3]
-P = [0, 0]
-slides = [{ on = 1, through = "A", angle = 0 }, { on = 2, through = "B", angle = 90 }]
-[[drivers]]
-turn = 1
-angle = 30
-speed = 1
-"""
-    )
+    scene = read(scene_text("loops/angle-not-said"))
     with pytest.raises(StructureError, match="write link 2 as the block that slides on 3"):
         true_mobility(scene, {"P": 0.75 + 0.43j})
 
 
 def test_oldham_turns_alike_at_both_ends(read, solved):
-    scene = read(
-        """
-[frame]
-A = [0, 0]
-B = [1, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 3, through = "P", angle = 0 }
-[links.2]
-B = [0, 0]
-slides = { on = 3, through = "P", angle = 90 }
-[links.3]
-P = [0, 0]
-[[drivers]]
-turn = 1
-angle = 30
-speed = 5
-"""
-    )
+    scene = read(scene_text("loops/oldham-2"))
     found = solved(scene, P=0.75 + 0.43j)
     omega = found.motion.omega[0]
     assert omega[2] == omega[3] == pytest.approx(5)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import pytest
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError
-
-SCENES = Path(__file__).parents[1] / "scenes"
+from tests.scene_files import FOLDER, scene_text
 
 
 @pytest.mark.parametrize(
@@ -19,7 +17,7 @@ SCENES = Path(__file__).parents[1] / "scenes"
 )
 def test_a_wheel_that_its_arm_leads_may_turn_farther_than_half_round(name, number):
     """The arm stands at -128° from its start, the wheel on it then at -411°."""
-    text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    text = scene_text(name)
     found = Mechanism(read_text(text.replace("closure 1", f"closure {number}"), name))
     verdict = found.witness(found.solve())
     assert verdict.branches == ()
@@ -28,7 +26,7 @@ def test_a_wheel_that_its_arm_leads_may_turn_farther_than_half_round(name, numbe
 
 def test_the_two_gear_crank_stands_alike_whichever_of_its_links_is_written_first():
     """Four-bar and Willis: 30 φ2 + 45 φ4 = 75 φ3, solved by hand to all digits of a double."""
-    first, last = (load(SCENES / f"two-gear-crank{end}.toml").solve() for end in ("", "-arm-last"))
+    first, last = (load(FOLDER / f"two-gear-crank{end}.toml").solve() for end in ("", "-arm-last"))
     for point in "ABM":
         assert first.points[point].position == pytest.approx(last.points[point].position)
         assert first.points[point].velocity == pytest.approx(last.points[point].velocity)
@@ -39,7 +37,7 @@ def test_the_two_gear_crank_stands_alike_whichever_of_its_links_is_written_first
 @pytest.mark.parametrize("swapped", [False, True])
 def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first(swapped):
     """Tried round the large wheel: round the small one only a third of its turn would be found."""
-    text = (SCENES / "geared-five-bar-from-its-coupler.toml").read_text(encoding="utf-8")
+    text = scene_text("geared-five-bar-from-its-coupler")
     frame, one, two, rest = re.split(r"(?=\[links\.[123]\])", text)
     text = "".join([frame, two, one, rest] if swapped else [frame, one, two, rest])
     with pytest.raises(ClosureError, match="close in 6 ways"):
@@ -48,5 +46,5 @@ def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first(swapped):
 
 
 def test_the_witness_counts_a_small_wheel_beyond_half_a_turn():
-    found = load(SCENES / "geared-five-bar-from-its-coupler.toml")
+    found = load(FOLDER / "geared-five-bar-from-its-coupler.toml")
     assert found.witness(found.solve()).agrees

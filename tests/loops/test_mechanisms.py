@@ -8,6 +8,8 @@ import math
 import mpmath
 import pytest
 
+from tests.scene_files import scene_text
+
 FOUR_BAR = """
 [frame]
 A = [0, 0]
@@ -105,31 +107,7 @@ def agree(motion, expected, tolerance=1e-12):
             assert abs(found[0] - exact) <= tolerance * max(1, abs(exact)), name
 
 
-SHAPER = """
-[frame]
-O1 = [0, 0]
-O2 = [0, -3]
-[links.1]
-O1-A = 1.2
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "O2-B" }
-[links.3]
-O2-B = 7
-[links.4]
-B-C = 2
-[links.5]
-C = [0, 0]
-slides = { on = 0, through = [0, 3.5], angle = 0 }
-[[drivers]]
-turn = 1
-angle = 30
-speed = 6
-acceleration = 2
-[branches]
-2 = "forward"
-5 = "forward"
-"""
+SHAPER = scene_text("loops/shaper")
 
 
 def shaper(q):
@@ -158,25 +136,7 @@ def test_slotted_lever_with_coriolis(read, solved):
     assert abs(carried + slide.coriolis[0] + relative - whole) < 1e-12
 
 
-CRANK_SLOT = """
-[frame]
-A = [0, 0]
-C = [3, -1]
-[links.1]
-A-B = 1
-[links.2]
-B = [0, 0]
-E = [5, 0]
-[links.3]
-C = [0, 0]
-slides = { on = 2, through = "B", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 50
-speed = 2
-[branches]
-3 = "forward"
-"""
+CRANK_SLOT = scene_text("loops/crank-slot")
 
 
 def test_bar_through_a_swivelling_block(read, solved):
@@ -195,29 +155,7 @@ def test_bar_through_a_swivelling_block(read, solved):
     agree(motion, central(position, [50 * mpmath.pi / 180], [2], [0]))
 
 
-RAPID_RETURN = """
-[frame]
-O = [0, 0]
-G = [-2, 2]
-[links.1]
-O-A = 1
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "P-Q" }
-[links.3]
-P-Q = 6
-[links.4]
-P = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.5]
-Q = [0, 0]
-slides = { on = 0, through = "G", angle = 20 }
-[[drivers]]
-turn = 1
-angle = 35
-speed = 3
-acceleration = 1
-"""
+RAPID_RETURN = scene_text("loops/rapid-return-3")
 
 
 def test_class_three_rapid_return(read, solved):
@@ -238,31 +176,7 @@ def test_class_three_rapid_return(read, solved):
     agree(solved(read(RAPID_RETURN), **start).motion, expected, 1e-11)
 
 
-FIVE_BAR = """
-[frame]
-A = [0, 0]
-E = [4, 0]
-[links.1]
-A-B = 2
-[links.2]
-B-C = 3
-[links.3]
-D-C = 3
-[links.4]
-E-D = 2
-[[drivers]]
-turn = 1
-angle = 100
-speed = 2
-acceleration = -1
-[[drivers]]
-turn = 4
-angle = 60
-speed = -1
-acceleration = 3
-[branches]
-C = "left of B-D"
-"""
+FIVE_BAR = scene_text("loops/five-bar")
 
 
 def five_bar(p, q):
@@ -286,32 +200,7 @@ def test_five_bar_with_two_drivers(read, solved):
         assert abs(1j * (crank + arms * tau[1]) - ratio) < 1e-13
 
 
-EIGHT_LINKS_1 = """
-[frame]
-A = [0, 0]
-F = [9, 6]
-[links.2]
-A-B = "sqrt(8)"
-[links.3]
-B = [0, 0]
-slides = { on = 4, through = "C", angle = -90 }
-[links.4]
-C = [0, 0]
-slides = { on = 0, through = [3, 0], angle = 90 }
-[links.5]
-C-D = "sqrt(20)"
-[links.6]
-D = [0, 0]
-slides = { on = 0, through = [0, 4], angle = 0 }
-[links.7]
-D-E = 3
-[links.8]
-F-E = "sqrt(5)"
-[[drivers]]
-turn = 2
-angle = 45
-speed = 1
-"""
+EIGHT_LINKS_1 = scene_text("loops/eight-links-1")
 
 
 def test_eight_links_with_a_moving_slide(read, solved):
@@ -325,33 +214,7 @@ def test_eight_links_with_a_moving_slide(read, solved):
     assert abs(motion.point("D").velocity[0] - 1) < 1e-13
 
 
-EIGHT_LINKS_2 = """
-[frame]
-O = [0, 0]
-B = [6, 3]
-F = [20, 11]
-[links.2]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.3]
-A = [0, 0]
-[links.4]
-B-C = "sqrt(20)"
-slides = { on = 3, through = "A", angle = 0 }
-[links.5]
-C-D = "sqrt(52)"
-[links.6]
-D = [0, 0]
-slides = { on = 0, through = [16, 0], angle = 90 }
-[links.7]
-D-E = "sqrt(8)"
-[links.8]
-F-E = 2
-[[drivers]]
-slide = 2
-position = 0
-speed = 1
-"""
+EIGHT_LINKS_2 = scene_text("loops/eight-links-2")
 
 
 def test_eight_links_with_a_swivelling_guide(read, solved):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.chosen import STUDENTS
+from tests.scene_files import scene_text
 
 CASES = {
     "pump": {
@@ -101,27 +102,7 @@ def test_batch_equals_scalars(sheet, solved, pump_start):
 
 
 def test_a_batch_masks_what_does_not_assemble(read, solved):
-    scene = read(
-        """
-[parameters]
-c = { value = 2, min = 0.1, max = 5 }
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 1
-[links.2]
-A-B = "c"
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 90
-speed = 1
-[branches]
-3 = "forward"
-"""
-    )
+    scene = read(scene_text("loops/batch"))
     found = solved(scene, {"c": np.array([2.0, 0.5, 3.0])}, A=1j, B=2 + 0j)
     assert found.report.good.tolist() == [True, False, True]
     assert np.isnan(found.motion.point("B").velocity).tolist() == [False, True, False]

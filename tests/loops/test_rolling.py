@@ -12,6 +12,7 @@ from graphkin.loops.assemble import assemble
 from graphkin.loops.constraints import constraints
 from graphkin.loops.freedom import true_mobility
 from graphkin.text.errors import StructureError, WitnessError
+from tests.scene_files import scene_text
 
 ROLLER = """
 [frame]
@@ -105,32 +106,7 @@ def test_two_drivers_that_both_roll_one_wheel(read):
         assemble(read(ROLLER.format(side="left", driver=driver.format(1))))
 
 
-PLATES = """
-[frame]
-O = [0, 0]
-G = [0, 1]
-[links.low]
-L = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.up]
-U = [0, 0]
-slides = { on = 0, through = "G", angle = 0 }
-[links.wheel]
-C = [0, 0]
-wheel = { centre = "C", radius = 0.5 }
-rolls = [{ on = "low", through = "L", angle = 0 },
-  { on = "up", through = "U", angle = 0, side = "right" }]
-[[drivers]]
-slide = "low"
-position = 0.3
-speed = -2
-acceleration = 1
-[[drivers]]
-slide = "up"
-position = -0.1
-speed = 5
-acceleration = 7
-"""
+PLATES = scene_text("loops/plates")
 
 
 def test_a_roller_between_two_plates(read):
@@ -215,30 +191,7 @@ def test_wheels_that_do_not_touch_are_named(read):
 
 def test_compound_wheels_touch_by_the_pair_that_fits(read):
     """A stepped idler: 0.2 on 0.4, 0.5 on 0.1: ω_out = ω_in·(0.4/0.2)·(0.5/0.1)."""
-    scene = read(
-        """
-[frame]
-A = [0, 0]
-B = [0.6, 0]
-C = [1.2, 0]
-[links.in]
-A = [0, 0]
-wheel = { centre = "A", radius = 0.4 }
-[links.idler]
-B = [0, 0]
-wheels = [{ centre = "B", radius = 0.5 }, { centre = "B", radius = 0.2 }]
-rolls = { on = "in" }
-[links.out]
-C = [0, 0]
-T = [0.05, 0]
-wheel = { centre = "C", radius = 0.1 }
-rolls = { on = "idler" }
-[[drivers]]
-turn = "in"
-angle = 200
-speed = 3
-"""
-    )
+    scene = read(scene_text("loops/compound-wheels"))
     motion = assemble(scene).motion
     omega = dict(zip(motion.index, motion.omega[0], strict=True))
     assert omega["idler"] == pytest.approx(-6)
@@ -286,29 +239,7 @@ def test_rack_and_pinion_driven_from_either_side(driver, read):
     assert true_mobility(scene) == 1
 
 
-ROD_AND_WHEEL = """
-[frame]
-A = [0, 2]
-T = [0, 0]
-[links.block]
-A = [0, 0]
-slides = { on = "rod", along = "B-E" }
-[links.rod]
-B-E = 4
-[links.wheel]
-C = [0, 0]
-B = [0.5, 0.1]
-wheel = { centre = "C", radius = 0.8 }
-rolls = { on = 0, through = "T", angle = 0, start = { wheel = 20 } }
-[[drivers]]
-slide = "block"
-against = "rod"
-position = 2.5
-speed = 0.7
-acceleration = -1.3
-[branches]
-wheel = "closure NUMBER"
-"""
+ROD_AND_WHEEL = scene_text("loops/rod-and-wheel")
 
 
 def rod_and_wheel(guess):
@@ -351,23 +282,7 @@ def test_a_rod_of_driven_length_on_a_rolling_wheel(read):
 
 def test_a_wheel_in_a_bowl_without_an_arm(read):
     """The centre runs on a circle of R - r; with γ its direction, ω = -γ̇ (R - r)/r."""
-    scene = read(
-        """
-[frame]
-O = [0, 0]
-wheel = { centre = "O", radius = 1, inside = true }
-[links.wheel]
-P = [0, 0]
-Q = [0.2, 0]
-wheel = { centre = "P", radius = 0.25 }
-rolls = { on = 0 }
-[[drivers]]
-turn = "wheel"
-angle = 100
-speed = 6
-acceleration = 2
-"""
-    )
+    scene = read(scene_text("loops/wheel-in-a-bowl"))
     motion = assemble(scene).motion
 
     def place(turned):

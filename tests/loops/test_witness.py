@@ -11,6 +11,7 @@ from graphkin.construction.core.solution import PointMotion, Solution
 from graphkin.loops.witness import by_loops, compare, examine
 from graphkin.numbers.plane import Ratio
 from graphkin.text.errors import StructureError, WitnessError
+from tests.scene_files import scene_text
 
 
 @pytest.fixture
@@ -106,30 +107,7 @@ def test_a_wrong_branch_is_caught(start, broken, sheet, solved, written, pump_st
     assert not verdict.agrees
 
 
-SHAPER = """
-[frame]
-O1 = [0, 0]
-O2 = [0, -3]
-[links.1]
-O1-A = 1.2
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "O2-B" }
-[links.3]
-O2-B = 7
-[links.4]
-B-C = 2
-[links.5]
-C = [0, 0]
-slides = { on = 0, through = [0, 3.5], angle = 0 }
-[[drivers]]
-turn = 1
-angle = 30
-speed = 6
-[branches]
-2 = "forward"
-5 = "forward"
-"""
+SHAPER = scene_text("loops/shaper-2")
 RIGHT = {"A": 1 + 0.6j, "B": 1.9 + 3.7j, "C": 3.9 + 3.5j}
 
 
@@ -213,23 +191,7 @@ def test_a_mechanism_at_rest_is_compared_absolutely(read, solved, written):
 
 def test_links_that_only_translate_have_centres_at_infinity(read, solved, written):
     """ω of the coupler of a parallelogram is rounding: its centre is far away, and right."""
-    scene = read(
-        """
-[frame]
-A = [0, 0]
-D = [3, 0]
-[links.1]
-A-B = 1
-[links.2]
-B-C = 3
-[links.3]
-D-C = 1
-[[drivers]]
-turn = 1
-angle = 77
-speed = 100
-"""
-    )
+    scene = read(scene_text("loops/translating-links"))
     start = {"B": 0.22 + 0.97j, "C": 3.22 + 0.97j}
     solution = written(solved(scene, **start))
     assert abs(solution.links["2"].omega) < 1e-12
@@ -292,41 +254,7 @@ def test_far_from_the_origin_nothing_is_lost(read, solved, written):
     assert compare(read(far), written(there)).agrees
 
 
-WHEELS = """
-[frame]
-O = [0, 0]
-[links.sun]
-O = [0, 0]
-T = [0.1, 0.5]
-wheel = { centre = "O", radius = 0.6 }
-[links.arm]
-O-P = 0.9
-[links.planet]
-P = [0, 0]
-Q = [0.3, 0]
-wheel = { centre = "P", radius = 0.3 }
-rolls = { on = "sun" }
-[links.rod]
-Q-S = 2
-[links.roller]
-S = [0, 0]
-R = [0.1, 0.1]
-wheel = { centre = "S", radius = 0.2 }
-rolls = { on = 0, through = [0, -1], angle = 0 }
-[[drivers]]
-turn = "arm"
-angle = 400
-speed = 7
-acceleration = -3
-[[drivers]]
-turn = "sun"
-angle = -500
-speed = -5
-[branches]
-roller = "forward"
-[ask]
-centres = ["sun-planet", "arm-planet", "planet-roller"]
-"""
+WHEELS = scene_text("loops/wheels")
 
 
 def test_wheels_are_held(read):

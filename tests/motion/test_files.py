@@ -24,6 +24,7 @@ from graphkin.writers.plot_style import look
 from tests.bench.chain import scene as chain
 from tests.cli.conftest import Run, run  # noqa: F401
 from tests.motion.linkages import five_bar, four_bar, slider_crank
+from tests.scene_files import scene_text
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 PICTURES = {"positions", "velocities", "accelerations", "turning", "slides", "paths", "reach"}
@@ -159,32 +160,7 @@ def test_the_words_of_a_cycle(mechanism, said):
     assert "DOES NOT AGREE" not in text
 
 
-ARM = """graphkin = 1
-title = "Planet between a sun and a ring"
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-[frame]
-O = [0, 0]
-[links.sun]
-O-S = 20
-wheel = { centre = "O", radius = 60 }
-[links.arm]
-O-P = 90
-[links.planet]
-P-Q = 20
-wheel = { centre = "P", radius = 30 }
-rolls = [{ on = "sun" }, { on = "ring" }]
-[links.ring]
-O-R = 30
-wheel = { centre = "O", radius = 120, inside = true }
-[[drivers]]
-turn = "ring"
-angle = 40
-speed = 100
-[[drivers]]
-turn = "sun"
-angle = 0
-speed = -50
-"""
+ARM = scene_text("motion/arm")
 
 
 def test_an_arm_that_turns_on_and_on_does_not_swing():

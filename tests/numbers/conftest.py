@@ -7,28 +7,11 @@ import pytest
 from graphkin.mechanism import Mechanism
 from tests.cli.conftest import run
 from tests.mechanisms import mechanism_of
+from tests.scene_files import scene_text
 
 __all__ = ["run", "touching"]
 
-TOUCHING = """
-[parameters]
-a = { value = 40, min = 0, max = 90, step = 1 }
-[frame]
-O = [0, 0]
-P = { from = "O", length = 3, angle = "a" }
-[links.1]
-O-A = 1
-[links.2]
-A-B = 1
-[links.3]
-P-B = 1
-[[drivers]]
-turn = 1
-angle = "a"
-speed = 1
-[branches]
-B = "left of A-P"
-"""
+TOUCHING = scene_text("numbers/touching")
 
 
 @pytest.fixture

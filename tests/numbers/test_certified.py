@@ -20,6 +20,7 @@ from graphkin.numbers.kinds import ball_kind, decimal_kind
 from tests.chosen import CHOSEN
 from tests.mechanisms import HEAD, mechanism_of
 from tests.numbers.conftest import TOUCHING
+from tests.scene_files import scene_text
 
 COMPARED = ("position", "velocity", "acceleration", "omega", "epsilon")
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -35,17 +36,7 @@ turn = 1
 angle = {angle}
 """
 
-BLOCK = """
-time = "pi/7"
-[frame]
-O = [0, 0]
-[links.1]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-slide = 1
-position = "t"
-"""
+BLOCK = scene_text("numbers/block")
 
 
 def certified(mechanism: Mechanism, digits: int, targets=None):

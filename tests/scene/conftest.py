@@ -10,16 +10,10 @@ import pytest
 from graphkin.scene.model import Link, Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import Problem, SceneError
+from tests.scene_files import scene_text
 
 DATA = Path(__file__).parent / "data"
-HEAD = """
-graphkin = 1
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-[parameters]
-n = 7
-[frame]
-O = [0, 0]
-"""
+HEAD = scene_text("scene/head")
 DRIVER = """
 [[drivers]]
 turn = "crank"

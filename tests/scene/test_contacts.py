@@ -7,28 +7,9 @@ import pytest
 from graphkin.scene.contact_letters import contact_letters
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.pairs import contacts
+from tests.scene_files import scene_text
 
-TRAIN = """
-graphkin = 1
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-module = 2
-[frame]
-O = [0, 0]
-wheel = { centre = "O", teeth = 60, inside = true }
-[links.arm]
-O-P = 40
-[links.planet]
-P-Q = 20
-wheel = { centre = "P", teeth = 20 }
-rolls = [{ on = 0 }, { on = "sun" }]
-[links.sun]
-O-S = 20
-wheel = { centre = "O", teeth = 20 }
-[[drivers]]
-turn = "arm"
-angle = 0
-speed = 1
-"""
+TRAIN = scene_text("scene/train")
 
 
 def letters(*changes: tuple[str, str]) -> tuple[str, ...]:

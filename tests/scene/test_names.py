@@ -11,36 +11,9 @@ from graphkin.scene.link_names import in_language
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
 from graphkin.web.step_page import step_page, task_page
+from tests.scene_files import scene_text
 
-SCENE = """graphkin = 1
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[names]
-it = { crank = "manovella", lever = "leva", block = "pattino" }
-ro = { lever = "pârghie" }
-[frame]
-O = [0, 0]
-Q = [0, -150]
-[links.crank]
-O-A = 50
-[links.block]
-A = [0, 0]
-slides = { on = "lever", along = "Q-B" }
-[links.lever]
-Q-B = 250
-[[drivers]]
-turn = "crank"
-angle = 40
-speed = 3
-[branches]
-block = "forward"
-[ask]
-velocity = ["A", "A@lever"]
-acceleration = ["B"]
-omega = ["lever"]
-epsilon = ["lever"]
-centres = ["lever", "crank-lever"]
-slides = ["block"]
-"""
+SCENE = scene_text("scene/guide")
 OWN = ("crank", "lever", "block")
 
 

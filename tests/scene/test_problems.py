@@ -10,6 +10,7 @@ import pytest
 from graphkin.mechanism import load
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import Problem, SceneError
+from tests.scene_files import scene_text
 
 Finder = Callable[..., Problem]
 Finders = Callable[..., list[Problem]]
@@ -296,14 +297,7 @@ def test_a_driver_along_the_wrong_guide(problem: Finder) -> None:
     assert "no straight track to roll on" in problem(old, "roll = 4\nposition = 1").found
 
 
-SEVERAL = """[links.6]
-A-B = -40
-X = "left of A-Q"
-slides = { on = 9, through = [0, nan], angle = "2n" }
-[links.7]
-[links.8]
-R = "sideways"
-[links.4]"""
+SEVERAL = scene_text("scene/several")
 
 
 def test_every_problem_is_told_at_once(problems: Finders) -> None:

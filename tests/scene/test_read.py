@@ -13,6 +13,7 @@ import pytest
 from graphkin.scene.model import Angled, Apart, At, Closure, Scene, Side, Slide, Triangle, Way
 from graphkin.scene.quantity import exact
 from graphkin.scene.read_scene import read_scene, read_text
+from tests.scene_files import scene_text
 
 
 def test_the_pump(data: Path) -> None:
@@ -110,27 +111,7 @@ def test_a_sliding_driver(changed: Callable[..., Scene]) -> None:
     assert driver.speed.si({}) == -0.025
 
 
-RACK = """
-graphkin = 1
-units = { length = "mm", angle = "rad", speed = "rad/s" }
-module = 4
-[frame]
-O = [0, 0]
-wheel = { centre = "O", teeth = 60, inside = true }
-[links.arm]
-O-P = 60
-[links.planet]
-P = [0, 0]
-wheels = [{ centre = "P", teeth = 30 }, { centre = "P", radius = "5*2" }]
-rolls = [
-  { on = "frame", start = { arm = "pi/2" } },
-  { on = 0, through = [0, 60], angle = 0, side = "right", start = { planet = 1 } },
-]
-[[drivers]]
-roll = "planet"
-position = 2
-speed = 3
-"""
+RACK = scene_text("scene/rack")
 
 
 def test_wheels_by_teeth_and_tracks_of_both_kinds() -> None:

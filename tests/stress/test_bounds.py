@@ -14,48 +14,13 @@ from graphkin.loops import rounding
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError
+from tests.scene_files import scene_text
 from tests.stress.families import FAMILIES, errors, four_bar
 
 SCENES = 6
 """Scenes of each family; thousands hold when this is raised."""
-DEAD = """graphkin = 1
-title = "a sine of 1e-9"
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-O1 = [0, 0]
-O2 = ["0.35", 0]
-[links.1]
-O1-A = "0.1"
-[links.2]
-A-B = "0.1"
-[links.3]
-O2-B = "0.2"
-[branches]
-B = "left of A-O2"
-[[drivers]]
-turn = 1
-angle = "52.61680158213511864338190094902262203793552436396472493"
-speed = 1
-"""
-NEARLY = """graphkin = 1
-title = "all but in line"
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-O1 = [0, 0]
-O2 = [4, 0]
-[links.1]
-O1-A = 1
-[links.2]
-A-B = "BAR"
-[links.3]
-O2-B = 1
-[branches]
-B = "left of A-O2"
-[[drivers]]
-turn = 1
-angle = 0
-speed = 1
-"""
+DEAD = scene_text("stress/dead")
+NEARLY = scene_text("stress/nearly")
 
 
 def verdicts(family: str, count: int = SCENES) -> list[tuple[float, object]]:

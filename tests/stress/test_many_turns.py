@@ -11,40 +11,14 @@ import pytest
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
+from tests.scene_files import scene_text
 
 MP = mpmath.mp.clone()
 MP.dps = 60
 TURNS = (10**3, 10**6, 10**9, 10**12, 10**13, 10**14, 10**15)
 DRIVER = 'speed = 1\nacceleration = "0.3"\n'
-TRAIN = """[frame]
-O1 = [0, 0]
-O2 = ["A+B", 0]
-O3 = ["A+B+C+D", 0]
-[links.1]
-O1-R1 = "A"
-wheel = { centre = "O1", radius = "A" }
-[links.2]
-O2-R2 = "B"
-wheels = [{ centre = "O2", radius = "B" }, { centre = "O2", radius = "C" }]
-rolls = { on = 1 }
-[links.3]
-O3-R3 = "D"
-wheel = { centre = "O3", radius = "D" }
-rolls = { on = 2 }
-[[drivers]]
-turn = 1
-angle = "ANGLE"
-"""
-TRACK = """[frame]
-F = [0, 0]
-[links.1]
-O-R1 = "A"
-wheel = { centre = "O", radius = "A" }
-rolls = { on = 0, through = "F", angle = 0, start = { 1 = 0 } }
-[[drivers]]
-roll = 1
-position = "WAY"
-"""
+TRAIN = scene_text("stress/train")
+TRACK = scene_text("stress/track")
 RADII = {
     "fractions": (("3/10", "7/10", "1/5", "9/10"), [MP.mpf(n) / 10 for n in (3, 7, 2, 9)]),
     "roots": (

@@ -7,6 +7,7 @@ import pytest
 from graphkin.structure.pairs import contacts, contacts_between, pairs, turns
 from graphkin.text.errors import StructureError
 from tests.mechanisms import scene_of
+from tests.scene_files import scene_text
 
 DRIVEN = "[[drivers]]\nturn = {link}\nangle = 40\nspeed = 1\n"
 
@@ -67,13 +68,7 @@ rolls = [
 """
 
 
-ALONE = """[frame]
-O = [0, 0]
-[links.1]
-C = [0, 0]
-wheel = { centre = "C", radius = 2 }
-rolls = { on = 0, through = "O", angle = 0 }
-"""
+ALONE = scene_text("structure/alone")
 
 
 def refusal(text: str) -> str:
@@ -171,16 +166,7 @@ def test_stepped_wheels_are_told_apart_by_what_they_touch():
 
 
 def test_a_ring_may_roll_about_a_wheel():
-    text = """[frame]
-O = [0, 0]
-wheel = { centre = "O", radius = 2 }
-[links.1]
-O-P = 3
-[links.2]
-P = [0, 0]
-wheel = { centre = "P", radius = 5, inside = true }
-rolls = { on = 0 }
-"""
+    text = scene_text("structure/ring-about-a-wheel")
     (contact,) = contacts(made(text))
     assert (contact.arm, contact.taken) == ("1", 1)
     inside_out = text.replace("radius = 2", "radius = 9").replace("O-P = 3", "O-P = 4")
@@ -188,30 +174,13 @@ rolls = { on = 0 }
 
 
 def test_a_wheel_on_a_wheel_without_an_arm_takes_two():
-    text = """[frame]
-O = [0, 0]
-wheel = { centre = "O", radius = 2 }
-[links.1]
-C = [0, 0]
-wheel = { centre = "C", radius = 1 }
-rolls = { on = 0 }
-"""
+    text = scene_text("structure/wheel-on-a-wheel")
     (contact,) = contacts(made(text))
     assert (contact.track.centre, contact.arm, contact.taken) == ("O", None, 2)
 
 
 def test_gears_mesh_on_the_axles_of_the_frame_teeth_for_radii():
-    text = """[frame]
-O = [0, 0]
-Q = [90, 0]
-[links.1]
-O = [0, 0]
-wheel = { centre = "O", teeth = 20 }
-[links.2]
-Q = [0, 0]
-wheel = { centre = "Q", teeth = 40 }
-rolls = { on = 1 }
-"""
+    text = scene_text("structure/gears-on-the-frame")
     drive = DRIVEN.format(link="1")
     (contact,) = contacts(scene_of("module = 3\n" + text + drive))
     assert (contact.arm, contact.taken) == ("0", 1)
@@ -251,58 +220,20 @@ def test_contacts_are_found_from_either_of_their_links():
 
 def test_a_link_that_slides_alone_join_to_the_frame_does_not_turn():
     """A plate on the frame and a block across it shift; a lever turns, and so does its block."""
-    text = """[frame]
-O = [0, 0]
-Q = [3, 0]
-[links.plate]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.block]
-B = [0, 0]
-slides = { on = "plate", through = "A", angle = 90 }
-[links.lever]
-Q-C = 1
-B = "on Q-C"
-Q-B = 0.5
-[links.ring]
-D = [0, 0]
-slides = { on = "lever", along = "Q-C" }
-"""
+    text = scene_text("structure/sliding-link")
     scene = made(text, '"lever"')
     assert [name for name in scene.links if turns(scene, name)] == ["lever", "ring"]
 
 
 def test_a_guide_that_a_shifting_block_carries_does_not_turn_either():
     """The yoke slides on a block of the frame: told from the guide's side as from the block's."""
-    text = """[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = [{ on = 0, through = "O", angle = 0 }]
-[links.2]
-B = [0, 0]
-slides = { on = 3, through = "D", angle = 0 }
-[links.3]
-D = [0, 0]
-slides = { on = 1, through = "A", angle = 40 }
-"""
+    text = scene_text("structure/shifting-block-with-a-guide")
     scene = made(text)
     assert not any(turns(scene, name) for name in scene.links)
 
 
 def test_a_bar_on_which_a_shifting_block_slides_does_not_turn():
     """The bar has no guide of its own; the block that slides on it keeps its direction."""
-    text = """[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = [{ on = 0, through = "O", angle = 0 }, { on = 2, along = "B-C" }]
-[links.2]
-B-C = 5
-[links.3]
-O-D = 3
-D-C = 1
-O-D-C = 90
-"""
+    text = scene_text("structure/shifting-block-on-a-bar")
     scene = made(text)
     assert [name for name in scene.links if turns(scene, name)] == ["3"]

@@ -9,6 +9,7 @@ from graphkin.structure.driver_count import driver_problem, refuse_drivers, refu
 from graphkin.structure.groups import Unresolved
 from graphkin.text.errors import StructureError
 from tests.mechanisms import scene_of
+from tests.scene_files import scene_text
 from tests.structure.test_groups import DRIVEN, FIVE_BAR, FOUR_BAR, PARALLEL, SLIDER_CRANK
 
 OTHER = DRIVEN.replace("turn = 1", "turn = 4")
@@ -88,13 +89,7 @@ def test_a_count_below_the_drivers_is_left_to_the_rank_where_a_link_may_be_idle(
 
 def test_drivers_without_which_the_groups_are_complete_are_too_many():
     """A four-bar with two of its links driven, and a second four-bar that has its own driver."""
-    second = """[links.5]
-X-Y = 1
-[links.6]
-Y-Z = 4
-[links.7]
-W-Z = 2
-"""
+    second = scene_text("structure/driver-too-many")
     two = FOUR_BAR.replace("Q = [4, 0]", "Q = [4, 0]\nX = [0, 9]\nW = [4, 9]")
     two += "[links.3]\nQ-B = 2\n" + second
     third, fifth = (DRIVEN.replace("turn = 1", f"turn = {n}") for n in (3, 5))

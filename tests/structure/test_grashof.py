@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from graphkin.structure.grashof import FourBar, SliderCrank, grashof, single_loops
 from tests.mechanisms import LAW, scene_of
+from tests.scene_files import scene_text
 
 LENGTHS = st.integers(1, 60).map(float)
 DRIVEN = "[[drivers]]\nturn = 1\nangle = 40\nspeed = 1\n"
@@ -66,22 +67,7 @@ def test_a_slider_crank_turns_fully_iff_crank_and_offset_stay_within_the_rod(cra
 
 # --- loops found in a scene ----------------------------------------------------------------------
 
-SIX_BAR = """[frame]
-O = [0, 0]
-Q = [10, 0]
-[links.1]
-O-A = 4
-[links.2]
-A-B = 9
-[links.3]
-Q-B = 7
-[links.4]
-B-C = 12
-[links.5]
-D = [0, 0]
-C = [1, 2]
-slides = { on = 0, through = [0, -3], angle = 180, offset = 1 }
-"""
+SIX_BAR = scene_text("structure/six-bar")
 SLOTTED_LEVER = """[frame]
 O = [0, 0]
 Q = [0, -3]

@@ -15,6 +15,7 @@ from graphkin.structure.mobility import count, kutzbach
 from graphkin.structure.pairs import Contact, Pin, pairs
 from graphkin.text.errors import StructureError
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, scene_of, shipped
+from tests.scene_files import scene_text
 from tests.structure.test_contacts import ALONE, train
 
 PUMP = {
@@ -119,36 +120,8 @@ speed = 1
 """
 FOUR_BAR = "[frame]\nO = [0, 0]\nQ = [4, 0]\n[links.1]\nO-A = 1\n[links.2]\nA-B = 4\n"
 FIVE_BAR = FOUR_BAR + "[links.3]\nB-C = 3\n[links.4]\nQ-C = 3\n"
-PARALLEL = """[frame]
-O = [0, 0]
-Q = [4, 0]
-S = [2, 0]
-[links.1]
-O-A = 1
-[links.2]
-A-B = 4
-A-M = 2
-M = "on A-B"
-[links.3]
-Q-B = 1
-[links.4]
-S-M = 1
-"""
-TRAMMEL_BAR = """[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.2]
-A-B = 2
-A-M = 1
-M = "on A-B"
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.4]
-O-M = 1
-"""
+PARALLEL = scene_text("structure/parallel")
+TRAMMEL_BAR = scene_text("structure/trammel-bar")
 WATT = FOUR_BAR.replace("A-B = 4", 'A-B = 4\nA-C = 3\nB-C = 3\nC = "left of A-B"') + (
     '[links.3]\nQ-B = 3\nQ-E = 3\nB-E = 2\nE = "left of Q-B"\n'
     "[links.4]\nC-F = 4\n[links.5]\nE-F = 4\n"
@@ -157,34 +130,8 @@ TOGGLE_PRESS = FOUR_BAR + (
     "[links.3]\nQ-B = 3\n[links.4]\nB-C = 4\n[links.5]\nC = [0, 0]\n"
     'slides = { on = 0, through = "Q", angle = 90 }\n'
 )
-LIFTER = """[frame]
-A = [0, 0]
-D = [4, 0]
-[links.1]
-A-B = 2
-A-E = 5
-E = "beyond B on A-B"
-[links.2]
-B-C = 2
-[links.6]
-D-C = 3
-[links.5]
-C-F = 3
-[links.4]
-E-F = 2
-E-P = 4
-P = "beyond F on E-F"
-"""
-SLIDER_CRANK = """[frame]
-O = [0, 0]
-[links.1]
-O-A = 1
-[links.2]
-A-B = 3
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-"""
+LIFTER = scene_text("structure/lifter")
+SLIDER_CRANK = scene_text("structure/slider-crank")
 
 
 @pytest.mark.parametrize(
@@ -250,24 +197,7 @@ def test_kutzbach_counts_six_a_link_less_what_each_pair_takes(links, by_freedom,
 
 def test_links_that_hang_on_one_known_pin_are_no_dyad_of_their_own():
     """Both rods of a V engine hang on the crank pin: each closes on its own block."""
-    text = """[frame]
-O = [0, 0]
-[links.1]
-O-A = 1
-[links.2]
-A-B = 3
-[links.3]
-A-C = 3
-[links.4]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 45 }
-[links.5]
-C = [0, 0]
-slides = { on = 0, through = "O", angle = 135 }
-[branches]
-4 = "forward"
-5 = "forward"
-"""
+    text = scene_text("structure/v-engine")
     mechanism = mechanism_of(text + DRIVEN)
     _, first, second = mechanism.groups
     assert {first.links, second.links} == {("2", "4"), ("3", "5")}
@@ -288,59 +218,9 @@ def test_the_lifter_is_solved_one_loop_after_the_other():
     assert (set(second.links), second.inner.point) == ({"5", "4"}, "F")
 
 
-TRIAD = """[frame]
-O = [0, 0]
-Q = [6, 0]
-S = [6, 4]
-[links.1]
-O-A = 1
-[links.2]
-A-B = 3
-[links.3]
-B = [0, 0]
-C = [2, 0]
-E = [1, 2]
-[links.4]
-Q-C = 3
-[links.5]
-S-E = 3
-"""
-STEPHENSON = """[frame]
-O = [0, 0]
-Q = [6, 0]
-[links.1]
-O-A = 2
-O-B = 2
-A-B = 2
-B = "left of O-A"
-[links.2]
-A-C = 4
-[links.3]
-B-D = 4
-[links.4]
-C-D = 2
-D-E = 2
-C-E = 2
-E = "left of C-D"
-[links.5]
-Q-E = 3
-"""
-RAPID_RETURN = """[frame]
-O = [0, 0]
-[links.1]
-O-A = 1
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "P-Q" }
-[links.3]
-P-Q = 6
-[links.4]
-P = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.5]
-Q = [0, 0]
-slides = { on = 0, through = [0, 3], angle = 10 }
-"""
+TRIAD = scene_text("structure/triad")
+STEPHENSON = scene_text("structure/stephenson")
+RAPID_RETURN = scene_text("structure/rapid-return")
 
 
 @pytest.mark.parametrize(
@@ -361,31 +241,7 @@ def test_groups_of_higher_class_are_named_by_class_and_order(text, driver, links
     assert (set(group.links), group.order) == (set(links), order)
 
 
-HINGE_WITHIN = """[frame]
-O = [0, 0]
-Q = [6, 0]
-S = [6, 5]
-[links.1]
-O-A = 1
-[links.2]
-A-H = 3
-[links.3]
-H-B = 3
-B-C = 2
-H-C = 2.5
-C = "left of H-B"
-[links.4]
-H-D = 3
-[links.5]
-Q-B = 3
-[links.6]
-S-D = 3
-D-E = 2
-S-E = 3
-E = "left of S-D"
-[links.7]
-C-E = 3.3
-"""
+HINGE_WITHIN = scene_text("structure/hinge-within")
 
 
 def test_a_hinge_of_three_links_within_a_group_is_two_of_its_pairs():
@@ -429,74 +285,13 @@ def test_a_wheel_that_rolls_by_itself_is_driven_along_its_track():
 
 # --- the five dyads ------------------------------------------------------------------------------
 
-SLOTTED_LEVER = """[frame]
-O = [0, 0]
-Q = [0, -3]
-[links.1]
-O-A = 1
-[links.2]
-A = [0, 0]
-slides = { on = 3, along = "Q-B" }
-[links.3]
-Q-B = 6
-[branches]
-2 = "forward"
-"""
-TRAMMEL = """[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.2]
-A-B = 2
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[[drivers]]
-slide = 1
-position = 1
-speed = 1
-"""
+SLOTTED_LEVER = scene_text("structure/slotted-lever")
+TRAMMEL = scene_text("structure/trammel")
 
 
-ROD_ON_A_LEVER = """[frame]
-O = [0, 0]
-Q = [4, 0]
-[links.1]
-O-A = 1
-[links.2]
-A-B = 4
-[links.3]
-Q-B = 2
-[links.4]
-A-C = 2
-[links.5]
-C = [0, 0]
-slides = { on = 3, along = "Q-B" }
-"""
-YOKE = """[frame]
-O = [0, 0]
-[links.1]
-O-A = 1
-[links.2]
-A = [0, 0]
-slides = { on = 3, through = "B", angle = 60 }
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-"""
-OLDHAM = """[frame]
-O = [0, 0]
-Q = [1, 0]
-[links.1]
-O-A = 1
-[links.2]
-P = [0, 0]
-slides = { on = 1, along = "O-A" }
-[links.3]
-Q = [0, 0]
-slides = { on = 2, through = "P", angle = 90 }
-"""
+ROD_ON_A_LEVER = scene_text("structure/rod-on-a-lever")
+YOKE = scene_text("structure/yoke")
+OLDHAM = scene_text("structure/oldham")
 
 
 @pytest.mark.parametrize(

@@ -21,31 +21,10 @@ from graphkin.studio.panels import Memory, StaleError, around
 from graphkin.studio.result_panel import FLATTEST
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import WitnessError
+from tests.scene_files import scene_text
 from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
 
-SINGULAR = """graphkin = 1
-title = "knee"
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-[parameters]
-h = { value = 259.9999999, min = 200, max = 260 }
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 60
-[links.2]
-A-B = 200
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = [0, "h"], angle = 0 }
-[[drivers]]
-turn = 1
-angle = 90
-speed = 60
-[branches]
-3 = "forward"
-[ask]
-velocity = ["B"]
-"""
+SINGULAR = scene_text("studio/singular")
 
 
 def rows(html: str) -> list[list[str]]:

@@ -4,27 +4,11 @@ from __future__ import annotations
 
 import math
 
+from tests.scene_files import scene_text
 from tests.textbook.book import FT, IN, RPM, answers, exactly, rounds_to, within
 from tests.textbook.closed_forms import degrees, rod_on_guide, turned
 
-ENGINE = """
-units = { length = "in", angle = "deg", speed = "rev/min" }
-[frame]
-A = [0, 0]
-[links.crank]
-A-B = 3
-[links.rod]
-B-D = 8
-[links.piston]
-D = [0, 0]
-slides = { on = 0, through = "A", angle = 0 }
-[[drivers]]
-turn = "crank"
-angle = 40
-speed = -2000
-[branches]
-piston = "forward"
-"""
+ENGINE = scene_text("textbook/engine")
 
 
 def test_beer_15_7_15_15_engine():

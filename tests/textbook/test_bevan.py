@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from tests.scene_files import scene_text
 from tests.textbook.book import DRAWN, FT, IN, RPM, answers, exactly, rounds_to, within
 from tests.textbook.closed_forms import (
     added,
@@ -71,33 +72,7 @@ def test_bevan_3_4_slider_crank(crank, printed, recomputed):
     assert exactly(x.acceleration, added(pin, turned(closed.angle, 12 * IN))[2])
 
 
-SLOTTED_LEVER_3_7 = """
-units = { length = "in", angle = "deg", speed = "rev/min" }
-[frame]
-O = [0, 0]
-C = [0, 8]
-[links.crank]
-C-P = 4
-[links.block]
-P = [0, 0]
-slides = { on = "lever", along = "O-N" }
-[links.lever]
-O-N = 15
-[links.rod]
-N-R = 6
-[links.ram]
-R = [0, 0]
-slides = { on = 0, through = [0, 13.75], angle = 0 }
-[[drivers]]
-turn = "crank"
-angle = 30
-speed = 60
-[branches]
-block = "forward"
-ram = "forward"
-[ask]
-velocity = ["R", "P@lever"]
-"""
+SLOTTED_LEVER_3_7 = scene_text("textbook/slotted-lever-3-7")
 
 
 def test_bevan_3_7_slotted_lever():
@@ -135,25 +110,7 @@ def test_bevan_3_7_slotted_lever():
     assert rounds_to(rod.epsilon, "4.044085")
 
 
-ROTARY_ENGINE_3_8 = """
-units = { length = "in", angle = "deg", speed = "rev/min" }
-[frame]
-O = [0, 0]
-C = [3, 0]
-[links.cylinder]
-O-H = 14
-[links.piston]
-P = [0, 0]
-slides = { on = "cylinder", along = "O-H" }
-[links.rod]
-C-P = 9
-[[drivers]]
-turn = "cylinder"
-angle = 55
-speed = -1200
-[branches]
-piston = "forward"
-"""
+ROTARY_ENGINE_3_8 = scene_text("textbook/rotary-engine-3-8")
 
 
 def test_bevan_3_8_rotary_engine():

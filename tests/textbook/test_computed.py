@@ -7,6 +7,7 @@ from cmath import rect
 
 import pytest
 
+from tests.scene_files import scene_text
 from tests.textbook.book import answers, exactly, rounds_to
 from tests.textbook.closed_forms import added, degrees, dyad, fixed, turned
 
@@ -63,32 +64,7 @@ def test_four_bar_open_recomputed():
     assert rounds_to(p.position.imag, "6.25596017866")
 
 
-FIVE_BAR = """
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-A = [0, 0]
-D = [0.18, 0]
-[links.AB]
-A-B = 0.12
-[links.BC]
-B-C = 0.25
-[links.EC]
-E-C = 0.25
-[links.DE]
-D-E = 0.12
-[[drivers]]
-turn = "AB"
-angle = 120
-speed = 10
-acceleration = 10
-[[drivers]]
-turn = "DE"
-angle = 40
-speed = -20
-acceleration = -20
-[branches]
-C = "right of B-E"
-"""
+FIVE_BAR = scene_text("textbook/five-bar")
 
 
 def test_five_bar_with_two_driven_cranks():

@@ -7,31 +7,14 @@ from __future__ import annotations
 
 import math
 
+from tests.scene_files import scene_text
 from tests.textbook.book import answers, exactly, rounds_to, within
 from tests.textbook.closed_forms import degrees, dyad, fixed, less, polar, rod_on_guide, turned
 
 METRES = 'units = { length = "m", angle = "deg", speed = "rad/s" }\n'
 
 
-CYLINDER_16_5 = """
-[frame]
-O = [0, 0]
-A = [2, 0]
-[links.window]
-O-B = 1
-[links.rod]
-B = [0, 0]
-slides = { on = "barrel", along = "A-H" }
-[links.barrel]
-A-H = 1
-[[drivers]]
-slide = "rod"
-against = "barrel"
-position = "sqrt(5 - 4*cos(30))"
-speed = 0.5
-[branches]
-B = "left of O-A"
-"""
+CYLINDER_16_5 = scene_text("textbook/cylinder-16-5")
 
 
 def test_hibbeler_16_5_hydraulic_cylinder():
@@ -57,24 +40,7 @@ def test_hibbeler_16_5_hydraulic_cylinder():
     assert exactly(seen.radius[1], 0.5)
 
 
-LINK_16_6 = """
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.2]
-A-B = 0.2
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-slide = 1
-position = "0.2*sin(45)"
-speed = -2
-[branches]
-3 = "forward"
-"""
+LINK_16_6 = scene_text("textbook/link-16-6")
 
 
 def test_hibbeler_16_6_link_on_two_guides():
@@ -88,27 +54,7 @@ def test_hibbeler_16_6_link_on_two_guides():
     assert exactly(found.points["B"].acceleration, -(2**2) / 0.2 * math.sqrt(2) ** 3)
 
 
-BELT_16_7 = """
-[frame]
-F = [0, 0]
-[links.belt]
-B = [0, 0]
-slides = { on = 0, through = "F", angle = 0 }
-[links.cylinder]
-O = [0, 0]
-A = [-0.2, 0]
-wheel = { centre = "O", radius = 0.2 }
-rolls = { on = "belt", through = "B", angle = 0, start = { cylinder = 0 } }
-[[drivers]]
-slide = "belt"
-position = 0
-speed = 1
-[[drivers]]
-roll = "cylinder"
-against = "belt"
-position = 0
-speed = "15*0.2"
-"""
+BELT_16_7 = scene_text("textbook/belt-16-7")
 
 
 def test_hibbeler_16_7_cylinder_on_a_belt():
@@ -127,24 +73,7 @@ def test_hibbeler_16_7_cylinder_on_a_belt():
     assert exactly(a.acceleration, 15**2 * 0.2)
 
 
-COLLAR_16_8 = """
-[frame]
-A = [0, 0.2]
-[links.collar]
-C = [0, 0]
-slides = { on = 0, through = [-0.2, 0.2], angle = 90 }
-[links.CB]
-C-B = "0.2*sqrt(2)"
-[links.AB]
-A-B = 0.2
-[[drivers]]
-slide = "collar"
-position = 0
-speed = -2
-acceleration = -1
-[branches]
-B = "right of C-A"
-"""
+COLLAR_16_8 = scene_text("textbook/collar-16-8")
 
 
 def test_hibbeler_16_8_16_17_collar_drives():
@@ -171,23 +100,7 @@ def test_hibbeler_16_8_16_17_collar_drives():
         assert exactly(link.epsilon, angle[2])
 
 
-FOUR_BAR_16_9 = """
-[frame]
-A = [0, 0]
-D = ["0.2*cos(60) + 0.2", "0.2*sin(60) + 0.1"]
-[links.AB]
-A-B = 0.2
-[links.BC]
-B-C = 0.2
-[links.DC]
-D-C = 0.1
-[[drivers]]
-turn = "AB"
-angle = 60
-speed = -30
-[branches]
-C = "right of B-D"
-"""
+FOUR_BAR_16_9 = scene_text("textbook/four-bar-16-9")
 
 
 def test_hibbeler_16_9_four_bar():
@@ -208,23 +121,7 @@ def test_hibbeler_16_9_four_bar():
     assert exactly(wheel.epsilon, closed.right[2])
 
 
-LINKAGE_16_11 = """
-[frame]
-A = [0, 0]
-[links.AB]
-A-B = 0.4
-[links.BD]
-B-D = 0.4
-[links.block]
-D = [0, 0]
-slides = { on = 0, through = "A", angle = 180 }
-[[drivers]]
-slide = "block"
-position = "0.4*sqrt(2)"
-speed = 3
-[branches]
-B = "right of A-D"
-"""
+LINKAGE_16_11 = scene_text("textbook/linkage-16-11")
 
 
 def test_hibbeler_16_11_centre():
@@ -244,32 +141,7 @@ def test_hibbeler_16_11_centre():
     assert exactly(place, complex(-0.4 * math.sqrt(2), 0.4 * math.sqrt(2)))
 
 
-PLATES_16_12 = """
-[frame]
-F = [0, 0]
-G = [0, 0.25]
-[links.E]
-E1 = [0, 0]
-slides = { on = 0, through = "F", angle = 0 }
-[links.D]
-D1 = [0, 0]
-slides = { on = 0, through = "G", angle = 0 }
-[links.cylinder]
-C = [0, 0]
-wheel = { centre = "C", radius = 0.125 }
-rolls = [
-  { on = "E", through = "E1", angle = 0 },
-  { on = "D", through = "D1", angle = 0, side = "right" },
-]
-[[drivers]]
-slide = "E"
-position = 0
-speed = 0.4
-[[drivers]]
-slide = "D"
-position = 0
-speed = -0.25
-"""
+PLATES_16_12 = scene_text("textbook/plates-16-12")
 
 
 def test_hibbeler_16_12_cylinder_between_plates():
@@ -284,26 +156,7 @@ def test_hibbeler_16_12_cylinder_between_plates():
     assert exactly(found.points["C"].position, 0.125j)
 
 
-PLANES_16_13 = """
-[frame]
-F = [0, 0]
-G = [10, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "F", angle = -45 }
-[links.2]
-A-B = 10
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "G", angle = 45 }
-[[drivers]]
-slide = 1
-position = 0
-speed = 2
-acceleration = 3
-[branches]
-3 = "forward"
-"""
+PLANES_16_13 = scene_text("textbook/planes-16-13")
 
 
 def test_hibbeler_16_13_rod_on_two_planes():
@@ -320,21 +173,7 @@ def test_hibbeler_16_13_rod_on_two_planes():
     assert exactly(rod.epsilon, (3 + b.acceleration) * half / 10)
 
 
-DISK_16_15 = """
-[frame]
-F = [0, 0]
-[links.disk]
-O = [0, 0]
-A = [0, 0.5]
-B = [0.5, 0]
-wheel = { centre = "O", radius = 0.5 }
-rolls = { on = 0, through = "F", angle = 0, start = { disk = 0 } }
-[[drivers]]
-roll = "disk"
-position = 0
-speed = "-6*0.5"
-acceleration = "-4*0.5"
-"""
+DISK_16_15 = scene_text("textbook/disk-16-15")
 
 
 def test_hibbeler_16_15_disk():
@@ -353,20 +192,7 @@ def test_hibbeler_16_15_disk():
     assert exactly(b, -20 + 2j)
 
 
-SPOOL_16_16 = """
-[frame]
-F = [0, 0]
-[links.spool]
-G = [0, 0]
-B = [0, 0.75]
-wheel = { centre = "G", radius = 0.5 }
-rolls = { on = 0, through = "F", angle = 90, side = "right", start = { spool = 0 } }
-[[drivers]]
-roll = "spool"
-position = 0
-speed = "-3*0.5"
-acceleration = "-4*0.5"
-"""
+SPOOL_16_16 = scene_text("textbook/spool-16-16")
 
 
 def test_hibbeler_16_16_spool_on_a_cord():
@@ -383,24 +209,7 @@ def test_hibbeler_16_16_spool_on_a_cord():
     assert exactly(b, 3 - 8.75j)
 
 
-ENGINE_16_18 = """
-[frame]
-A = [0, 0]
-[links.crank]
-A-B = 0.25
-[links.rod]
-B-C = 0.75
-[links.piston]
-C = [0, 0]
-slides = { on = 0, through = "A", angle = 90 }
-[[drivers]]
-turn = "crank"
-angle = 135
-speed = -10
-acceleration = -20
-[branches]
-piston = "forward"
-"""
+ENGINE_16_18 = scene_text("textbook/engine-16-18")
 
 
 def test_hibbeler_16_18_engine_speeding_up():
@@ -424,26 +233,7 @@ def test_hibbeler_16_18_engine_speeding_up():
     assert rounds_to(piston.acceleration.imag, "-13.53685")
 
 
-ROD_16_19 = """
-[frame]
-O = [0, 0]
-[links.rod]
-O-H = 1
-[links.collar]
-C = [0, 0]
-slides = { on = "rod", along = "O-H" }
-[[drivers]]
-turn = "rod"
-angle = 0
-speed = -3
-acceleration = -2
-[[drivers]]
-slide = "collar"
-against = "rod"
-position = 0.2
-speed = 2
-acceleration = 3
-"""
+ROD_16_19 = scene_text("textbook/rod-16-19")
 
 
 def test_hibbeler_16_19_collar_on_a_turning_rod():
@@ -460,25 +250,7 @@ def test_hibbeler_16_19_collar_on_a_turning_rod():
     assert exactly(c.acceleration, 1.2 - 12.4j)
 
 
-COLLAR_16_20 = """
-[frame]
-A = [0, 0]
-D = [0, 0.4]
-[links.AB]
-A-C = "0.4*sqrt(2)"
-[links.collar]
-C = [0, 0]
-slides = { on = "DE", along = "D-E" }
-[links.DE]
-D-E = 0.8
-[[drivers]]
-turn = "AB"
-angle = 45
-speed = -3
-acceleration = -4
-[branches]
-collar = "forward"
-"""
+COLLAR_16_20 = scene_text("textbook/collar-16-20")
 
 
 def test_hibbeler_16_20_collar_on_a_swinging_rod():

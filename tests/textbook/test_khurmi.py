@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from tests.scene_files import scene_text
 from tests.textbook.book import RPM, answers, exactly, rounds_to, within
 from tests.textbook.closed_forms import (
     added,
@@ -25,23 +26,7 @@ MILLIMETRES = 'units = { length = "mm", angle = "deg", speed = "rev/min" }\n'
 METRES = 'units = { length = "m", angle = "deg", speed = "rev/min" }\n'
 RADIANS = 'units = { length = "mm", angle = "deg", speed = "rad/s" }\n'
 
-FOUR_BAR_7_1 = """
-[frame]
-A = [0, 0]
-D = [150, 0]
-[links.1]
-A-B = 40
-[links.2]
-B-C = 150
-[links.3]
-D-C = 80
-[[drivers]]
-turn = 1
-angle = 60
-speed = -120
-[branches]
-C = "left of B-D"
-"""
+FOUR_BAR_7_1 = scene_text("textbook/four-bar-7-1")
 
 
 def test_khurmi_7_1_four_bar():
@@ -137,32 +122,7 @@ def test_khurmi_7_2_steam_engine_least_velocity():
     assert rounds_to(abs(found), "7.737465")
 
 
-WHITWORTH_7_9 = """
-[frame]
-O = [0, 0]
-Q = [0, 100]
-[links.crank]
-O-P = 200
-[links.block]
-P = [0, 0]
-slides = { on = "lever", along = "Q-T" }
-[links.lever]
-Q-T = 300
-Q-R = 150
-T-Q-R = 180
-[links.rod]
-R-S = 500
-[links.ram]
-S = [0, 0]
-slides = { on = 0, through = "Q", angle = 0 }
-[[drivers]]
-turn = "crank"
-angle = -30
-speed = -120
-[branches]
-block = "forward"
-ram = "forward"
-"""
+WHITWORTH_7_9 = scene_text("textbook/whitworth-7-9")
 
 
 def test_khurmi_7_9_whitworth():
@@ -270,23 +230,7 @@ def test_khurmi_8_2_accelerated_crank():
     assert rounds_to(rod.epsilon, "1853.501")
 
 
-FOUR_BAR_8_4 = """
-[frame]
-P = [0, 0]
-S = [200, 0]
-[links.1]
-P-Q = 62.5
-[links.2]
-Q-R = 175
-[links.3]
-S-R = 112.5
-[[drivers]]
-turn = 1
-angle = 60
-speed = -10
-[branches]
-R = "left of Q-S"
-"""
+FOUR_BAR_8_4 = scene_text("textbook/four-bar-8-4")
 
 
 def test_khurmi_8_4_four_bar():
@@ -313,31 +257,7 @@ def test_khurmi_8_4_four_bar():
     assert rounds_to(rocker.epsilon, "46.14346")
 
 
-TWO_SLIDERS_8_6 = """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 300
-[links.2]
-A-B = 1200
-B-C = 450
-C = "on A-B"
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.4]
-C-D = 450
-[links.5]
-D = [0, 0]
-slides = { on = 0, through = [1045, 0], angle = 90 }
-[[drivers]]
-turn = 1
-angle = -30
-speed = 20
-[branches]
-3 = "forward"
-5 = "forward"
-"""
+TWO_SLIDERS_8_6 = scene_text("textbook/two-sliders-8-6")
 
 
 def test_khurmi_8_6_two_sliders():

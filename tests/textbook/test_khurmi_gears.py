@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import pytest
 
+from tests.scene_files import scene_text
 from tests.textbook.book import RPM, answers, exactly, rounds_to
 
 
@@ -53,27 +54,7 @@ def test_khurmi_13_4_epicyclic(speed, printed):
     assert exactly(found, 150 - (speed - 150) * 36 / 45)
 
 
-REVERTED_13_5 = """
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-module = 2
-[frame]
-O = [0, 0]
-wheel = { centre = "O", teeth = 75 }
-[links.arm]
-O-P = 120
-[links.DE]
-P = [0, 0]
-wheels = [{ centre = "P", teeth = 90 }, { centre = "P", teeth = 45 }]
-rolls = { on = 0 }
-[links.C]
-O = [0, 0]
-wheel = { centre = "O", teeth = 30 }
-rolls = { on = "DE" }
-[[drivers]]
-turn = "arm"
-angle = 40
-speed = -100
-"""
+REVERTED_13_5 = scene_text("textbook/reverted-13-5")
 
 
 def test_khurmi_13_5_reverted_train():
@@ -84,27 +65,7 @@ def test_khurmi_13_5_reverted_train():
     assert exactly(found["C"], -100 - 90 / 30 * (found["DE"] + 100))
 
 
-RING_13_6 = """
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-module = 5
-[frame]
-O = [0, 0]
-wheel = { centre = "O", teeth = 72, inside = true }
-[links.arm]
-O-P = 130
-[links.B]
-P = [0, 0]
-wheel = { centre = "P", teeth = 20 }
-rolls = { on = 0 }
-[links.C]
-O = [0, 0]
-wheel = { centre = "O", teeth = 32 }
-rolls = { on = "B" }
-[[drivers]]
-turn = "arm"
-angle = 25
-speed = 18
-"""
+RING_13_6 = scene_text("textbook/ring-13-6")
 
 
 def test_khurmi_13_6_fixed_ring():

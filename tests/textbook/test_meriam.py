@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from tests.scene_files import scene_text
 from tests.textbook.book import FT, IN, RPM, answers, exactly, rounds_to
 from tests.textbook.closed_forms import (
     added,
@@ -16,25 +17,7 @@ from tests.textbook.closed_forms import (
     turned,
 )
 
-PLATE_5_6 = """
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.2]
-A-B = 0.2
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-slide = 1
-position = "0.2*sin(30)"
-speed = 0.3
-[branches]
-3 = "forward"
-"""
+PLATE_5_6 = scene_text("textbook/plate-5-6")
 
 
 def test_meriam_5_6_plate_on_two_guides():
@@ -57,21 +40,7 @@ def test_meriam_5_6_plate_on_two_guides():
     assert exactly(edge.epsilon, -((0.3 / 0.2) ** 2) * secant**2 * math.tan(math.radians(30)))
 
 
-WHEEL_5_7 = """
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-F = [0, 0]
-[links.wheel]
-O = [0, 0]
-A = [0.2, 0]
-C = { from = "O", length = 0.3, angle = 120 }
-wheel = { centre = "O", radius = 0.3 }
-rolls = { on = 0, through = "F", angle = 0, start = { wheel = 0 } }
-[[drivers]]
-roll = "wheel"
-position = "-0.3*pi*150/180"
-speed = 3
-"""
+WHEEL_5_7 = scene_text("textbook/wheel-5-7")
 
 
 def test_meriam_5_7_5_11_rolling_wheel():
@@ -94,24 +63,7 @@ def test_meriam_5_7_5_11_rolling_wheel():
     assert exactly(abs(a.velocity), math.sqrt(0.19) * 10)
 
 
-FOUR_BAR_5_8 = """
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-C = [250, 50]
-[links.CB]
-C-B = 75
-[links.AB]
-A-B = "sqrt(175**2 + 50**2)"
-[links.OA]
-O-A = 100
-[[drivers]]
-turn = "CB"
-angle = 180
-speed = 2
-[branches]
-A = "right of B-O"
-"""
+FOUR_BAR_5_8 = scene_text("textbook/four-bar-5-8")
 
 
 def test_meriam_5_8_5_14_four_bar():
@@ -134,26 +86,7 @@ def test_meriam_5_8_5_14_four_bar():
     assert exactly(crank.epsilon, closed.right[2])
 
 
-ENGINE_5_9 = """
-units = { length = "in", angle = "deg", speed = "rev/min" }
-[frame]
-O = [0, 0]
-[links.crank]
-O-B = 5
-[links.rod]
-B-A = 14
-B-G = 4
-G = "on B-A"
-[links.piston]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = "crank"
-angle = 60
-speed = -1500
-[branches]
-piston = "forward"
-"""
+ENGINE_5_9 = scene_text("textbook/engine-5-9")
 
 
 def test_meriam_5_9_5_15_slider_crank():
@@ -182,25 +115,7 @@ def test_meriam_5_9_5_15_slider_crank():
     assert rounds_to(rod.epsilon, "7742.071")
 
 
-SLOTTED_ARM_5_10 = """
-units = { length = "in", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.collar]
-A = [0, 0]
-slides = { on = 0, through = [-18, 0], angle = 90 }
-[links.arm]
-O-H = 30
-[links.block]
-A = [0, 0]
-slides = { on = "arm", along = "O-H" }
-[[drivers]]
-slide = "collar"
-position = "18*tan(30)"
-speed = "-0.8*12"
-[branches]
-block = "forward"
-"""
+SLOTTED_ARM_5_10 = scene_text("textbook/slotted-arm-5-10")
 
 
 def test_meriam_5_10_slotted_arm():
@@ -222,28 +137,7 @@ def test_meriam_5_10_slotted_arm():
     assert exactly(block.acceleration, seen.radius[2])
 
 
-LINKAGE_5_12 = """
-units = { length = "in", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.OB]
-O-B = "6*sqrt(2)"
-[links.BA]
-B-A = 14
-A-D = 6
-D = "on B-A"
-[links.roller]
-A = [0, 0]
-slides = { on = 0, through = [0, 6], angle = 0 }
-[[drivers]]
-turn = "OB"
-angle = 45
-speed = -10
-[branches]
-roller = "forward"
-[ask]
-centres = ["BA"]
-"""
+LINKAGE_5_12 = scene_text("textbook/linkage-5-12")
 
 
 def test_meriam_5_12_instantaneous_centre():
@@ -266,27 +160,7 @@ def test_meriam_5_12_instantaneous_centre():
     assert exactly(ratio.start + ratio.shift / ratio.size, centre)
 
 
-SLOTTED_DISK_5_16 = """
-units = { length = "in", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.disk]
-O-H = 10
-[links.slider]
-A = [0, 0]
-slides = { on = "disk", along = "O-H" }
-[[drivers]]
-turn = "disk"
-angle = 0
-speed = 4
-acceleration = -10
-[[drivers]]
-slide = "slider"
-against = "disk"
-position = 6
-speed = 5
-acceleration = 81
-"""
+SLOTTED_DISK_5_16 = scene_text("textbook/slotted-disk-5-16")
 
 
 def test_meriam_5_16_slider_in_a_turning_slot():
@@ -302,25 +176,7 @@ def test_meriam_5_16_slider_in_a_turning_slot():
     assert exactly(slide.acceleration, 81 * IN)
 
 
-SLOT_5_17 = """
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-C = [450, 225]
-[links.OD]
-O-D = 500
-[links.block]
-A = [0, 0]
-slides = { on = "OD", along = "O-D", pin = true }
-[links.CA]
-C-A = 225
-[[drivers]]
-turn = "OD"
-angle = 45
-speed = -2
-[branches]
-block = "backward"
-"""
+SLOT_5_17 = scene_text("textbook/slot-5-17")
 
 
 def test_meriam_5_17_5_18_pin_in_a_turning_slot():

@@ -7,27 +7,11 @@ import math
 import numpy as np
 import pytest
 
+from tests.scene_files import scene_text
 from tests.textbook.book import RPM, WITNESSED, answers, exactly, mechanism, rounds_to, within
 from tests.textbook.closed_forms import degrees, dyad, fixed, turned
 
-GATE_FOUR_BAR = """
-units = { length = "cm", angle = "deg", speed = "rad/s" }
-[frame]
-A = [0, 0]
-D = [4, 0]
-[links.AB]
-A-B = 5
-[links.BC]
-B-C = 5
-[links.DC]
-D-C = 2
-[[drivers]]
-turn = "AB"
-angle = 90
-speed = 10
-[branches]
-C = "right of D-B"
-"""
+GATE_FOUR_BAR = scene_text("textbook/gate-four-bar")
 
 
 def test_gate_four_bar_perpendicular():
@@ -44,30 +28,7 @@ def test_gate_four_bar_perpendicular():
     assert exactly(found.links["DC"].epsilon, closed.right[2])
 
 
-OLDHAM = """
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-[parameters]
-q = { value = 90, min = 0, max = 360 }
-[frame]
-A = [0, 0]
-B = [20, 0]
-[links.driving]
-A = [0, 0]
-slides = { on = "cross", through = "P", angle = 0 }
-[links.cross]
-P = [0, 0]
-U = [10, 0]
-[links.driven]
-B = [0, 0]
-slides = { on = "cross", through = "P", angle = 90 }
-[[drivers]]
-turn = "driving"
-angle = "q"
-speed = 180
-[ask]
-velocity = ["P"]
-slides = ["driving", "driven"]
-"""
+OLDHAM = scene_text("textbook/oldham")
 
 
 def test_oldham_mcqhubb_2472():

@@ -2,24 +2,10 @@
 
 from __future__ import annotations
 
+from tests.scene_files import scene_text
 from tests.textbook.book import answers, exactly, rounds_to
 
-WHEEL_14_20 = """
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-F = [0, 0]
-[links.wheel]
-O = [0, 0]
-B = [0, 1.5]
-C = [0, -1.5]
-wheel = { centre = "O", radius = 1.5 }
-rolls = { on = 0, through = "F", angle = 0, start = { wheel = 0 } }
-[[drivers]]
-roll = "wheel"
-position = 0
-speed = "8*1.5"
-acceleration = "-4*1.5"
-"""
+WHEEL_14_20 = scene_text("textbook/wheel-14-20")
 
 
 def test_schaum_14_20_14_21_rolling_wheel():

@@ -4,27 +4,11 @@ from __future__ import annotations
 
 import math
 
+from tests.scene_files import scene_text
 from tests.textbook.book import RPM, answers, exactly, rounds_to, within
 from tests.textbook.closed_forms import degrees, dyad, fixed, rod_on_guide, turned
 
-SLIDER_CRANK_21_5 = """
-units = { length = "m", angle = "deg", speed = "rev/min" }
-[frame]
-O = [0, 0]
-[links.crank]
-O-A = 0.12
-[links.rod]
-A-B = 0.6
-[links.piston]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = "crank"
-angle = 30
-speed = 300
-[branches]
-piston = "forward"
-"""
+SLIDER_CRANK_21_5 = scene_text("textbook/slider-crank-21-5")
 
 
 def test_tayal_21_5_21_12_slider_crank():
@@ -45,24 +29,7 @@ def test_tayal_21_5_21_12_slider_crank():
     assert rounds_to(piston, "-2.213084")
 
 
-FOUR_BAR_21_13 = """
-units = { length = "m", angle = "deg", speed = "rad/s" }
-[frame]
-A = [0, 0]
-D = ["0.2*cos(30) + 0.15 + 0.3*cos(60)", "0.2*sin(30) - 0.3*sin(60)"]
-[links.AB]
-A-B = 0.2
-[links.BC]
-B-C = 0.15
-[links.CD]
-D-C = 0.3
-[[drivers]]
-turn = "AB"
-angle = 30
-speed = 5
-[branches]
-C = "left of B-D"
-"""
+FOUR_BAR_21_13 = scene_text("textbook/four-bar-21-13")
 
 
 def test_tayal_21_13_four_bar():

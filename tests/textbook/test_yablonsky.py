@@ -4,29 +4,10 @@ from __future__ import annotations
 
 import math
 
+from tests.scene_files import scene_text
 from tests.textbook.book import CM, answers, exactly, rounds_to
 
-TRAMMEL_K3_9 = """
-units = { length = "cm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.2]
-A-B = 45
-A-C = 30
-C = "on A-B"
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[[drivers]]
-slide = 1
-position = "45*sin(30)"
-speed = 20
-[branches]
-3 = "forward"
-"""
+TRAMMEL_K3_9 = scene_text("textbook/trammel-k3-9")
 
 
 def test_yablonsky_k3_9_trammel():

@@ -25,6 +25,7 @@ from graphkin.web.moving_labels import crossed, obstacles
 from graphkin.web.panes import AIR, AREA, HELD, PICTURE, aside, leaves, room_in, seated
 from graphkin.web.player import player_page
 from tests.cli.conftest import Run, run  # noqa: F401
+from tests.scene_files import scene_text
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 NAMES = (
@@ -354,27 +355,7 @@ def test_the_command_writes_both(run: Run, tmp_path: Path):  # noqa: F811
     assert "--force" in again.stderr
 
 
-RIGID = """graphkin = 1
-title = "Rigid"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O1 = [0, 0]
-O2 = [30, 0]
-[links.1]
-O1-A = 10
-[links.2]
-A-B = 10
-[links.3]
-O2-B = 10
-[[drivers]]
-turn = 1
-angle = 0
-speed = 2
-[branches]
-B = "left of A-O2"
-[ask]
-velocity = ["B"]
-"""
+RIGID = scene_text("web/rigid")
 
 
 @pytest.mark.parametrize("kind", ["gif", "html"])

@@ -9,32 +9,9 @@ from pathlib import Path
 
 import pytest
 
-SCENE = """graphkin = 1
-title = "Slider-crank"
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-[titles]
-ro = "Bielă-manivelă"
-[parameters]
-n = { value = 7, min = 1, max = 300, step = 1 }
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 60
-[links.2]
-A-B = 200
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = [0, 30], angle = 0 }
-[[drivers]]
-turn = 1
-angle = "20 + n"
-speed = 100
-[branches]
-3 = "forward"
-[ask]
-velocity = ["B"]
-omega = [2]
-"""
+from tests.scene_files import scene_text
+
+SCENE = scene_text("classroom/printed-lab")
 LAB = """graphkin = 1
 [variants]
 set = { n = "number" }
@@ -44,29 +21,7 @@ v_B = 1
 omega_2 = 1
 omega_2_sense = 0.5
 """
-LEVER = """graphkin = 1
-title = "Four-bar"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[parameters]
-n = { value = 60, min = 0, max = 360 }
-[frame]
-O1 = [0, 0]
-O2 = [80, 0]
-[links.1]
-O1-A = 60
-[links.2]
-A-B = 50
-[links.3]
-O2-B = 60
-[[drivers]]
-turn = 1
-angle = "n"
-speed = 2
-[branches]
-B = "left of A-O2"
-[ask]
-velocity = ["B"]
-"""
+LEVER = scene_text("classroom/lever")
 """A mechanism that does not close at every angle."""
 LEVER_LAB = 'graphkin = 1\n[variants]\nset = { n = "number" }\n'
 
