@@ -23,12 +23,6 @@ B = "left of A-O2"
 [ask]
 {ask}
 """
-TRAMMEL = scene_text("documents/trammel")
-FIVE_BAR = scene_text("documents/five-bar")
-GEARS = scene_text("documents/gears")
-ROLLER = scene_text("documents/roller")
-
-LEVER = scene_text("documents/lever")
 
 
 def four_bar(ask: str, speed: float = 12, shape: tuple[int, int, int] = (150, 130, 120)) -> str:
@@ -51,10 +45,10 @@ ASKING = {
     "four-bar at rest with all its centres": four_bar(
         'velocity = ["B"]\nacceleration = ["B"]\ncentres = "all"\ninflection = [2]', 0
     ),
-    "trammel with all its centres": TRAMMEL,
-    "five-bar with all its centres": FIVE_BAR,
-    "block on a lever with its centre": LEVER,
-    "gears with their centre": GEARS,
-    "roller with its inflection circle": ROLLER,
+    "trammel with all its centres": scene_text("documents/trammel"),
+    "five-bar with all its centres": scene_text("documents/five-bar"),
+    "block on a lever with its centre": scene_text("documents/lever"),
+    "gears with their centre": scene_text("documents/gears"),
+    "roller with its inflection circle": scene_text("documents/roller"),
 }
 """Scenes by what is rare in them."""

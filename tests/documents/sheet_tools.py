@@ -41,8 +41,6 @@ VECTORS = (
     "coriolis",
     "sliding",
 )
-PAPER = ("frame", "border", "field", "title", "table", "check-bar", "caption", "panel", "shade")
-"""Classes of what belongs to the paper, not to a drawing."""
 
 HEAD = """graphkin = 1
 title = "{title}"
@@ -50,28 +48,6 @@ units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
 """
 OTHERS = scene_texts("documents/others")
 """Scenes beside the shipped ones."""
-
-DRAWN = (
-    "crank-fixed-slot",
-    "crank-slot",
-    "excavator-relative",
-    "gears-planet",
-    "gears-rack",
-    "gears-ring",
-    "jumper",
-    "lifter",
-    "oldham",
-    "oscillating-slide",
-    "rapid-return",
-    "rapid-return-slider",
-    "rod-and-wheel",
-    "roller",
-    "roller-plates",
-    "stephenson-2-binary",
-    "stephenson-3-crank",
-    "two-loops",
-)
-"""Those of them whose sheets are looked at closely."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -379,6 +355,3 @@ def relation_lines(pages: Sequence[Page]) -> list[tuple[str, str]]:
                 text = f"{found.pop()[1]} {text}"
             found.append((number, text))
     return found
-
-
-NUMBER = re.compile(r"\d+(?:[.,]\d+)?")

@@ -37,7 +37,6 @@ UNNAMED = {
 }
 """Lengths that bear no symbol, as drawn: the arc 60 mm·40° that a rack has rolled on, at 1:1; a
 place that was found; the points (±90; 0) mm of two plates, at 1:2."""
-IN_CENTIMETRES = scene_text("documents/in-centimetres")
 
 
 def real(scene: Scene, mechanism: Mechanism, before: str) -> float:
@@ -97,7 +96,7 @@ def test_the_reader_finds_lengths_of_each_kind_at_scales_other_than_one_to_one()
 
 
 def test_an_offset_and_a_stroke_in_centimetres_are_told_in_millimetres_of_paper():
-    mechanism = Mechanism(read_text(IN_CENTIMETRES, "lever"))
+    mechanism = Mechanism(read_text(scene_text("documents/in-centimetres"), "lever"))
     drawing = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))[0]
     text = " ".join(plain(said.markup) for said in sentences(drawing))
     assert drawing.scales.words == "1:5"

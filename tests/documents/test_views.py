@@ -8,7 +8,6 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from shapely import LineString, Point
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.solution import Verdict
@@ -18,7 +17,7 @@ from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, hand_out
 from graphkin.documents.step_visibility import grown
 from graphkin.drawing.areas import AREA, BELOW
-from graphkin.drawing.marks import Arc, CircleMark, LineMark, Text, reach
+from graphkin.drawing.marks import CircleMark, LineMark, Text, reach
 from graphkin.drawing.richtext import extent, plain
 from graphkin.drawing.style import NOW, TINTS, style_of
 from graphkin.mechanism import Mechanism, load
@@ -144,62 +143,12 @@ def test_each_page_says_its_sentence_and_draws_it(name):
             assert new_on(page) or of in UNDRAWN, (of, words)
 
 
-@pytest.mark.parametrize(
-    ("language", "said"),
-    [("en", "1/2 · step 2 of {}"), ("it", "1/2 · passo 2 di {}"), ("ro", "1/2 · pasul 2 din {}")],
-)
-def test_the_title_block_of_each_page_tells_which_of_how_many_it_is(language, said):
-    found = hand_out(load("pump", n=7), view="steps", language=language)
-    for i, sheet in enumerate(found, 1):
-        total, numbers = len(sheet.pages), []
-        for page in sheet.pages:
-            numbers.append(" ".join(m.markup for m in page.marks if m.name == "sheet"))
-        assert numbers[1] == said.format(total).replace("1/2", f"{i}/2")
-        assert len(set(numbers)) == total > 2
-        assert numbers[-1].endswith(f" {total} {said.split()[-2]} {total}")
-
-
 def test_an_arrow_stands_as_soon_as_its_ends_do():
     for kind, steps in pages("pump", "steps").items():
         letter = "b" if kind == "velocity" else "b′"
         for page in steps:
             names = {mark.name for mark in page.marks if mark.step is not None}
             assert (letter in names) == (("ob" if kind == "velocity" else "o′b′") in names)
-
-
-def test_letters_that_share_a_label_come_one_by_one():
-    """The roller's centre O is over the point of contact: its image of C falls on the pole."""
-    steps = pages(named("roller"), "steps")["velocity"]
-    labels = [[m for m in page.marks if isinstance(m, Text) and m.name == "o c"] for page in steps]
-    texts = [label.markup for (label,) in labels]
-    assert set(texts) == {"*o*", "*o* ≡ *c*"} and texts == sorted(texts)
-    (whole,) = labels[-1]
-    end = whole.x + extent(whole.markup, whole.height)[0]
-    (first,) = labels[0]
-    assert first.x + extent(first.markup, first.height)[0] == pytest.approx(end)
-
-
-@pytest.mark.parametrize(
-    ("name", "sentence", "drawn_then"),
-    [
-        ("stephenson-2-ternary", "mark the locus of", {"locus E"}),
-        ("centrodes-four-bar", "describes the fixed centrode", {"fixed-centrode 2"}),
-        ("gears-planet", "touch in *T*", {"T"}),
-        ("gears-planet", "draw the line at *φ*_{1}", {"phi 1", "x 1", "omega 1", "S"}),
-        ("oscillating-slide", "link 3 lies on this line", {"2", "3"}),
-        ("engine", "cuts the guide in *A*", {"A", "2", "3"}),
-        ("roller", "path of the centre", {"O", "1", "s 1", "speed 1"}),
-        ("mobility-trammel-bar", "link 4 is idle", {"4"}),
-    ],
-)
-def test_what_belongs_to_no_step_appears_with_the_sentence_that_speaks_of_it(
-    name, sentence, drawn_then
-):
-    steps = pages(named(name), "steps")["velocity"]
-    told = [" ".join(m.markup for m in page.marks if m.name == "sentence") for page in steps]
-    (number,) = (i for i, words in enumerate(told) if sentence in words)
-    assert drawn_then <= new_on(steps[number])
-    assert not drawn_then & {mark.name for page in steps[:number] for mark in page.marks}
 
 
 def test_an_inflection_circle_comes_with_the_sentence_that_finds_its_pole():
@@ -209,12 +158,6 @@ def test_an_inflection_circle_comes_with_the_sentence_that_finds_its_pole():
     (number,) = (i for i, words in enumerate(told) if "*W*_{2}" in words)
     assert "inflection 2" in new_on(steps[number])
     assert "inflection 2" not in {mark.name for mark in steps[number - 1].marks}
-
-
-def test_the_frames_around_the_names_of_links_come_with_the_names():
-    first, *_ = pages(named("jumper"), "steps")["velocity"]
-    assert len([mark for mark in first.marks if mark.cls.split()[0] == "number"]) == 1
-    assert len([mark for mark in first.marks if "arrowhead sense" in mark.cls]) == 1
 
 
 def test_the_notes_at_the_foot_come_with_the_key_numbers_and_vectors_that_they_tell_of():
@@ -271,11 +214,6 @@ def test_no_sentence_that_is_done_begins_in_its_middle(name):
             first.add(rows[0])
     assert len(first) > 1
     assert all(re.fullmatch(r"\d+\.", markup) for markup in first), first
-
-
-def test_the_rim_of_a_wheel_stands_with_its_centre():
-    first, *_ = pages(named("roller"), "steps")["velocity"]
-    assert [mark for mark in first.marks if mark.cls == f"disc {NOW}"]
 
 
 def test_what_is_new_stands_out():
@@ -340,41 +278,6 @@ def test_where_sentences_that_are_done_are_left_out_a_page_says_so(name):
             first = min((m for m in told if m.anchor == "start"), key=lambda m: m.y, default=None)
             assert (len(numbers) < done) is (first is not None and first.markup == "…")
             assert all(m.y <= BELOW[3] for m in told)
-
-
-def test_a_page_tells_how_flat_the_lines_of_its_sentence_cross():
-    """b of the pump's velocity plan: the bars AB and O2B, seen in the solve command too."""
-    steps = pages("pump", "steps")["velocity"]
-    told = {m.markup for page in steps for m in page.marks if m.name == "crossing"}
-    assert "*b*: the lines cross at 77°, 1 mm of pencil becomes up to 1.6 mm" in told
-    assert not [m for m in steps[0].marks if m.name == "crossing"]
-
-
-@pytest.mark.parametrize(
-    ("name", "bar", "pin"),
-    [("stephenson-2-ternary", "O2E", "E"), ("stephenson-3-crank", "CD", "C")],
-)
-def test_where_a_locus_is_cut_to_close_a_group_the_arc_and_the_pin_stand(name, bar, pin):
-    steps = pages(named(name), "steps")["velocity"]
-    (page,) = [page for page in steps if f"locus {pin}" in new_on(page)]
-    new = [mark for mark in page.marks if NOW in mark.cls.split()]
-    (arc,) = [mark for mark in new if isinstance(mark, Arc) and mark.name == bar]
-    (circle,) = [mark for mark in new if isinstance(mark, CircleMark) and mark.name == pin]
-    assert [mark for mark in new if isinstance(mark, Text) and mark.name == pin]
-    at = Point(circle.cx, circle.cy)
-    assert at.distance(Point(arc.cx, arc.cy)) == pytest.approx(arc.r, abs=1e-6)
-    loci = [LineString(mark.points) for mark in new if mark.cls.startswith("locus ")]
-    assert min(locus.distance(at) for locus in loci) < 0.05
-    for end in (arc.start, arc.end):
-        assert at.distance(Point(*arc.at(end))) > 2
-
-
-def test_the_crossing_that_closes_a_group_is_told_with_its_locus():
-    steps = pages(named("stephenson-2-ternary"), "steps")["velocity"]
-    locus, after = next(pair for pair in itertools.pairwise(steps) if "locus E" in new_on(pair[0]))
-    (told,) = [mark.markup for mark in locus.marks if mark.name == "crossing"]
-    assert told.startswith("*E*: ")
-    assert not [mark for mark in after.marks if mark.name == "crossing"]
 
 
 def asked_only(ask):
