@@ -29,19 +29,6 @@ def told(run: Run, *args: object) -> Any:
     return json.loads(result.stdout)
 
 
-def test_the_pump_runs_steadily_on_a_fixed_guide() -> None:
-    found = of("pump")
-    assert found["driver acceleration"].reason == "every driver has a constant speed"
-    assert found["Coriolis"].reason == "the guide of 5 does not turn"
-    assert found["rolling"].reason == "no wheel rolls along a track"
-    assert found["gears"].reason == "no wheels are in mesh"
-    assert found["laws of time"].reason == "no driver is written in t"
-    assert found["centrodes"].reason == "[ask] names no centrodes"
-    out = ("driver acceleration", "Coriolis", "rolling", "gears", "laws of time", "centrodes")
-    assert not any(found[name].included or found[name].steps for name in out)
-    assert found["acceleration poles"].reason == "needed for pole of 3, 4"
-
-
 def test_velocity_alone_needs_no_acceleration(four_bar: Callable[..., Path]) -> None:
     found = of(four_bar())
     out = ("acceleration", "normal components", "tangential components", "acceleration poles")
@@ -68,22 +55,6 @@ def test_a_law_of_time_is_named(four_bar: Callable[..., Path]) -> None:
     found = of(path)
     assert found["laws of time"].reason.startswith("driver 1 has a law of time")
     assert found["driver acceleration"].included
-
-
-@pytest.mark.parametrize(
-    ("scene", "effect", "cause"),
-    [
-        ("oscillating-slide", "Coriolis", "the guide of 2 turns with its link"),
-        ("gears-planet", "gears", "in mesh are 3 on 1"),
-        ("gears-rack", "gears", "in mesh are 1 on 2"),
-        ("roller", "rolling", "without slip roll 1 on the frame"),
-        ("centrodes-four-bar", "centrodes", "the centres that are asked anyway"),
-    ],
-)
-def test_the_cause_in_the_scene_is_named(scene: str, effect: str, cause: str) -> None:
-    row = of(SCENES / f"{scene}.toml")[effect]
-    assert row.included
-    assert row.reason.startswith(cause)
 
 
 def test_what_only_a_command_asks_for_names_the_command() -> None:
