@@ -8,6 +8,7 @@ from fractions import Fraction
 from math import isfinite
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import mpmath
 import numpy as np
@@ -16,6 +17,7 @@ from click.testing import CliRunner, Result
 from graphkin.cli.main import app
 from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
+from graphkin.motion.curves import curve_files
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.read_scene import read_text
 from tests.stress.closed import (
@@ -304,8 +306,13 @@ DRAWN = (*SHORT, "explain", "sheet")
 LONG = (*DRAWN, "cycle")
 
 
-def commanded(case: Case, folder: Path, names: Iterable[str] = SHORT) -> dict[str, Result]:
-    """What the commands say of a scene: status 0, 1 or 2, no traceback, no NaN in it."""
+def commanded(
+    case: Case, folder: Path, names: Iterable[str] = SHORT, pictures: bool = False
+) -> dict[str, Result]:
+    """What the commands say of a scene: status 0, 1 or 2, no traceback, no NaN in it.
+
+    The curves of a cycle, which take most of the time, are drawn only where they are asked.
+    """
     path = folder / "hard.toml"
     path.write_text(case.text(), encoding="utf-8")
     out = str(folder / "out")
@@ -319,7 +326,9 @@ def commanded(case: Case, folder: Path, names: Iterable[str] = SHORT) -> dict[st
         "sheet": ("sheet", str(path), *written),
         "cycle": ("cycle", str(path), "--steps", "36", *written),
     }
-    said = {name: CliRunner().invoke(app, arguments[name]) for name in names}
+    drawn = curve_files.picture_files if pictures else lambda *_: {}
+    with patch.object(curve_files, "picture_files", drawn):
+        said = {name: CliRunner().invoke(app, arguments[name]) for name in names}
     for name, result in said.items():
         assert result.exit_code in (0, 1, 2), name
         assert result.exception is None or isinstance(result.exception, SystemExit), name

@@ -17,8 +17,6 @@ MP = mpmath.mp.clone()
 MP.dps = 60
 TURNS = (10**3, 10**6, 10**9, 10**12, 10**13, 10**14, 10**15)
 DRIVER = 'speed = 1\nacceleration = "0.3"\n'
-TRAIN = scene_text("stress/train")
-TRACK = scene_text("stress/track")
 RADII = {
     "fractions": (("3/10", "7/10", "1/5", "9/10"), [MP.mpf(n) / 10 for n in (3, 7, 2, 9)]),
     "roots": (
@@ -75,7 +73,11 @@ def test_the_digits_of_a_train_are_those_that_hold(radii, unit):
         degrees = 360 * turns + 50
         angle = degrees * MP.pi / 180 if unit == "deg" else MP.mpf(int(6.28 * turns))
         text = str(degrees if unit == "deg" else int(angle))
-        told.append(held(written(TRAIN, texts, unit, ANGLE=text), train(numbers, angle)))
+        told.append(
+            held(
+                written(scene_text("stress/train"), texts, unit, ANGLE=text), train(numbers, angle)
+            )
+        )
     assert told == sorted(told, reverse=True)
     assert told[0] >= 9, "after a thousand turns hardly any digit is lost"
     assert told[-1] == 0, "after 1e15 turns all are"
@@ -90,4 +92,4 @@ def test_the_digits_of_a_wheel_on_a_track_are_those_that_hold(radii):
             "O": MP.mpc(way, radius),
             "R1": MP.mpc(way, radius) + radius * MP.expj(-way / radius),
         }
-        held(written(TRACK, texts, "deg", WAY=str(2 * turns)), truth)
+        held(written(scene_text("stress/track"), texts, "deg", WAY=str(2 * turns)), truth)

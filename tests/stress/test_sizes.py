@@ -96,7 +96,7 @@ def test_far_from_the_origin_errors_are_those_of_the_coordinates(case):
 @pytest.mark.parametrize("case", KINDS, ids=lambda case: type(case).__name__)
 def test_far_from_the_origin_all_the_commands_work(case, tmp_path):
     names = LONG if isinstance(case, DrivenSlide) else DRAWN
-    said = commanded(replace(case, corner=FAR), tmp_path, names)
+    said = commanded(replace(case, corner=FAR), tmp_path, names, pictures=True)
     assert set(statuses(said).values()) == {0}, {k: v.stderr for k, v in said.items()}
 
 
