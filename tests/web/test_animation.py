@@ -355,13 +355,10 @@ def test_the_command_writes_both(run: Run, tmp_path: Path):  # noqa: F811
     assert "--force" in again.stderr
 
 
-RIGID = scene_text("web/rigid")
-
-
 @pytest.mark.parametrize("kind", ["gif", "html"])
 def test_what_cannot_move_is_a_message(run: Run, tmp_path: Path, kind: str):  # noqa: F811
     path = tmp_path / "rigid.toml"
-    path.write_text(RIGID, encoding="utf-8")
+    path.write_text(scene_text("web/rigid"), encoding="utf-8")
     result = run("cycle", path, "-o", tmp_path / "out", "--format", kind)
     assert result.exit_code == 2
     assert "Traceback" not in result.output

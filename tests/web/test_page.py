@@ -157,31 +157,6 @@ def test_b_of_the_pump_is_drawn_from_what_its_sentence_names():
     assert sides == [{"A", "B"}, {"O2", "B"}]
 
 
-def test_the_reasons_of_b_are_those_of_rigid_bars():
-    said = telling(screen_sheets(load("pump"), "en")).said[5]
-    assert [plain(why) for why in said.why] == [
-        "AB keeps its length: relative to A, B can move only perpendicular to it",
-        "O2B keeps its length: relative to O2, B can move only perpendicular to it",
-        "each line alone holds b, so it lies where they meet",
-    ]
-
-
-def test_both_lines_of_the_second_image_of_b_have_their_reasons():
-    (why,) = (
-        [plain(reason) for reason in one.why]
-        for one in telling(screen_sheets(load("pump"), "en")).said
-        if one.sheet == 1 and "they meet in *b*′" in one.markup
-    )
-    assert why == [
-        "B goes round A: along AB its acceleration relative to A is v2/AB, towards A",
-        "what else B has relative to A is the tangential component ε·AB: perpendicular to AB, "
-        "its length not known yet",
-        "likewise B goes round O2: v2/O2B along O2B, towards O2",
-        "and B has ε·O2B relative to O2, perpendicular to O2B, its length not known yet",
-        "each line alone holds b′, so it lies where they meet",
-    ]
-
-
 @pytest.mark.parametrize("name", ["oscillating-slide", "gears-planet", "gears-ring"])
 def test_a_letter_in_a_reason_has_its_index_once(name):
     labels = {plain(letter) for letter in told_of(name).letters.values()}
@@ -189,47 +164,6 @@ def test_a_letter_in_a_reason_has_its_index_once(name):
         for why in said.why:
             found = re.search("each line alone holds (.*), so", plain(why))
             assert found is None or found.group(1) in labels
-
-
-def test_what_touches_without_slip_says_so():
-    said = [*told_of("gears-planet").said]
-    touch = next(one for one in said if "touch in *T*" in one.markup)
-    assert any("called T3" in plain(why) for why in touch.why)
-    assert any(
-        "(*T* has one velocity on both links, for nothing slips)" in one.markup for one in said
-    )
-    assert any("common normal" in why for one in said for why in one.why)
-
-
-def test_a_contact_appears_with_the_sentence_that_finds_it():
-    run = telling(sheets_of("gears-planet"))
-    steps = sheets_of("gears-planet")[0].drawing.trace.program.steps
-    found = [one for one in run.timed[0] if one.step is not None and steps[one.step].name == "T"]
-    assert {type(one.mark) for one in found} == {CircleMark, Text}
-    assert {one.at for one in found} == {3}
-    assert "*T*" in run.said[2].markup
-
-
-def test_frames_of_names_and_arrows_of_senses_appear_with_what_they_belong_to():
-    marks = told_of("excavator-relative").timed[0]
-    frames = [i for i, one in enumerate(marks) if one.mark.cls == "number" and not one.mark.name]
-    senses = [i for i, one in enumerate(marks) if one.mark.cls == "sense"]
-    assert len(frames) == len(senses) == 3
-    assert [marks[i].at for i in frames] == [marks[i + 1].at for i in frames] == [1, 2, 3]
-    assert [marks[i].at for i in senses] == [1, 2, 3]
-
-
-def test_a_detail_is_told_beside_the_last_sentence_of_its_sheet_and_is_no_reason():
-    run, sheets = telling(sheets_of("pump")), sheets_of("pump")
-    told = words("en")("screen.detail", scale="5:1")
-    assert [said.aside == told for said in run.said] == [step == 20 for step in range(1, 21)]
-    assert not any("circle marked" in why for said in run.said for why in said.why)
-    assert [bool(sheet.more_left or sheet.more_right) for sheet in sheets] == [False, True]
-
-
-@pytest.mark.parametrize("name, digits", [("pump", "1"), ("gears-planet", "3")])
-def test_the_place_of_the_driver_has_the_decimals_that_its_slider_needs(name, digits):
-    assert f'data-digits="{digits}"' in page_of(name)
 
 
 @pytest.mark.parametrize("make", [step_page, task_page])
@@ -258,17 +192,6 @@ def test_an_acceleration_is_not_explained_by_velocities():
     assert "2ω·v" in every
 
 
-def test_the_parts_of_the_pump_follow_one_another():
-    assert [(first, last, part.value) for first, last, part in told_of("pump").stops()] == [
-        (1, 4, "position"),
-        (5, 8, "velocity"),
-        (9, 9, "centre"),
-        (11, 14, "normal"),
-        (15, 17, "acceleration"),
-        (18, 19, "pole"),
-    ]
-
-
 @pytest.mark.parametrize("name", FEW)
 def test_what_is_told_of_right_triangles_has_the_names_of_the_drawing(name):
     for sheet in sheets_of(name):
@@ -295,15 +218,6 @@ def test_a_triangle_that_is_left_out_has_no_letters_no_reason_and_no_crossing(na
     assert left_out and not {of for _, of in heights} & {*left_out}
 
 
-@pytest.mark.parametrize("kind", [0, 1])
-def test_how_links_turn_is_read_off_for_a_reason(kind):
-    """The angular velocity and acceleration of every link: the steps that had no reason at all."""
-    last = [one for one in told_of("pump").said if one.sheet == kind][-1]
-    (why,) = (plain(why) for why in last.why)
-    assert ("velocity is ω times", "acceleration is ε times")[kind] in why
-    assert "relative to one end of a bar" in why
-
-
 @pytest.mark.parametrize("name", ["stephenson-2-binary", "stephenson-3-crank", "rod-and-wheel"])
 def test_the_reasons_of_a_trial_plan_name_who_moves_and_every_image(name):
     """Each point that two lines find is named, and of each component whose it is."""
@@ -318,15 +232,6 @@ def test_the_reasons_of_a_trial_plan_name_who_moves_and_every_image(name):
         for clause in clauses:
             if clause.startswith(("likewise", "and ", "what else")):
                 assert re.match(r"(likewise|and|what else) [A-Z]\S* (goes round|has) ", clause)
-
-
-def test_each_right_triangle_has_its_colour_and_its_reason():
-    told = told_of("pump")
-    (said,) = (one for one in told.said if len(one.letters) == 4)
-    assert [plain(name) for name in said.letters] == ["b‴B", "c‴CA", "c‴CB", "d‴"]
-    assert [told.tints.get(step, 0) for step in said.of] == [0, 1, 2, 3]
-    assert "likewise Cc‴CA = v2/AC" in [plain(why) for why in said.why]
-    assert {told.at[step] for step in told.tints} == {told.said.index(said) + 1}
 
 
 @pytest.mark.parametrize("name", LABS)
@@ -494,10 +399,6 @@ def test_lettering_stays_within_its_field():
             if isinstance(mark, Text):
                 box = reach(mark)
                 assert left <= box[0] and box[2] <= right and top <= box[1] and box[3] <= bottom
-
-
-def test_the_same_scene_gives_the_same_page():
-    assert step_page(load("pump"), "en") == page_of("pump")
 
 
 def test_a_page_leaves_the_search_for_garbage_as_it_was(monkeypatch):
