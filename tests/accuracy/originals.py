@@ -23,7 +23,6 @@ from graphkin.mechanism import load
 from graphkin.numbers.arithmetic import FLOAT
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
-EVERY_SCENE = sorted(path.stem for path in SCENES.glob("*.toml"))
 D_AWAY = ("acceleration", "D")
 
 

@@ -23,7 +23,6 @@ ROWS, ALONE = 10_000, 100
 """Rows of a class, and how many of them are marked one by one."""
 LIMIT = 60.0
 WRONG = 5
-Given = dict[str, dict[str, Answer]]
 
 
 def pump(step: bool = True) -> Book:

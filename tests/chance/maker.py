@@ -16,7 +16,6 @@ from tests.chance.records import FRAME, Body, Drive, Slide, Standing, Straight
 
 STIFF = 0.03
 """Least share by which a group must resist every way of moving it, or it is made anew."""
-NAMES = {1: "A", -1: "B"}
 
 
 class LooseError(ValueError):

@@ -107,9 +107,6 @@ def test_an_unknown_closure_number_is_told_with_those_that_are(read):
     assert "of which 0 fit" in str(caught.value)
 
 
-CYLINDER = scene_text("loops/cylinder")
-
-
 @pytest.mark.parametrize(("number", "sign"), [(1, 1), (2, -1)])
 def test_a_rod_of_driven_length_between_two_moving_links(number, sign, read):
     """The law of cosines; neither the barrel nor the rod is joined to anything driven."""
@@ -122,7 +119,7 @@ def test_a_rod_of_driven_length_between_two_moving_links(number, sign, read):
         c = 4 + mpmath.mpc(x, mpmath.sqrt(near**2 - x**2)) * (b - 4) / 2
         return {"B": b, "C": c}
 
-    scene = read(CYLINDER.replace("NUMBER", str(number)))
+    scene = read(scene_text("loops/cylinder").replace("NUMBER", str(number)))
     motion = assemble(scene).motion
     laws = [mpmath.mpf("3.5")], [mpmath.mpf("0.8")], [mpmath.mpf("-1.7")]
     agree(motion, central(place, *laws))
@@ -130,12 +127,9 @@ def test_a_rod_of_driven_length_between_two_moving_links(number, sign, read):
     assert compare(scene, by_loops(scene)).agrees
 
 
-RELATIVE = scene_text("loops/relative")
-
-
 def test_a_crank_driven_against_another_moving_link(read):
     """The angle at B is driven: the two bars are one of length f, then the law of cosines."""
-    scene = read(RELATIVE)
+    scene = read(scene_text("loops/relative"))
     motion = assemble(scene).motion
 
     def place(bend):
@@ -166,11 +160,8 @@ def test_oldham_turns_alike_at_both_ends(read):
     assert true_mobility(scene) == 1
 
 
-TRAMMEL = scene_text("loops/trammel")
-
-
 def test_trammel_draws_an_ellipse(read):
-    scene = read(TRAMMEL)
+    scene = read(scene_text("loops/trammel"))
     motion = assemble(scene).motion
 
     def place(q):
@@ -203,11 +194,8 @@ def test_a_batch_without_positions_is_assembled_too(read):
     assert examine(scene, bare, q).agrees.all()
 
 
-RAPID_RETURN = scene_text("loops/rapid-return")
-
-
 def test_the_number_of_a_closure_is_held_in_a_batch(read):
-    scene = read(RAPID_RETURN)
+    scene = read(scene_text("loops/rapid-return"))
     q = {"q": np.linspace(30, 40, 5)}
     solution = by_loops(scene, q)
     assert examine(scene, solution, q).agrees.all()

@@ -107,9 +107,6 @@ def agree(motion, expected, tolerance=1e-12):
             assert abs(found[0] - exact) <= tolerance * max(1, abs(exact)), name
 
 
-SHAPER = scene_text("loops/shaper")
-
-
 def shaper(q):
     a = unit(q) * 6 / 5
     reach = a + 3j
@@ -120,7 +117,7 @@ def shaper(q):
 
 
 def test_slotted_lever_with_coriolis(read, solved):
-    found = solved(read(SHAPER), A=1 + 0.6j, B=1.9 + 3.7j, C=3.9 + 3.5j)
+    found = solved(read(scene_text("loops/shaper")), A=1 + 0.6j, B=1.9 + 3.7j, C=3.9 + 3.5j)
     expected = central(shaper, [mpmath.pi / 6], [6], [2])
     reach, turn = expected.pop("reach"), expected.pop("turn")
     agree(found.motion, expected)
@@ -136,12 +133,9 @@ def test_slotted_lever_with_coriolis(read, solved):
     assert abs(carried + slide.coriolis[0] + relative - whole) < 1e-12
 
 
-CRANK_SLOT = scene_text("loops/crank-slot")
-
-
 def test_bar_through_a_swivelling_block(read, solved):
     """b = sqrt(c² + d² + a² + 2a(d sinθ - c cosθ)) with C = (c, -d) from A."""
-    motion = solved(read(CRANK_SLOT), B=0.6 + 0.8j).motion
+    motion = solved(read(scene_text("loops/crank-slot")), B=0.6 + 0.8j).motion
     b = motion.slide(0).position[0]
     theta = math.radians(50)
     closed = math.sqrt(9 + 1 + 1 + 2 * (math.sin(theta) - 3 * math.cos(theta)))
@@ -153,9 +147,6 @@ def test_bar_through_a_swivelling_block(read, solved):
         return {"B": crank, "E": crank + 5 * way / abs(way)}
 
     agree(motion, central(position, [50 * mpmath.pi / 180], [2], [0]))
-
-
-RAPID_RETURN = scene_text("loops/rapid-return-3")
 
 
 def test_class_three_rapid_return(read, solved):
@@ -173,10 +164,7 @@ def test_class_three_rapid_return(read, solved):
 
     expected = central(position, [35 * mpmath.pi / 180], [3], [1])
     start = {name: quantities[0] + 0.1 for name, quantities in expected.items()}
-    agree(solved(read(RAPID_RETURN), **start).motion, expected, 1e-11)
-
-
-FIVE_BAR = scene_text("loops/five-bar")
+    agree(solved(read(scene_text("loops/rapid-return-3")), **start).motion, expected, 1e-11)
 
 
 def five_bar(p, q):
@@ -186,7 +174,7 @@ def five_bar(p, q):
 
 
 def test_five_bar_with_two_drivers(read, solved):
-    found = solved(read(FIVE_BAR), C=2 + 4j)
+    found = solved(read(scene_text("loops/five-bar")), C=2 + 4j)
     values = [100 * mpmath.pi / 180, mpmath.pi / 3]
     agree(found.motion, central(five_bar, values, [2, -1], [-1, 3]))
     ratios = found.ratios
@@ -200,12 +188,9 @@ def test_five_bar_with_two_drivers(read, solved):
         assert abs(1j * (crank + arms * tau[1]) - ratio) < 1e-13
 
 
-EIGHT_LINKS_1 = scene_text("loops/eight-links-1")
-
-
 def test_eight_links_with_a_moving_slide(read, solved):
     start = {"B": 2 + 2j, "C": 3 + 2j, "D": 7 + 4j, "E": 10 + 4j}
-    motion = solved(read(EIGHT_LINKS_1), **start).motion
+    motion = solved(read(scene_text("loops/eight-links-1")), **start).motion
     omega = dict(zip(motion.index, motion.omega[0], strict=True))
     assert omega["5"] == pytest.approx(-1 / 2, rel=1e-12)
     assert omega["7"] == pytest.approx(1 / 6, rel=1e-12)
@@ -214,12 +199,9 @@ def test_eight_links_with_a_moving_slide(read, solved):
     assert abs(motion.point("D").velocity[0] - 1) < 1e-13
 
 
-EIGHT_LINKS_2 = scene_text("loops/eight-links-2")
-
-
 def test_eight_links_with_a_swivelling_guide(read, solved):
     start = {"A": 0j, "C": 10 + 5j, "D": 16 + 9j, "E": 18 + 11j}
-    motion = solved(read(EIGHT_LINKS_2), **start).motion
+    motion = solved(read(scene_text("loops/eight-links-2")), **start).motion
     omega = dict(zip(motion.index, motion.omega[0], strict=True))
     assert omega["3"] == omega["4"] == pytest.approx(1 / 15, rel=1e-12)
     assert omega["7"] == pytest.approx(0, abs=1e-14)

@@ -160,12 +160,9 @@ def test_the_words_of_a_cycle(mechanism, said):
     assert "DOES NOT AGREE" not in text
 
 
-ARM = scene_text("motion/arm")
-
-
 def test_an_arm_that_turns_on_and_on_does_not_swing():
     """Willis: the arm makes (120·100 - 60·50)/(120 + 60) = 50 rev/min, half a turn in 0.6 s."""
-    scene = read_text(ARM, "arm")
+    scene = read_text(scene_text("motion/arm"), "arm")
     text = "\n".join(cycle_lines(cycle(Mechanism(scene))))
     assert "link arm (line O-P) turns one way by 180.000°: 26.667° (at t = 0 s)" in text
     assert "swings" not in text

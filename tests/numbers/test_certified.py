@@ -36,8 +36,6 @@ turn = 1
 angle = {angle}
 """
 
-BLOCK = scene_text("numbers/block")
-
 
 def certified(mechanism: Mechanism, digits: int, targets=None):
     """The record of a mechanism in certified digits."""
@@ -286,7 +284,7 @@ def test_a_moment_that_is_no_fraction_is_not_rounded():
 
 def test_a_way_that_is_the_moment_itself_is_not_rounded_either():
     """A block stands t metres from its zero at t = pi/7 seconds."""
-    found = certified(mechanism_of_law(BLOCK), 40)
+    found = certified(mechanism_of_law(scene_text("numbers/block")), 40)
     context = decimal_kind(80).pi.context
     assert Decimal(found["points"]["B"]["position"][0]) == digits_of(context.pi / 7, 40)
     assert found["points"]["B"]["velocity"] == [written_one(40), "0"]

@@ -111,11 +111,8 @@ def test_a_sliding_driver(changed: Callable[..., Scene]) -> None:
     assert driver.speed.si({}) == -0.025
 
 
-RACK = scene_text("scene/rack")
-
-
 def test_wheels_by_teeth_and_tracks_of_both_kinds() -> None:
-    scene = read_text(RACK, "rack")
+    scene = read_text(scene_text("scene/rack"), "rack")
     ring = scene.frame.wheels[0]
     assert ring.inside and ring.teeth == exact(60)
     assert ring.radius is not None and ring.radius.number({}) == 120

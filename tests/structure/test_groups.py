@@ -218,7 +218,6 @@ def test_the_lifter_is_solved_one_loop_after_the_other():
     assert (set(second.links), second.inner.point) == ({"5", "4"}, "F")
 
 
-TRIAD = scene_text("structure/triad")
 STEPHENSON = scene_text("structure/stephenson")
 RAPID_RETURN = scene_text("structure/rapid-return")
 
@@ -226,7 +225,7 @@ RAPID_RETURN = scene_text("structure/rapid-return")
 @pytest.mark.parametrize(
     ("text", "driver", "links", "order"),
     [
-        (TRIAD, "turn = 1", "2345", (3, 3)),
+        (scene_text("structure/triad"), "turn = 1", "2345", (3, 3)),
         (STEPHENSON, "turn = 1", "2345", (3, 3)),
         (STEPHENSON, "turn = 5", "1234", (4, 2)),
         (RAPID_RETURN, "turn = 1", "2345", (3, 3)),
@@ -241,12 +240,9 @@ def test_groups_of_higher_class_are_named_by_class_and_order(text, driver, links
     assert (set(group.links), group.order) == (set(links), order)
 
 
-HINGE_WITHIN = scene_text("structure/hinge-within")
-
-
 def test_a_hinge_of_three_links_within_a_group_is_two_of_its_pairs():
     """Six links have nine pairs: six within, H twice among them, and three outwards."""
-    _, group = decompose(scene_of(HINGE_WITHIN + DRIVEN))
+    _, group = decompose(scene_of(scene_text("structure/hinge-within") + DRIVEN))
     inner, outer = group.joints
     assert (len(group.links), len(inner), sorted(outer)) == (6, 6, ["2", "5", "6"])
     assert group.order == (4, 3)
@@ -286,12 +282,6 @@ def test_a_wheel_that_rolls_by_itself_is_driven_along_its_track():
 # --- the five dyads ------------------------------------------------------------------------------
 
 SLOTTED_LEVER = scene_text("structure/slotted-lever")
-TRAMMEL = scene_text("structure/trammel")
-
-
-ROD_ON_A_LEVER = scene_text("structure/rod-on-a-lever")
-YOKE = scene_text("structure/yoke")
-OLDHAM = scene_text("structure/oldham")
 
 
 @pytest.mark.parametrize(
@@ -299,10 +289,10 @@ OLDHAM = scene_text("structure/oldham")
     [
         (SLIDER_CRANK + DRIVEN, ["RRP"]),
         (SLOTTED_LEVER + DRIVEN, ["RPR"]),
-        (TRAMMEL, ["RRP"]),
-        (ROD_ON_A_LEVER + DRIVEN, ["RRR", "RRP"]),
-        (YOKE + DRIVEN, ["RPP"]),
-        (OLDHAM + DRIVEN, ["RPP"]),
+        (scene_text("structure/trammel"), ["RRP"]),
+        (scene_text("structure/rod-on-a-lever") + DRIVEN, ["RRR", "RRP"]),
+        (scene_text("structure/yoke") + DRIVEN, ["RPP"]),
+        (scene_text("structure/oldham") + DRIVEN, ["RPP"]),
     ],
     ids=["slider-crank", "slotted lever", "trammel", "rod on a lever", "yoke", "Oldham"],
 )

@@ -12,8 +12,6 @@ from typing import NamedTuple
 Moving = tuple[complex, complex, complex]
 Turning = tuple[float, float, float]
 
-REST = (0.0, 0.0)
-
 
 class Dyad(NamedTuple):
     """A dyad RRR: its inner pin and its two bars' angles."""

@@ -8,15 +8,13 @@ from tests.scene_files import scene_text
 from tests.textbook.book import FT, IN, RPM, answers, exactly, rounds_to, within
 from tests.textbook.closed_forms import degrees, rod_on_guide, turned
 
-ENGINE = scene_text("textbook/engine")
-
 
 def test_beer_15_7_15_15_engine():
     """Samples 15.3 and 15.7, in later editions 15.7 and 15.15: 3 in, 8 in, 2000 rev/min clockwise.
 
     Computed in print from rounded values, a_B from ω = 209.4 rad/s: 0.04 % under the exact one.
     """
-    found = answers(ENGINE)
+    found = answers(scene_text("textbook/engine"))
     rod, b, d = found.links["rod"], found.points["B"], found.points["D"]
     way = d.position - b.position
     beta = math.degrees(math.atan2(-way.imag, way.real))

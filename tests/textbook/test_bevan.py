@@ -72,16 +72,13 @@ def test_bevan_3_4_slider_crank(crank, printed, recomputed):
     assert exactly(x.acceleration, added(pin, turned(closed.angle, 12 * IN))[2])
 
 
-SLOTTED_LEVER_3_7 = scene_text("textbook/slotted-lever-3-7")
-
-
 def test_bevan_3_7_slotted_lever():
     """Page 110: crank and slotted lever, Coriolis; angle OCP = 120°. Printed without senses.
 
     The height of the ram's line, 13.75 in, is not in our source: one number fitted to the two
     values of the rod. The lever's own need no fitting.
     """
-    found = answers(SLOTTED_LEVER_3_7)
+    found = answers(scene_text("textbook/slotted-lever-3-7"))
     lever, rod, block = found.links["lever"], found.links["rod"], found.slides["block"]
     assert rounds_to(abs(found.points["P"].position) / IN, "10.6")
     assert within(lever.omega, 1.77)
@@ -110,16 +107,13 @@ def test_bevan_3_7_slotted_lever():
     assert rounds_to(rod.epsilon, "4.044085")
 
 
-ROTARY_ENGINE_3_8 = scene_text("textbook/rotary-engine-3-8")
-
-
 def test_bevan_3_8_rotary_engine():
     """Page 112: the crank OC is fixed, the cylinder turns about O at 1200 rev/min clockwise.
 
     Printed without senses. Misprint: the sliding acceleration, 1698 ft/s², comes from a vector of
     1.29 in that is exactly 1.392 in; it is 1833 ft/s², 7.4 % more than printed.
     """
-    found = answers(ROTARY_ENGINE_3_8)
+    found = answers(scene_text("textbook/rotary-engine-3-8"))
     rod, slide = found.links["rod"], found.slides["piston"]
     assert rounds_to(slide.position / IN, "10.38")
     assert within(slide.speed / FT, 30.9)

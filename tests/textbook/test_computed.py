@@ -64,12 +64,9 @@ def test_four_bar_open_recomputed():
     assert rounds_to(p.position.imag, "6.25596017866")
 
 
-FIVE_BAR = scene_text("textbook/five-bar")
-
-
 def test_five_bar_with_two_driven_cranks():
     """The lengths are those of the geared five-bar of Constans and Dyer; C hangs down."""
-    found = answers(FIVE_BAR)
+    found = answers(scene_text("textbook/five-bar"))
     c, left, right = found.points["C"], found.links["BC"], found.links["EC"]
     end = added(fixed(0.18), turned(degrees(40, -20, -20), 0.12))
     closed = dyad(turned(degrees(120, 10, 10), 0.12), 0.25, 0.25, end, -1)

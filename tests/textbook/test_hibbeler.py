@@ -14,16 +14,13 @@ from tests.textbook.closed_forms import degrees, dyad, fixed, less, polar, rod_o
 METRES = 'units = { length = "m", angle = "deg", speed = "rad/s" }\n'
 
 
-CYLINDER_16_5 = scene_text("textbook/cylinder-16-5")
-
-
 def test_hibbeler_16_5_hydraulic_cylinder():
     """Page 666: a cylinder from a point 2 m off the hinge opens a window; its pin is 1 m off.
 
     At 30° it lengthens at a constant 0.5 m/s. Printed -0.416 rad/s² from ω = 0.620 rad/s. The other
     closure has the window at -30°.
     """
-    found = answers(METRES + CYLINDER_16_5)
+    found = answers(METRES + scene_text("textbook/cylinder-16-5"))
     window, barrel = found.links["window"], found.links["barrel"]
     assert rounds_to(window.omega, "0.62")
     assert within(window.epsilon, -0.416, share=0.003)
@@ -40,12 +37,9 @@ def test_hibbeler_16_5_hydraulic_cylinder():
     assert exactly(seen.radius[1], 0.5)
 
 
-LINK_16_6 = scene_text("textbook/link-16-6")
-
-
 def test_hibbeler_16_6_link_on_two_guides():
     """Page 673: A goes down at 2 m/s, the link at 45°."""
-    found = answers(METRES + LINK_16_6)
+    found = answers(METRES + scene_text("textbook/link-16-6"))
     assert rounds_to(found.links["2"].omega, "14.1")
     assert rounds_to(found.points["B"].velocity.real, "2.0")
 
@@ -54,15 +48,12 @@ def test_hibbeler_16_6_link_on_two_guides():
     assert exactly(found.points["B"].acceleration, -(2**2) / 0.2 * math.sqrt(2) ** 3)
 
 
-BELT_16_7 = scene_text("textbook/belt-16-7")
-
-
 def test_hibbeler_16_7_cylinder_on_a_belt():
     """Page 674: a cylinder rolls on a belt of 1 m/s, ωr = 3 m/s clockwise; A level with its centre.
 
     Only the product ωr is in our source; 15 rad/s and 0.2 m are ours. 36.9° over the level.
     """
-    found = answers(METRES + BELT_16_7)
+    found = answers(METRES + scene_text("textbook/belt-16-7"))
     a = found.points["A"]
     assert rounds_to(abs(a.velocity), "5.0")
     assert rounds_to(math.degrees(math.atan2(a.velocity.imag, a.velocity.real)), "36.9")
@@ -73,12 +64,9 @@ def test_hibbeler_16_7_cylinder_on_a_belt():
     assert exactly(a.acceleration, 15**2 * 0.2)
 
 
-COLLAR_16_8 = scene_text("textbook/collar-16-8")
-
-
 def test_hibbeler_16_8_16_17_collar_drives():
     """Pages 675 and 695: the collar goes down at 2 m/s and 1 m/s²; B stands at the origin."""
-    found = answers(METRES + COLLAR_16_8)
+    found = answers(METRES + scene_text("textbook/collar-16-8"))
     pin, long, short = found.points["B"], found.links["CB"], found.links["AB"]
     assert rounds_to(pin.velocity.real, "2.0")
     assert rounds_to(long.omega, "10.0")
@@ -100,15 +88,12 @@ def test_hibbeler_16_8_16_17_collar_drives():
         assert exactly(link.epsilon, angle[2])
 
 
-FOUR_BAR_16_9 = scene_text("textbook/four-bar-16-9")
-
-
 def test_hibbeler_16_9_four_bar():
     """Page 676: AB clockwise at 30 rad/s, 60° over the level, BC level, CD upright, D over C.
 
     Printed 52.0 rad/s from v_C = 5.20 m/s.
     """
-    found = answers(METRES + FOUR_BAR_16_9)
+    found = answers(METRES + scene_text("textbook/four-bar-16-9"))
     coupler, wheel = found.links["BC"], found.links["DC"]
     assert rounds_to(coupler.omega, "15.0")
     assert rounds_to(wheel.omega, "52.0")
@@ -121,15 +106,12 @@ def test_hibbeler_16_9_four_bar():
     assert exactly(wheel.epsilon, closed.right[2])
 
 
-LINKAGE_16_11 = scene_text("textbook/linkage-16-11")
-
-
 def test_hibbeler_16_11_centre():
     """Page 684: the block D at 3 m/s; the bars, 0.4 m each, square to one another and at 45°.
 
     The centre of BD lies 0.4 m from B and 0.566 m over D. Printed without senses.
     """
-    found = answers(METRES + LINKAGE_16_11)
+    found = answers(METRES + scene_text("textbook/linkage-16-11"))
     rod, crank = found.links["BD"], found.links["AB"]
     assert rounds_to(abs(rod.omega), "5.3")
     assert rounds_to(abs(crank.omega), "5.3")
@@ -141,12 +123,9 @@ def test_hibbeler_16_11_centre():
     assert exactly(place, complex(-0.4 * math.sqrt(2), 0.4 * math.sqrt(2)))
 
 
-PLATES_16_12 = scene_text("textbook/plates-16-12")
-
-
 def test_hibbeler_16_12_cylinder_between_plates():
     """Page 685: a cylinder of 0.25 m between plates that go 0.4 and 0.25 m/s in opposite senses."""
-    found = answers(METRES + PLATES_16_12)
+    found = answers(METRES + scene_text("textbook/plates-16-12"))
     omega, speed = found.links["cylinder"].omega, found.points["C"].velocity
     assert rounds_to(omega, "2.6")
     assert rounds_to(speed.real, "0.075")
@@ -156,12 +135,9 @@ def test_hibbeler_16_12_cylinder_between_plates():
     assert exactly(found.points["C"].position, 0.125j)
 
 
-PLANES_16_13 = scene_text("textbook/planes-16-13")
-
-
 def test_hibbeler_16_13_rod_on_two_planes():
     """Page 691: a level rod of 10 m, A down a plane of 45° at 2 m/s and 3 m/s², B up another."""
-    found = answers(METRES + PLANES_16_13)
+    found = answers(METRES + scene_text("textbook/planes-16-13"))
     rod, b = found.links["2"], found.slides["3"]
     assert rounds_to(rod.omega, "0.283")
     assert rounds_to(rod.epsilon, "0.344")
@@ -173,15 +149,12 @@ def test_hibbeler_16_13_rod_on_two_planes():
     assert exactly(rod.epsilon, (3 + b.acceleration) * half / 10)
 
 
-DISK_16_15 = scene_text("textbook/disk-16-15")
-
-
 def test_hibbeler_16_15_disk():
     """Page 693: ω = 6 rad/s, α = 4 rad/s² counter-clockwise, r = 0.5 m; A the top, B to the right.
 
     The accelerations do not depend on the sense of ω.
     """
-    found = answers(METRES + DISK_16_15)
+    found = answers(METRES + scene_text("textbook/disk-16-15"))
     a, b = found.points["A"].acceleration, found.points["B"].acceleration
     for mine, printed in ((b.real, "-20.0"), (b.imag, "2.0"), (a.real, "-4.0"), (a.imag, "-18.0")):
         assert rounds_to(mine, printed)
@@ -192,12 +165,9 @@ def test_hibbeler_16_15_disk():
     assert exactly(b, -20 + 2j)
 
 
-SPOOL_16_16 = scene_text("textbook/spool-16-16")
-
-
 def test_hibbeler_16_16_spool_on_a_cord():
     """Page 694: a spool runs down an upright cord to its left, 3 rad/s and 4 rad/s² clockwise."""
-    found = answers(METRES + SPOOL_16_16)
+    found = answers(METRES + scene_text("textbook/spool-16-16"))
     b = found.points["B"].acceleration
     assert rounds_to(abs(b), "9.25")
     assert rounds_to(math.degrees(math.atan2(-b.imag, b.real)), "71.1")
@@ -209,15 +179,12 @@ def test_hibbeler_16_16_spool_on_a_cord():
     assert exactly(b, 3 - 8.75j)
 
 
-ENGINE_16_18 = scene_text("textbook/engine-16-18")
-
-
 def test_hibbeler_16_18_engine_speeding_up():
     """Page 696: the crank at 45° with 10 rad/s and 20 rad/s² clockwise, the piston above it.
 
     Computed in print from coordinates of three digits: a_C is printed 0.5 % too large.
     """
-    found = answers(METRES + ENGINE_16_18)
+    found = answers(METRES + scene_text("textbook/engine-16-18"))
     rod, piston = found.links["rod"], found.points["C"]
     assert rounds_to(rod.epsilon, "27.7")
     assert within(piston.acceleration.imag, -13.6, share=0.006)
@@ -233,12 +200,9 @@ def test_hibbeler_16_18_engine_speeding_up():
     assert rounds_to(piston.acceleration.imag, "-13.53685")
 
 
-ROD_16_19 = scene_text("textbook/rod-16-19")
-
-
 def test_hibbeler_16_19_collar_on_a_turning_rod():
     """Page 705, in the axes of the rod: Coriolis -12 j, v = 2 i - 0.6 j, a = 1.2 i - 12.4 j."""
-    found = answers(METRES + ROD_16_19)
+    found = answers(METRES + scene_text("textbook/rod-16-19"))
     c, slide = found.points["C"], found.slides["collar"]
     assert rounds_to(slide.coriolis.imag, "-12")
     assert rounds_to(c.velocity.imag, "-0.6")
@@ -250,12 +214,9 @@ def test_hibbeler_16_19_collar_on_a_turning_rod():
     assert exactly(c.acceleration, 1.2 - 12.4j)
 
 
-COLLAR_16_20 = scene_text("textbook/collar-16-20")
-
-
 def test_hibbeler_16_20_collar_on_a_swinging_rod():
     """Page 706: AB clockwise with 3 rad/s and 4 rad/s²; ω of DE 3 clockwise, α 5 the other way."""
-    found = answers(METRES + COLLAR_16_20)
+    found = answers(METRES + scene_text("textbook/collar-16-20"))
     rod, slide = found.links["DE"], found.slides["collar"]
     assert rounds_to(rod.omega, "-3")
     assert rounds_to(rod.epsilon, "5.0")

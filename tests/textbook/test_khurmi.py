@@ -26,12 +26,10 @@ MILLIMETRES = 'units = { length = "mm", angle = "deg", speed = "rev/min" }\n'
 METRES = 'units = { length = "m", angle = "deg", speed = "rev/min" }\n'
 RADIANS = 'units = { length = "mm", angle = "deg", speed = "rad/s" }\n'
 
-FOUR_BAR_7_1 = scene_text("textbook/four-bar-7-1")
-
 
 def test_khurmi_7_1_four_bar():
     """Page 148. The rocker turns clockwise; v_C is read off the diagram."""
-    found = answers(MILLIMETRES + FOUR_BAR_7_1)
+    found = answers(MILLIMETRES + scene_text("textbook/four-bar-7-1"))
     omega, speed = found.links["3"].omega, abs(found.points["C"].velocity)
     assert within(omega, -4.8)
     assert within(speed, 0.385)
@@ -122,9 +120,6 @@ def test_khurmi_7_2_steam_engine_least_velocity():
     assert rounds_to(abs(found), "7.737465")
 
 
-WHITWORTH_7_9 = scene_text("textbook/whitworth-7-9")
-
-
 def test_khurmi_7_9_whitworth():
     """Page 160, also Sarkar 1.9. Suspect: the figure is not seen.
 
@@ -132,7 +127,7 @@ def test_khurmi_7_9_whitworth():
     values: angle POQ = 120°, R beyond Q from P, S to the right of R. Then ω_RS is 5.7 % and the
     sliding speed 3.3 % off; Sarkar prints 0.7625 m/s, 1.93 rad/s and 0.90 m/s for the same.
     """
-    found = answers(MILLIMETRES + WHITWORTH_7_9)
+    found = answers(MILLIMETRES + scene_text("textbook/whitworth-7-9"))
     ram, rod = found.points["S"].velocity.real, found.links["rod"].omega
     sliding = found.slides["block"].speed
     assert within(ram, 0.8)
@@ -230,16 +225,13 @@ def test_khurmi_8_2_accelerated_crank():
     assert rounds_to(rod.epsilon, "1853.501")
 
 
-FOUR_BAR_8_4 = scene_text("textbook/four-bar-8-4")
-
-
 def test_khurmi_8_4_four_bar():
     """Page 184: ω_QR counter-clockwise, ω_RS clockwise, both ε counter-clockwise.
 
     Suspect: ω_QR is printed 1.9 rad/s, read off a short vector (0.333 m/s, exactly 0.3465); the
     exact one is 1.980, 4 % more.
     """
-    found = answers(RADIANS + FOUR_BAR_8_4)
+    found = answers(RADIANS + scene_text("textbook/four-bar-8-4"))
     coupler, rocker = found.links["2"], found.links["3"]
     assert within(coupler.omega, 1.9, share=0.045)
     assert not within(coupler.omega, 1.9)
@@ -257,16 +249,13 @@ def test_khurmi_8_4_four_bar():
     assert rounds_to(rocker.epsilon, "46.14346")
 
 
-TWO_SLIDERS_8_6 = scene_text("textbook/two-sliders-8-6")
-
-
 def test_khurmi_8_6_two_sliders():
     """Page 188. Suspect: the figure is not seen.
 
     Two numbers, the crank's angle of -30° and the line of D at x = 1045 mm, are fitted to the five
     printed values; v_B is then 4.3 % and a_D 3.6 % off.
     """
-    found = answers(MILLIMETRES + TWO_SLIDERS_8_6)
+    found = answers(MILLIMETRES + scene_text("textbook/two-sliders-8-6"))
     b, d, rod = found.points["B"], found.points["D"], found.links["4"]
     assert within(abs(b.velocity), 0.4, share=0.05)
     assert within(abs(d.velocity), 0.24)

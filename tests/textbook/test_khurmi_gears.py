@@ -54,23 +54,17 @@ def test_khurmi_13_4_epicyclic(speed, printed):
     assert exactly(found, 150 - (speed - 150) * 36 / 45)
 
 
-REVERTED_13_5 = scene_text("textbook/reverted-13-5")
-
-
 def test_khurmi_13_5_reverted_train():
     """Page 440: B of 75 teeth is fixed, C has 30, the compound gear 90 and 45 on the arm."""
-    found = speeds(REVERTED_13_5)
+    found = speeds(scene_text("textbook/reverted-13-5"))
     assert rounds_to(found["C"], "400")
     assert exactly(found["DE"], -100 * (1 + 75 / 45))
     assert exactly(found["C"], -100 - 90 / 30 * (found["DE"] + 100))
 
 
-RING_13_6 = scene_text("textbook/ring-13-6")
-
-
 def test_khurmi_13_6_fixed_ring():
     """Page 443: the ring A of 72 teeth is fixed; B turns against the arm EF."""
-    found = speeds(RING_13_6)
+    found = speeds(scene_text("textbook/ring-13-6"))
     assert rounds_to(found["C"], "58.5")
     assert rounds_to(found["B"], "-46.8")
     assert exactly(found["B"], 18 - 18 * 72 / 20)

@@ -17,8 +17,6 @@ from tests.textbook.closed_forms import (
     turned,
 )
 
-PLATE_5_6 = scene_text("textbook/plate-5-6")
-
 
 def test_meriam_5_6_plate_on_two_guides():
     """Page 341: corner A of a plate goes up at a constant 0.3 m/s, B on the level; edge at 30°.
@@ -26,7 +24,7 @@ def test_meriam_5_6_plate_on_two_guides():
     The edge turns clockwise as drawn here; its turning is printed without a sense. The companion's
     program has arccos where the book has the secant, so that its own numbers are wrong.
     """
-    found = answers(PLATE_5_6)
+    found = answers(scene_text("textbook/plate-5-6"))
     b, edge = found.points["B"], found.links["2"]
     assert rounds_to(b.velocity.real, "-0.1732")
     assert rounds_to(b.acceleration.real, "-0.693")
@@ -40,15 +38,12 @@ def test_meriam_5_6_plate_on_two_guides():
     assert exactly(edge.epsilon, -((0.3 / 0.2) ** 2) * secant**2 * math.tan(math.radians(30)))
 
 
-WHEEL_5_7 = scene_text("textbook/wheel-5-7")
-
-
 def test_meriam_5_7_5_11_rolling_wheel():
     """Pages 351 and 364: r = 0.3 m, v_O = 3 m/s to the right, A at 0.2 m, 30° over the level.
 
     A began on the right; the wheel has rolled back until OA stands at 150°, with C in contact.
     """
-    found = answers(WHEEL_5_7)
+    found = answers(scene_text("textbook/wheel-5-7"))
     a, c = found.points["A"], found.points["C"]
     assert rounds_to(abs(a.velocity), "4.36")
     assert rounds_to(a.velocity.real, "4")
@@ -63,12 +58,9 @@ def test_meriam_5_7_5_11_rolling_wheel():
     assert exactly(abs(a.velocity), math.sqrt(0.19) * 10)
 
 
-FOUR_BAR_5_8 = scene_text("textbook/four-bar-5-8")
-
-
 def test_meriam_5_8_5_14_four_bar():
     """Pages 352 and 375: CB level, OA upright, CB at 2 rad/s: -6/7 and -3/7 rad/s."""
-    found = answers(FOUR_BAR_5_8)
+    found = answers(scene_text("textbook/four-bar-5-8"))
     coupler, crank = found.links["AB"], found.links["OA"]
     assert rounds_to(coupler.omega, "-0.857")
     assert rounds_to(crank.omega, "-0.429")
@@ -86,15 +78,12 @@ def test_meriam_5_8_5_14_four_bar():
     assert exactly(crank.epsilon, closed.right[2])
 
 
-ENGINE_5_9 = scene_text("textbook/engine-5-9")
-
-
 def test_meriam_5_9_5_15_slider_crank():
     """Pages 353 and 376: v_G is read off the diagram, yet right to its digits.
 
     ω_AB is the one that 5/15 takes from 5/9. Our source keeps no more printed values.
     """
-    found = answers(ENGINE_5_9)
+    found = answers(scene_text("textbook/engine-5-9"))
     rod, a, g = found.links["rod"], found.points["A"], found.points["G"]
     assert rounds_to(abs(g.velocity) / FT, "64.1")
     assert rounds_to(rod.omega, "29.5")
@@ -115,15 +104,12 @@ def test_meriam_5_9_5_15_slider_crank():
     assert rounds_to(rod.epsilon, "7742.071")
 
 
-SLOTTED_ARM_5_10 = scene_text("textbook/slotted-arm-5-10")
-
-
 def test_meriam_5_10_slotted_arm():
     """Page 354: a collar on a screw 18 in from O goes down at 0.8 ft/s; its pin turns the arm.
 
     Printed counter-clockwise: the collar stands to the left of O.
     """
-    found = answers(SLOTTED_ARM_5_10)
+    found = answers(scene_text("textbook/slotted-arm-5-10"))
     arm, block = found.links["arm"], found.slides["block"]
     assert rounds_to(arm.omega, "0.400")
 
@@ -137,15 +123,12 @@ def test_meriam_5_10_slotted_arm():
     assert exactly(block.acceleration, seen.radius[2])
 
 
-LINKAGE_5_12 = scene_text("textbook/linkage-5-12")
-
-
 def test_meriam_5_12_instantaneous_centre():
     """Page 364: the centre C of the link lies 14 in over A and 14√2 in from B.
 
     Counter-clockwise in print, with OB clockwise. D at 6 in from A has CD = 15.23 in.
     """
-    found = answers(LINKAGE_5_12)
+    found = answers(scene_text("textbook/linkage-5-12"))
     link, a, d = found.links["BA"], found.points["A"], found.points["D"]
     assert rounds_to(link.omega, "4.29")
     assert rounds_to(abs(a.velocity) / FT, "5.00")
@@ -160,12 +143,9 @@ def test_meriam_5_12_instantaneous_centre():
     assert exactly(ratio.start + ratio.shift / ratio.size, centre)
 
 
-SLOTTED_DISK_5_16 = scene_text("textbook/slotted-disk-5-16")
-
-
 def test_meriam_5_16_slider_in_a_turning_slot():
     """Page 391: both motions are given; v = 5 i + 24 j, a = -15 i - 20 j in in/s and in/s²."""
-    found = answers(SLOTTED_DISK_5_16)
+    found = answers(scene_text("textbook/slotted-disk-5-16"))
     a, slide = found.points["A"], found.slides["slider"]
     assert rounds_to(abs(a.velocity) / IN, "24.5")
     assert rounds_to(abs(a.acceleration) / IN, "25")
@@ -176,16 +156,13 @@ def test_meriam_5_16_slider_in_a_turning_slot():
     assert exactly(slide.acceleration, 81 * IN)
 
 
-SLOT_5_17 = scene_text("textbook/slot-5-17")
-
-
 def test_meriam_5_17_5_18_pin_in_a_turning_slot():
     """Pages 392 and 393: OD clockwise at 2 rad/s, CA level; ω of CA counter-clockwise.
 
     The book's axes turn with the slot and have k into the page: its ω = 2k and -4, ε = +32 are here
     -2, +4 and -32. The line OD crosses the circle about C at A and farther out at (450, 450).
     """
-    found = answers(SLOT_5_17)
+    found = answers(scene_text("textbook/slot-5-17"))
     link, slide, a = found.links["CA"], found.slides["block"], found.points["A"]
     assert rounds_to(link.omega, "4")
     assert rounds_to(slide.speed * 1000, "-636")

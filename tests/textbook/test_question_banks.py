@@ -11,12 +11,10 @@ from tests.scene_files import scene_text
 from tests.textbook.book import RPM, WITNESSED, answers, exactly, mechanism, rounds_to, within
 from tests.textbook.closed_forms import degrees, dyad, fixed, turned
 
-GATE_FOUR_BAR = scene_text("textbook/gate-four-bar")
-
 
 def test_gate_four_bar_perpendicular():
     """interviewmania 89107: AB and DC square to AD, so that the coupler is in translation."""
-    found = answers(GATE_FOUR_BAR)
+    found = answers(scene_text("textbook/gate-four-bar"))
     assert rounds_to(found.links["DC"].omega, "25")
 
     assert exactly(found.links["DC"].omega, 25)

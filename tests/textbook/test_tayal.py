@@ -8,15 +8,13 @@ from tests.scene_files import scene_text
 from tests.textbook.book import RPM, answers, exactly, rounds_to, within
 from tests.textbook.closed_forms import degrees, dyad, fixed, rod_on_guide, turned
 
-SLIDER_CRANK_21_5 = scene_text("textbook/slider-crank-21-5")
-
 
 def test_tayal_21_5_21_12_slider_crank():
     """21.12 prints 2.213 m/s, 21.5, by the other method from rounded angles, 2.211 m/s.
 
     ω_AB is printed 5.468 rad/s, cut off, not rounded. Printed without senses.
     """
-    found = answers(SLIDER_CRANK_21_5)
+    found = answers(scene_text("textbook/slider-crank-21-5"))
     rod, piston = found.links["rod"].omega, found.points["B"].velocity.real
     assert within(abs(rod), 5.468, share=0.0002)
     assert rounds_to(abs(piston), "2.213")
@@ -29,15 +27,12 @@ def test_tayal_21_5_21_12_slider_crank():
     assert rounds_to(piston, "-2.213084")
 
 
-FOUR_BAR_21_13 = scene_text("textbook/four-bar-21-13")
-
-
 def test_tayal_21_13_four_bar():
     """AB at 30°, BC level, CD at 60° and square to AB, as the printed triangle of the centre says.
 
     The layout is inferred from that triangle. Printed without senses.
     """
-    found = answers(FOUR_BAR_21_13)
+    found = answers(scene_text("textbook/four-bar-21-13"))
     coupler, rocker = found.links["BC"].omega, found.links["CD"].omega
     assert rounds_to(abs(coupler), "7.698")
     assert rounds_to(abs(rocker), "1.9245")

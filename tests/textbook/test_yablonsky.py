@@ -7,12 +7,10 @@ import math
 from tests.scene_files import scene_text
 from tests.textbook.book import CM, answers, exactly, rounds_to
 
-TRAMMEL_K3_9 = scene_text("textbook/trammel-k3-9")
-
 
 def test_yablonsky_k3_9_trammel():
     """Variant 9: the rod's centre P has PB = AB sin 30° and PA = AB cos 30°."""
-    found = answers(TRAMMEL_K3_9)
+    found = answers(scene_text("textbook/trammel-k3-9"))
     omega = found.links["2"].omega
     b, c = found.points["B"], found.points["C"]
     assert rounds_to(abs(omega), "0.5132")
