@@ -55,6 +55,16 @@ def figure(drawing: Drawing, value: float, digits: int = DIGITS) -> str:
     return text.rstrip("0").rstrip(mark) if mark in text and "·" not in text else text
 
 
+def rounded(value: float) -> float:
+    """A number as large as its figure: what a reader who takes the figure computes from."""
+    return float(f"{value:.{DIGITS - 1}e}")
+
+
+def squared(figures: str) -> str:
+    """The square of a figure that is put in; a power of ten is squared with the rest."""
+    return f"({figures})^2" if "·" in figures else f"{figures}^2"
+
+
 def answer(drawing: Drawing, value: float) -> str:
     """A number as it comes out of a relation."""
     return drawing.words.significant(value, 4)

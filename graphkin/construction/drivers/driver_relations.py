@@ -10,7 +10,14 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.core.parameter_words import is_derived, reckoned
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.relation import (
+    Relation,
+    answer,
+    figure,
+    length_of,
+    rounded,
+    squared,
+)
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.result_tables import sense
 from graphkin.drawing.richtext import escape
@@ -117,7 +124,7 @@ def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relatio
     yield Relation(
         symbol(f"a_{q}" if steady else f"a_{q}^ν"),
         f"*ω*{index}^2·{line}",
-        f"{w}^2·{bar_length}",
+        f"{squared(w)}·{bar_length}",
         answer(drawing, omega * omega * length),
         "m/s^2",
         words("calculation.towards", p=symbol(p), q=symbol(q)),
@@ -169,7 +176,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
             name,
             "",
             f"{figure(drawing, 1000 * length)}/{number}",
-            figure(drawing, drawing.on_paper(length)),
+            figure(drawing, drawing.on_paper(rounded(length))),
             "mm",
             words("calculation.drawn"),
         )
@@ -180,7 +187,7 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
     """kv from the driving crank, or chosen; ka = kv²/kL, or chosen."""
     scales, chosen = drawing.scales, drawing.words("calculation.chosen")
     kv, ka = figure(drawing, scales.kv / 1000), figure(drawing, scales.ka / 1000)
-    by_ka = ("*k*_v^2/*k*_L", f"1000·{kv}^2/{number}")
+    by_ka = ("*k*_v^2/*k*_L", f"1000·{squared(kv)}/{number}")
     if scales.from_driver:
         w = figure(drawing, scales.times / scales.seconds, OMEGA)
         index = f"_{{{escape(drawing.scene.drivers[0].link)}}}"
@@ -188,7 +195,7 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
         sign, less = ("/*m*", f"/{m}") if scales.times != 1 else ("", "")
         yield Relation("*k*_v", f"*ω*{index}·*k*_L{sign}", f"{w}·{number}/1000{less}", kv, KV)
         if not less:
-            by_ka = (f"*ω*{index}^2·*k*_L", f"{w}^2·{number}/1000")
+            by_ka = (f"*ω*{index}^2·*k*_L", f"{squared(w)}·{number}/1000")
     else:
         yield Relation("*k*_v", "", "", kv, KV, chosen)
     if scales.apart:

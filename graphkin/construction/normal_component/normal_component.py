@@ -26,7 +26,7 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.naming import plan_amount
 from graphkin.construction.core.pen import Pen, Says, about, against, letter, owned
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.core.vocabulary import (
     action,
@@ -204,7 +204,7 @@ class NormalComponent(Component):
         return Relation(
             self.symbol,
             f"{symbol(self.speed)}^2/{bar(self.p, self.q)}",
-            f"{figure(drawing, speed)}^2/{figure(drawing, length)}",
+            f"{squared(figure(drawing, speed))}/{figure(drawing, length)}",
             answer(drawing, size),
             "m/s^2",
             laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q)),

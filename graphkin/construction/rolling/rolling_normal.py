@@ -18,7 +18,7 @@ from graphkin.construction.core.naming import drawn_between, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.core.vocabulary import action, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -111,10 +111,11 @@ class RollingNormal(Component):
         """Square of the relative turning times the radius, and its drawn length."""
         values, size = drawing.trace.values, drawing.settled(self.size(drawing))
         rate = abs(float(values[self.omega]) - float(values[self.omega_track]))
+        length = figure(drawing, length_of(drawing, self.p, self.q))
         return Relation(
             self.symbol,
             self.formula(drawing),
-            f"{figure(drawing, rate)}^2·{figure(drawing, length_of(drawing, self.p, self.q))}",
+            f"{squared(figure(drawing, rate))}·{length}",
             answer(drawing, size),
             "m/s^2",
             laid_off(drawing, "laid_off", size, p=symbol(self.q), q=symbol(self.p)),
