@@ -7,19 +7,16 @@ from dataclasses import replace
 
 from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import driver_index
-from graphkin.construction.core.naming import index_of, rate_symbol
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.kind import construction, constructions
+from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
+from graphkin.construction.drivers.summed_rate import SummedRate
 from graphkin.construction.result_tables import sense
-from graphkin.construction.sentence_fields import SUMS
-from graphkin.drawing.symbol_markup import TAGS, bar, symbol
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.scene.model import FRAME, Driver
 from graphkin.text import MINUS
-
-FINE = 6
-"""Significant digits of rates put into sums, whose digits may cancel."""
 
 
 def of_turning(drawing: Drawing) -> Iterator[Relation]:
@@ -62,26 +59,10 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
         tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
         if action and step.name != link:
             yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
-        elif action == key:
-            yield by_bar(drawing, step, name, tail)
+        elif isinstance(kind := construction(step), TurningOfLink):
+            yield kind.relation(drawing, tail)
         elif action == "between":
             yield by_trials(drawing, step, name, letter, tail)
-
-
-def by_bar(drawing: Drawing, step: Step, name: str, tail: tuple[str, str, str]) -> Relation:
-    """A rate from the relative motion of two points of the link."""
-    p, q = step.says["p"], step.says["q"]
-    indices = [index_of(drawing, step.says), p + q]
-    form = "v_{}" if drawing.kind == "velocity" else "a_{}^τ"
-    steps = (step for _, step, _ in drawing.steps(drawing.plane))
-    drawn = {vector.symbol for step in steps if (vector := plan_vector(step))}
-    vectors = [form.format(index) for index in indices]
-    relative = symbol(next((vector for vector in vectors if vector in drawn), vectors[0]))
-    length = length_of(drawing, p, q)
-    size = abs(float(drawing.trace.values[drawing.number_of(step)])) * length
-    size = 0.0 if drawing.turning(step.name) == 0 else size
-    figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
-    return Relation(name, f"{relative}/{bar(p, q)}", figures, *tail, over=(p, q))
 
 
 def by_trials(
@@ -101,30 +82,12 @@ def by_trials(
 
 def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
     """The rate of a crank that turns on a moving link: that link's rate and its own."""
-    program, rate = drawing.trace.program, drawing.rate
-    letter = rate.letter
-    for link, action in ((driver.link, "sum"), (driver.against, "difference")):
-        step = program.steps[program.targets.get((rate.target, link), 0)]
-        known = set(step.args) <= set(drawing.trace.values)
-        if step.action is None or step.action.key != action or step.name != link or not known:
-            continue
-        one, two = (float(drawing.trace.values[arg]) for arg in step.args)
-        whole = one + two if action == "sum" else one - two
-        relative = f"*{letter}*_{{{driver_index(driver)}}}"
-        yield Relation(
-            symbol(f"{letter}_{link}"),
-            f"{rate_symbol(drawing, step.args[0], letter)} {SUMS[action]} {relative}",
-            f"{figure(drawing, one, FINE)} {SUMS[action]} {within(drawing, two)}",
-            figure(drawing, whole, FINE),
-            rate.caret_unit,
-            sense(drawing.words, whole),
-        )
-
-
-def within(drawing: Drawing, value: float) -> str:
-    """A number after a sign: in brackets if it is negative."""
-    text = figure(drawing, value, FINE)
-    return f"({text})" if value < 0 else text
+    program, known = drawing.trace.program, set(drawing.trace.values)
+    number = drawing.scene.drivers.index(driver)
+    for found in constructions(program, SummedRate):
+        wanted = program.targets.get((drawing.rate.target, found.link)) == found.rate
+        if found.driver == number and wanted and {found.other, found.own} <= known:
+            yield found.relation(drawing)
 
 
 # --- gears ---------------------------------------------------------------------------------------

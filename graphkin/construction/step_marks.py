@@ -11,10 +11,8 @@ from graphkin.construction.core.plan_marks import (
     put_arc,
     put_arrow,
     put_driver_ray,
-    put_line,
-    put_point,
-    put_pole,
 )
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.plot import Plot
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.higher_class.misclosure_marks import put_gaps
@@ -24,7 +22,6 @@ from graphkin.construction.higher_class.trial_marks import (
     put_trial_line,
     raise_trials,
 )
-from graphkin.construction.velocity.image_marks import put_similar
 
 Put = Callable[[Plot, int, Step, Any], None]
 
@@ -47,14 +44,15 @@ def draw_plan_steps(plot: Plot) -> None:
 def put_step(plot: Plot, number: int, step: Step, value: Any) -> None:
     """Put down one step in the look of its action, if it has one."""
     kind = construction(step)
-    if kind is not None and step.plane is Plane.MECHANISM:
+    if kind is not None:
         draw_part(plot, number, step, kind)
-        return
     key = step.action.key if step.action else "given"
     plane = Plane.MECHANISM if step.plane is Plane.MECHANISM else Plane.NUMBERS
-    put = PUTS.get((plane, key))
-    if number in plot.drawing.tags and put is not put_similar:
+    put = PUTS.get((plane, key)) if kind is None else None
+    if number in plot.drawing.tags:
         put = put_trial
+    elif plan_vector(step):
+        put = put_arrow
     if put:
         put(plot, number, step, value)
 
@@ -64,23 +62,6 @@ PUTS: dict[
 ] = {  # the look of each action on the mechanism, and on a plan (NUMBERS)
     (Plane.MECHANISM, "compass"): put_arc,
     (Plane.MECHANISM, "ray"): put_driver_ray,
-    (Plane.MECHANISM, "set-on"): put_arrow,
-    (Plane.MECHANISM, "set-on-twice"): put_arrow,
-    (Plane.NUMBERS, "pole"): put_pole,
-    (Plane.NUMBERS, "square-to"): put_line,
-    (Plane.NUMBERS, "parallel-to"): put_line,
-    (Plane.NUMBERS, "join"): put_arrow,
-    (Plane.NUMBERS, "to-corner"): put_arrow,
-    (Plane.NUMBERS, "from-corner"): put_arrow,
-    (Plane.NUMBERS, "turned-velocity"): put_point,
-    (Plane.NUMBERS, "meet"): put_point,
-    (Plane.NUMBERS, "similar-point"): put_similar,
-    (Plane.NUMBERS, "alike"): put_point,
-    (Plane.NUMBERS, "centripetal"): put_point,
-    (Plane.NUMBERS, "driven-tangential"): put_point,
-    (Plane.NUMBERS, "driven-slide"): put_point,
-    (Plane.NUMBERS, "lay-off"): put_point,
     (Plane.NUMBERS, "between"): put_divided,
     (Plane.NUMBERS, "line-through"): put_trial_line,
-    (Plane.NUMBERS, "along-bar"): put_line,
 }

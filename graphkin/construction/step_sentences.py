@@ -4,29 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import SWINGS
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.naming import beyond, is_driven
+from graphkin.construction.core.naming import beyond
 from graphkin.construction.core.program import Plane, Step
-from graphkin.construction.core.zero_vectors import falls_key
-from graphkin.construction.sentence_fields import LAID_OFF, fields_of
+from graphkin.construction.sentence_fields import fields_of
 from graphkin.drawing.symbol_markup import symbol
 
 LINES = (
-    "square-to",
-    "parallel-to",
     "compass",
     "ray",
     "along-bar",
     "shifted",
     "guide-back",
-    "centripetal",
     "line-through",
 )
 """Actions that are said within the sentence of the point that they help to find."""
-FOLLOWING = ("square-to", "parallel-to", "shifted")
+FOLLOWING = ("shifted",)
 """Those of them that begin where another one ended."""
 WHOLE = (
     "arm",
@@ -72,12 +67,6 @@ def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
     yield phrase(drawing, step, step.name, step)
 
 
-def is_left_out(drawing: Drawing, number: int) -> bool:
-    """True for a component laid off from a named point that is too short to be drawn, or none."""
-    laid = laid_off(drawing.trace.program, number)
-    return laid is not None and laid.is_short(drawing)
-
-
 def is_lever(drawing: Drawing, number: int) -> bool:
     """True for the line of a lever that a sentence of its own has laid through a pin."""
     steps = drawing.trace.program.steps
@@ -89,9 +78,6 @@ def phrase(drawing: Drawing, step: Step, name: str, words_of: Step) -> str:
     """The words of one step with the symbols of its names."""
     says = {**words_of.says, **step.says}
     fields = fields_of(drawing, step, says)
-    if step.action and step.action.key in FOLLOWING and is_left_out(drawing, step.args[0]):
-        start = drawing.trace.program.steps[step.args[0]].args[0]
-        fields["s"] = symbol(drawing.trace.program.steps[start].name)
     key = key_of(drawing, step, fields)
     return drawing.words(f"step.{key}", **{"name": symbol(name), **fields})
 
@@ -103,9 +89,7 @@ def key_of(drawing: Drawing, step: Step, fields: Mapping[str, str]) -> str:
     """The key of the sentence of a step."""
     assert step.action is not None
     key = step.action.key
-    if step.plane is Plane.MECHANISM:
-        return mechanism_key(drawing, step, key, fields)
-    return plan_key(drawing, step, key)
+    return mechanism_key(drawing, step, key, fields) if step.plane is Plane.MECHANISM else key
 
 
 def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, str]) -> str:
@@ -130,50 +114,3 @@ def mechanism_key(drawing: Drawing, step: Step, key: str, fields: Mapping[str, s
 def is_tried(step: Step) -> bool:
     """True for a value that the closing of a group has found."""
     return step.action is not None and step.action.key == "part"
-
-
-def plan_key(drawing: Drawing, step: Step, key: str) -> str:
-    """The key of the sentence of a step that draws a plan."""
-    number = drawing.number_of(step)
-    if key in ("square-to", "parallel-to") and is_left_out(drawing, step.args[0]):
-        return key
-    if key == "square-to" and step.plane is Plane.ACCELERATIONS:
-        return "square-to-end"
-    if key == "square-to" and step.says.get("c", step.says["s"]) != step.says["s"]:
-        return "square-to-touch"
-    if key == "square-to" and "c" in step.says:
-        return "square-to-both"
-    if key == "parallel-to" and not step.says["s"]:
-        before = laid_off(drawing.trace.program, step.args[0])
-        return "parallel-to-tail" if before is not None and before.back else "parallel-to-end"
-    if key == "similar-point" and "c" in step.says and in_line(drawing, step):
-        return "similar-touch"
-    if key == "similar-point" and in_line(drawing, step):
-        return "similar-in-line"
-    if key == "centripetal" and not step.name:
-        return "lay-off-none" if has_no_length(drawing, number) else "lay-off-computed"
-    alone = key == "driven-tangential" and has_no_length(drawing, step.args[0])
-    if key in LAID_OFF and has_no_length(drawing, number):
-        at_end = not step.says["s"] or (key == "driven-tangential" and not alone)
-        return "falls-end" if at_end else falls_key(drawing, step)
-    if alone:
-        return "driven-tangential-only"
-    if key == "driven-slide" and not step.says["s"]:
-        return "driven-slide-end"
-    if key in ("turned-velocity", "centripetal"):
-        as_long = drawing.scales.as_crank(drawing.kind) and is_driven(drawing, step.args[3])
-        return key if as_long else f"{key}-scaled"
-    return key
-
-
-def has_no_length(drawing: Drawing, number: int) -> bool:
-    """True for a vector that is laid off from a point of a plan and is nought."""
-    start = drawing.trace.program.steps[number].args[0]
-    values = drawing.trace.values
-    return not drawing.settled(abs(values[number] - values[start]))
-
-
-def in_line(drawing: Drawing, step: Step) -> bool:
-    """True when a plate point lies on the line of the two points that it follows from."""
-    ratio = drawing.trace.values[step.args[2]]
-    return bool(abs(ratio.imag) <= 1e-9 * abs(ratio))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphkin.construction.core.kind import lies_along
+from graphkin.construction.core.kind import construction, lies_along
 from graphkin.construction.core.program import Program, Step
 from graphkin.construction.higher_class.trial import needed_of
 from graphkin.diagnosis.ranges import MOST, driver_words
@@ -75,10 +75,9 @@ def parallel(program: Program, step: Step, nearly: str = "") -> str:
 
 def line_words(program: Program, line: Step) -> tuple[str, bool]:
     """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
-    key = line.action.key if line.action else ""
-    says = line.says
-    if key == "square-to" and "q" in says:
-        return f"{says['p']}{says['q']}", True
+    key, kind = line.action.key if line.action else "", construction(line)
+    if kind is not None and kind.perpendicular_to:
+        return kind.perpendicular_to, True
     if along := lies_along(line):
         return along, False
     if key == "shifted":

@@ -15,12 +15,12 @@ from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import drawn_between, drawn_in, scale_of, segment_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.relation import FINE, Relation, answer, figure, length_of, within
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.misclosure import Misclosure, driver_of, misses
 from graphkin.construction.higher_class.trial_lengths import of_trial_lengths
-from graphkin.construction.rate_relations import FINE, of_sum, of_turning, within
+from graphkin.construction.rate_relations import of_sum, of_turning
 from graphkin.construction.registry import COMPONENTS
 from graphkin.construction.rolling.contact_velocities import of_contacts
 from graphkin.construction.vector_equations import is_laid_off, of_equations

@@ -9,7 +9,10 @@ from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component, component_of, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import SWINGS
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import drawn_amount, height_above
+from graphkin.construction.core.plan_pole import PlanPole
+from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.core.too_short import TINY
@@ -23,7 +26,6 @@ from graphkin.construction.links.placed_point import with_starts_together
 from graphkin.construction.normal_component.component_words import with_normals_together
 from graphkin.construction.step_sentences import point_sentence
 from graphkin.documents.indices import with_indices
-from graphkin.documents.step_numbers import READ_OFF
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 
@@ -69,7 +71,7 @@ def set_on_mechanism(drawing: Drawing, turning: str) -> str:
     lengths = [
         (symbol(step.name), abs(arrow.tip - arrow.tail))
         for number, step, arrow in drawing.steps(Plane.MECHANISM)
-        if step.action and step.action.key in READ_OFF and step.part is part
+        if is_set_on(step) and step.part is part
         if number not in early
     ]
     if not lengths:
@@ -127,7 +129,7 @@ def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
     if step.plane is Plane.MECHANISM:
         wanted = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
         return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.frame.points
-    return step.plane is drawing.plane and step.action.key != "pole"
+    return step.plane is drawing.plane and not isinstance(construction(step), PlanPole)
 
 
 # --- sentences of their own ----------------------------------------------------------------------

@@ -8,10 +8,12 @@ from graphkin.construction import step_marks
 from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import called
-from graphkin.construction.core.plan_marks import put_pole
+from graphkin.construction.core.paper_canvas import draw_part
+from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plot import Plot, above_foot
 from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.drivers import driver_symbols
@@ -185,9 +187,9 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     board.marks += headlines(drawing, layout, view)[1]
     plot = Plot(board, field, drawing, layout)
     if view == "task":
-        for number, step, value in drawing.steps(drawing.plane):
-            if step.action and step.action.key == "pole":
-                put_pole(plot, number, step, value)
+        for number, step, _ in drawing.steps(drawing.plane):
+            if isinstance(pole := construction(step), PlanPole):
+                draw_part(plot, number, step, pole)
         return board
     step_marks.draw_plan_steps(plot)
     return board

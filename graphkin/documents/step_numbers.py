@@ -7,15 +7,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import lettered
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.closing_words import IDLE
 from graphkin.documents.mark_dependencies import Target, rests_on
 from graphkin.drawing.marks import Mark
 
-READ_OFF = ("set-on", "set-on-twice")
-"""Arrows on the mechanism, which the last sentence asks for."""
 AT_LAST = ("detail", "note")
 """The names of marks that stand when all is drawn."""
 PINS = ("pin", "hinge", "label", "leader")
@@ -47,7 +45,7 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
         step = program.steps[number]
         if not step.args:
             found[number] = BEFORE
-        elif step.action is not None and step.action.key in READ_OFF:
+        elif is_set_on(step):
             found[number] = found.get(early.get(number, BEFORE), len(said) - 1)
         elif number not in found:
             ends = (*step.args, *of_component(drawing, step))

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 from itertools import islice
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import has_plan
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import figure
 from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
+from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, symbol
 
@@ -42,6 +44,7 @@ def rules(drawing: Drawing) -> Iterator[str]:
 def segment(drawing: Drawing, pin: str) -> str:
     """The velocity of the crank's pin in the plan, by the letters of its ends."""
     for _, step, _ in drawing.steps(Plane.VELOCITIES):
-        if step.action and step.action.key == "turned-velocity" and step.says["q"] == pin:
+        kind = construction(step)
+        if isinstance(kind, TurnedVelocity) and kind.q == pin:
             return symbol(drawing.pole) + symbol(step.name)
     raise KeyError(pin)

@@ -77,6 +77,21 @@ class MovingCanvas:
         """The arc by which a point was carried about a centre."""
         self.swung = centre, end
 
+    # --- plans -------------------------------------------------------------------------------
+
+    def locus(self, name: str, text: str) -> None:
+        """The step's own line."""
+
+    def image(self) -> None:
+        """The step's own point."""
+
+    def pole(self) -> None:
+        """The pole, which stays."""
+
+    def side(self, start: Any, end: Any) -> None:
+        """A side of the image of a link."""
+        self.segment(start, end)
+
     # --- centres -----------------------------------------------------------------------------
 
     def ray(self, name: str) -> None:

@@ -23,21 +23,8 @@ WHY = {
     (Part.POSITION, "arcs-meet"): "why.arcs",
     (Part.POSITION, "arc-cuts-line"): "why.arc",
     (Part.POSITION, "swing-through"): "why.lever",
-    (Part.VELOCITY, "turned-velocity"): "why.turned",
-    (Part.VELOCITY, "square-to"): "why.square",
-    (Part.VELOCITY, "parallel-to"): "why.along",
-    (Part.VELOCITY, "similar-point"): "why.similar",
-    (Part.VELOCITY, "driven-slide"): "why.driven",
     (Part.VELOCITY, "between"): "why.trials",
-    (Part.VELOCITY, "meet"): "why.meet",
-    (Part.ACCELERATION, "centripetal"): "why.normal",
-    (Part.ACCELERATION, "driven-tangential"): "why.driven_tangential",
-    (Part.ACCELERATION, "square-to"): "why.tangential",
-    (Part.ACCELERATION, "parallel-to"): "why.along_acceleration",
-    (Part.ACCELERATION, "similar-point"): "why.similar",
-    (Part.ACCELERATION, "driven-slide"): "why.driven",
     (Part.ACCELERATION, "between"): "why.trials",
-    (Part.ACCELERATION, "meet"): "why.meet",
 }
 """The key of the reason for an action in a part of the work; others need none."""
 AGAIN = {
@@ -107,7 +94,7 @@ def reason(drawing: Drawing, step: Step) -> str:
     """The key of a step's reason; nothing where it needs none."""
     kind = construction(step)
     if kind is not None:
-        return kind.reason(step.role)
+        return kind.reason(drawing, step.role)
     if step.action is None:
         return ""
     if step.action.key == "similar-point" and step.by_hand in drawing.trace.values:

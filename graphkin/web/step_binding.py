@@ -18,7 +18,6 @@ from graphkin.construction.higher_class.closing_words import ends_of_bar
 from graphkin.construction.higher_class.misclosure_marks import gap_lines
 from graphkin.construction.higher_class.trial_marks import NEAR as SHORTEST
 from graphkin.construction.higher_class.trial_marks import leg_start
-from graphkin.construction.velocity.image_marks import undrawn_sides
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbols import SHORT
@@ -199,9 +198,6 @@ class Steps(VisibleSteps):
             yield self.divided(number)
         for _, tail, tip in gap_lines(number, step, self.lifted, self.binder.field.mm):
             yield tail, tip
-        if self.key(number) == "similar-point":
-            for one, other in undrawn_sides(drawing, number, step):
-                yield tape.lifted(self.value(one)), tape.lifted(self.value(other))
 
     def lifted(self, number: int) -> Any:
         """The value of a step as a traced number; a line as it is."""

@@ -8,8 +8,7 @@ import pytest
 import shapely
 
 from graphkin.construction.core.layout import lay_out
-from graphkin.construction.step_sentences import in_line
-from graphkin.construction.velocity.image_marks import undrawn_sides
+from graphkin.construction.velocity.image_of_link import ImageOfLink
 from graphkin.documents.sheet import right_board
 from graphkin.drawing.marks import LineMark
 from tests.documents.sheet_tools import drawings
@@ -34,7 +33,7 @@ def found_by_similarity(drawing):
     """The numbers of the points that only similarity finds."""
     values = drawing.trace.values
     for number, step, _ in drawing.steps(drawing.plane):
-        if step.action.key == "similar-point" and step.by_hand not in values:
+        if isinstance(step.of, ImageOfLink) and step.by_hand not in values:
             yield number, step
 
 
@@ -81,11 +80,11 @@ def test_no_side_of_an_image_covers_an_arrow(name):
 def test_what_an_arrow_draws_is_not_drawn_again():
     velocity, acceleration = drawings("lifter")
     sides = {
-        step.name: [*undrawn_sides(velocity, n, step)] for n, step in found_by_similarity(velocity)
+        step.name: [*step.of.undrawn_sides(velocity)] for _, step in found_by_similarity(velocity)
     }
     assert sides == {"e": [], "p": []}
-    named = {step.name: (n, step) for n, step in found_by_similarity(acceleration)}
-    assert in_line(acceleration, named["p′"][1])
-    (whole,) = undrawn_sides(acceleration, *named["p′"])
+    named = {step.name: step.of for _, step in found_by_similarity(acceleration)}
+    assert named["p′"].is_in_line(acceleration)
+    (whole,) = named["p′"].undrawn_sides(acceleration)
     names = {acceleration.trace.program.steps[number].name for number in whole}
     assert names == {"p′", "f′"}

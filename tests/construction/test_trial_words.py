@@ -13,7 +13,7 @@ import pytest
 from graphkin.construction.core.drawn_scene import TAGS, Drawing
 from graphkin.construction.core.naming import drawn_between
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.higher_class.trial_words import RATE_AT
+from graphkin.construction.higher_class.trial_words import begun_by
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
@@ -79,7 +79,7 @@ def test_every_length_that_a_trial_tries_is_told(higher):
             told, count = said_as(said, f"trial{tag}"), 0
             for number in points_of(drawing, tag):
                 step = drawing.trace.program.steps[number]
-                if step.action is not None and step.action.key in RATE_AT:
+                if begun_by(step) is not None:
                     size = drawn_between(drawing, step.args[0], number, step.plane)
                     amount = f"{drawing.words.fixed(size, 2)} mm"
                     assert (amount in told) is (size > 0), (step.name, amount)
@@ -96,7 +96,7 @@ def test_the_calculation_tells_what_a_trial_lays_off_and_how_long_it_is_drawn(hi
         laid_off = []
         for number in (n for tag in TAGS for n in sorted(points_of(drawing, tag))):
             step = drawing.trace.program.steps[number]
-            if step.action is not None and step.action.key in RATE_AT:
+            if begun_by(step) is not None:
                 size = drawn_between(drawing, step.args[0], number, step.plane)
                 laid_off += [(TAG_WORDS[drawing.tags[number]], size)] if size else []
         tried = [each for each in told if each.left.endswith(("I}", "I}^{τ}"))]

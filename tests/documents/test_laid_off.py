@@ -9,7 +9,6 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, drawn_between
 from graphkin.construction.result_tables import vector_rows
 from graphkin.construction.rolling.rolling_normal import RollingNormal
-from graphkin.construction.sentence_fields import fields_of
 from graphkin.documents.relations import relations
 from graphkin.drawing.marks import Text
 from graphkin.drawing.symbol_markup import symbol
@@ -47,7 +46,7 @@ def laid_off(drawing):
             if isinstance(made, LaidOff):
                 yield made.component.symbol, size
             else:
-                yield fields_of(drawing, step, step.says)["vector"], size
+                yield made.fields(drawing, step.role)["vector"], size
 
 
 @pytest.mark.parametrize("which", WHICH, ids=str)

@@ -35,17 +35,11 @@ COUNT |= dict.fromkeys((PencilMark.LINE, PencilMark.ARC, PencilMark.WAY, PencilM
 LAID = {
     "arm",
     "beside",
-    "centripetal",
-    "driven-slide",
-    "driven-tangential",
     "similar-point",
-    "turned-velocity",
 }
 """Actions that lay off a point from the one that is their first value."""
 WAYS = {"axis", "from-foot", "swing", "swing-through"}
 """Actions whose value is a direction, as a unit vector."""
-FREE = {"alike", "pole"}
-"""Actions that mark nothing: a pole is chosen, and what moves alike falls on the same point."""
 
 
 def mark_of(step: Step, value: Any) -> PencilMark | None:
@@ -54,8 +48,8 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
         return PencilMark.CLOSING
     if step.plane is Plane.NUMBERS or isinstance(value, Vector):
         return None
-    key = step.action.key if step.action is not None else ""
-    if key in FREE:
+    key, kind = step.action.key if step.action is not None else "", construction(step)
+    if kind is not None and step.role in kind.unmarked:
         return None
     if isinstance(value, Line):
         return PencilMark.LINE
@@ -65,7 +59,6 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
         return PencilMark.POINT
     if key in WAYS:
         return PencilMark.WAY
-    kind = construction(step)
     is_laid = key in LAID or (kind is not None and step.role in kind.laid_off)
     return (
         (PencilMark.ARROW if is_laid else PencilMark.POINT) if isinstance(value, complex) else None

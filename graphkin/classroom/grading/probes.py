@@ -9,6 +9,8 @@ from typing import Any
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.lab.items import ARROW, UNITS
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane, Program, Target
 from graphkin.construction.core.quantities import BY_TARGET, VECTORS
@@ -119,7 +121,7 @@ def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, int] | None:
 
 def is_pole(step: Any, plane: Plane) -> bool:
     """Whether a step is the pole of a plan."""
-    return step.action is not None and step.action.key == "pole" and step.plane is plane
+    return isinstance(construction(step), PlanPole) and step.plane is plane
 
 
 def arrow_ends(program: Program, symbol: str) -> tuple[int, int] | None:

@@ -33,9 +33,7 @@ DRAWN_IN = {
 LINES = {
     "compass": "the arc {p}{q} about {p}",
     "line-through": "the line of the trials",
-    "parallel-to": "∥ guide {g}",
     "ray": "the line through {p}",
-    "square-to": "⊥ {p}{q}",
 }
 """What lines and arcs are called, by the key of their sentence."""
 UNNAMED = {"ray": "guide {g}"}

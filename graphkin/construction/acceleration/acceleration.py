@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
+from graphkin.construction.acceleration.tangential_direction import tangential_direction
+from graphkin.construction.acceleration.turned_acceleration import accelerated, turned_image
 from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, slide_arrow
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.effect import Effect
-from graphkin.construction.core.pen import Pen, Says, about, letter, named, second_image
+from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import (
-    alike,
-    centripetal,
-    driven_tangential,
-    meet,
-    parallel_to,
-    similar_point,
-)
-from graphkin.construction.guides.coincident_points import (
-    accelerated,
-    omega_of,
-    tangential_effect,
-)
-from graphkin.construction.guides.guide_actions import driven_slide
+from graphkin.construction.drivers.driven_slide import slide_image
+from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
@@ -28,9 +18,12 @@ from graphkin.construction.normal_component.klein import crank_of, klein_compone
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
-    square,
 )
 from graphkin.construction.rolling import wheel_images
+from graphkin.construction.velocity.crossed_image import crossed_image
+from graphkin.construction.velocity.image_of_link import image_of_link
+from graphkin.construction.velocity.parallel_through import parallel_through
+from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.velocity import driven_rate, line_of
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
 from graphkin.structure.joints import Joint, partner
@@ -55,22 +48,10 @@ def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
 
 def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False) -> None:
     """Second image of a point of a link whose rates are known, from that of its pivot."""
-    ends = pen.the("position", pivot), pen.the("position", tip)
-    start = pen.the("acceleration", pivot)
-    says: Says = {"p": pivot, "q": tip, "s": named(pen, start), "i": about(pen, tip, pivot)}
-    says["k"] = link
+    start, points = pen.the("acceleration", pivot), (pivot, tip)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        name = second_image(tip) if steady else ""
-        with pen.calls_for(Effect.NORMAL):
-            found = pen.draw(centripetal, start, *ends, pen.the("omega", link), name=name, **says)
-        if not steady or start != pen.pole(Plane.ACCELERATIONS):
-            component_arrow(pen, start, found, "ν", tip, pivot)
-        if not steady:
-            corner, rate = found, pen.the("epsilon", link)
-            name = second_image(tip)
-            with pen.calls_for(tangential_effect(pen, rate)):
-                found = pen.draw(driven_tangential, found, *ends, rate, name=name, **says)
-            component_arrow(pen, corner, found, "τ", tip, pivot)
+        name = second_image(tip)
+        found = turned_image(pen, link, points, start, name=name, steady=steady)
     pen.want("acceleration", tip, found)
     acceleration_arrow(pen, tip)
 
@@ -92,10 +73,9 @@ def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, r
     vector = turning_component(pen, pair, link, point, point)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = lay_off_component(pen, pair, link, point, point, vector)
-        says: Says = {"q": point, "g": pair.links[0], "s": named(pen, corner)}
-        name = second_image(point)
+        name, steps = second_image(point), (corner, line, rate)
         with pen.calls_for(sliding_effect(pen, rate)):
-            found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)
+            found = slide_image(pen, point, pair.links[0], steps, name=name, way=way)
         slide_arrow(pen, corner, found, known, point)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
@@ -136,12 +116,12 @@ def cross(
         for pair, link in sides:
             if isinstance(pair, Pin):
                 corner = lay_off_normal(pen, pair.point, name, normals[pair.point])
-                lines.append(square(pen, pair.point, name, corner))
+                lines.append(tangential_direction(pen, pair.point, name, corner))
             else:
                 corner = lay_off_component(pen, pair, link, name, point, slides[pair.links])
                 lines.append(along(pen, shapes, pair, link, point, corner))
             corners.append(corner)
-        found = pen.draw(meet, *lines, name=second_image(name), q=name)
+        found = crossed_image(pen, *lines, name=second_image(name), of=name)
         for (pair, link), corner in zip(sides, corners, strict=True):
             if isinstance(pair, Pin):
                 component_arrow(pen, corner, found, "τ", name, pair.point)
@@ -161,8 +141,7 @@ def along(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, point: str, corn
     """Through the end of what is known of a sliding acceleration the parallel to its guide."""
     assert not isinstance(pair, Pin)
     line = line_of(pen, shapes, pair, link, point)
-    says: Says = {"s": named(pen, corner), "g": pair.links[0]}
-    return pen.draw(parallel_to, corner, line, **says)
+    return parallel_through(pen, corner, line, pair.links[0])
 
 
 def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
@@ -184,16 +163,15 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
     for point in base.others:
         if pen.has("acceleration", point):
             continue
-        by_hand: int | None = None
+        hand: int | None = None
         corners: dict[str, int] = {}
         ratio = shapes.ratio_of(base, point)
         if crosses_well(pen, ratio):
-            by_hand, corners = two_perpendiculars(pen, base, point)
-        says: Says = {"p": letter(base.start), "q": letter(base.end), "r": point}
+            hand, corners = two_perpendiculars(pen, base, point)
+        letters = letter(base.start), letter(base.end), point
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            found = pen.draw(
-                similar_point, *ends, ratio, name=second_image(point), by_hand=by_hand, **says
-            )
+            images = *ends, ratio
+            found = image_of_link(pen, images, letters, name=second_image(point), hand=hand)
             for pivot, corner in corners.items():
                 component_arrow(pen, corner, found, "τ", point, pivot)
         pen.want("acceleration", point, found)
@@ -212,7 +190,7 @@ def led_points(pen: Pen, base: Base) -> None:
             continue
         start = pen.the("acceleration", base.start)
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            found = pen.draw(alike, start, name=second_image(point), p=base.start, q=point)
+            found = translated_image(pen, start, (base.start, point), second_image(point))
         pen.want("acceleration", point, found)
         acceleration_arrow(pen, point)
 
@@ -227,9 +205,9 @@ def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str,
             vector = normal_component(pen, pivot, point)
             with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
                 corners[pivot] = lay_off_normal(pen, pivot, point, vector)
-                lines.append(square(pen, pivot, point, corners[pivot]))
+                lines.append(tangential_direction(pen, pivot, point, corners[pivot]))
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            return pen.draw(meet, *lines), corners
+            return crossed_image(pen, *lines), corners
 
 
 def turning(pen: Pen, base: Base) -> None:

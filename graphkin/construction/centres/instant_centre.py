@@ -22,6 +22,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.drawing.symbol_markup import symbol
@@ -131,7 +132,7 @@ def set_before(drawing: Drawing) -> Mapping[int, int]:
     return {
         number: ends[step.args[0], step.args[2]]
         for number, step, _ in drawing.mechanism_steps()
-        if step.action is not None and step.action.key == "set-on"
+        if is_set_on(step) and step.part is Part.VELOCITY
         if (step.args[0], step.args[2]) in ends
     }
 

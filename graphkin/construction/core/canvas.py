@@ -46,6 +46,20 @@ class Canvas(Protocol):
     def swing(self, centre: Any, end: Any) -> None:
         """The arc by which a point was carried about a centre."""
 
+    # --- plans -------------------------------------------------------------------------------
+
+    def locus(self, name: str, text: str) -> None:
+        """The step's own line beyond the points on it, with what it is drawn by along it."""
+
+    def image(self) -> None:
+        """The step's own point of the plan with its letter; none of a point without letter."""
+
+    def pole(self) -> None:
+        """The step's own point as the pole of the plan."""
+
+    def side(self, start: Any, end: Any) -> None:
+        """A side of the image of a link, where it is long enough to be drawn."""
+
     # --- centres -----------------------------------------------------------------------------
 
     def ray(self, name: str) -> None:

@@ -198,13 +198,17 @@ class LaidOff(Construction):
     corner: int
     back: bool = False
 
-    def reason(self, role: str) -> str:
+    def reason(self, drawing: Drawing, role: str) -> str:
         """Why it is laid off as it is."""
         return self.component.laid_off_reason
 
     def symbols(self) -> Mapping[str, str]:
         """The letters of its component."""
         return self.component.symbols()
+
+    def index_at(self, role: str) -> str:
+        """The index of its component."""
+        return self.component.index
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The component that it follows."""
@@ -255,8 +259,8 @@ def laid_off(program: Program, number: int) -> LaidOff | None:
 
 def index_before(program: Program, number: int) -> str:
     """The index of the component that ends in a point of a plan; nothing where none does."""
-    laid = laid_off(program, number)
-    return laid.component.index if laid else str(program.steps[number].says.get("i", ""))
+    kind = construction(program.steps[number])
+    return kind.index_at(program.steps[number].role) if kind else ""
 
 
 def component_of(program: Program, number: int) -> Component | None:

@@ -18,16 +18,18 @@ class Construction(Roles):
     """One construction: its roles are fields, and beside them stands all that is known of it.
 
     ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,
-    ``laid_off`` the roles of points that are laid off from the first value of their step, ``slips``
-    by what a student's slip multiplies its result.
+    ``laid_off`` the roles of points that are laid off from the first value of their step,
+    ``unmarked`` those of points that a pencil need not mark, ``slips`` by what a student's slip
+    multiplies its result.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
     lines: ClassVar[Mapping[str, str]] = {}
     laid_off: ClassVar[frozenset[str]] = frozenset()
+    unmarked: ClassVar[frozenset[str]] = frozenset()
     slips: ClassVar[Mapping[str, complex]] = {}
 
-    def reason(self, role: str) -> str:
+    def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason behind the step of a role; nothing where it needs none."""
         return self.reasons.get(role, "")
 
@@ -49,6 +51,21 @@ class Construction(Roles):
         """The bar, guide or track along which its line lies, in a report; nothing for others."""
         return ""
 
+    @property
+    def perpendicular_to(self) -> str:
+        """The bar to which its line is perpendicular, in a report; nothing for others."""
+        return ""
+
+    @property
+    def sought(self) -> str:
+        """The point whose image it finds by crossing lines; nothing for others."""
+        return ""
+
+    @property
+    def falls_on(self) -> int | None:
+        """The step of the image on which its own falls whatever the motion; None for others."""
+        return None
+
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that are told before the step of a role."""
         return ()
@@ -61,13 +78,21 @@ class Construction(Roles):
         """How the point of a role is found; nothing for other roles."""
         return ""
 
-    def label(self, role: str) -> str:
-        """Markup of what is written along a role's line in a plan; nothing for other roles."""
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The vector equations of a plan that the step of a role follows, if they are its own."""
+        yield from ()
+
+    def rate_taken(self, drawing: Drawing, role: str) -> str:
+        """The symbol of the rate of a sheet by which the vector of a role is computed."""
         return ""
 
-    def equation(self, drawing: Drawing) -> Relation | None:
-        """The vector equation of a plan that it follows; None where it is not one of its own."""
-        return None
+    def source_of_rate(self, drawing: Drawing) -> str:
+        """From what the rate is found that it gives, as is said where that is used first."""
+        return ""
+
+    def index_at(self, role: str) -> str:
+        """The index of the relative acceleration that ends in a role's point; nothing for none."""
+        return ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the step of a role."""

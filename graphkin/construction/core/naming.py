@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane, Step
 from graphkin.drawing.richtext import escape
@@ -47,8 +48,9 @@ def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
 
 def fallen(drawing: Drawing, number: int) -> int:
     """The image on which that of a point of a link that only shifts falls, or the image itself."""
-    step = drawing.trace.program.steps[number]
-    return step.args[0] if step.action is not None and step.action.key == "alike" else number
+    kind = construction(drawing.trace.program.steps[number])
+    under = kind.falls_on if kind else None
+    return number if under is None else under
 
 
 def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
@@ -80,6 +82,13 @@ def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> OnPape
     """How long a vector of a plan is drawn."""
     values = drawing.trace.values
     return drawn_in(drawing, plane, abs(values[tip] - values[tail]))
+
+
+def has_no_length(drawing: Drawing, number: int) -> bool:
+    """True for a vector that is laid off from a point of a plan and is nought."""
+    start = drawing.trace.program.steps[number].args[0]
+    values = drawing.trace.values
+    return not drawing.settled(abs(values[number] - values[start]))
 
 
 def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:

@@ -10,7 +10,7 @@ from graphkin.construction.core.curve_marks import clipped_path, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND, SWEEP
-from graphkin.construction.core.plan_marks import name_point
+from graphkin.construction.core.plan_marks import name_point, put_locus, put_point, put_pole
 from graphkin.construction.core.plot import Plot, above_foot, line_ends, middle
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.too_short import TINY
@@ -37,6 +37,8 @@ LAST = 20.0
 """How much of a ray to a far centre its name belongs to, in mm."""
 STRAIGHT = 1e6
 """Radius in mm of a circle that is a straight line, or none at all, on any page."""
+NEAR = 0.3
+"""A side of the image of a link shorter than this, in mm, is not drawn."""
 FAR = 2000.0
 """Longer than any way on a page, in mm."""
 BEYOND_TIPS = 4.0
@@ -136,6 +138,34 @@ class PaperCanvas:
             span = (way - half, way + half)
             marks = self.plot.board.marks
             marks.append(Arc(*at, radius, *span, "compass", self.step.name, self.number))
+
+    # --- plans -------------------------------------------------------------------------------
+
+    @property
+    def is_tried(self) -> bool:
+        """Whether it is of a trial plan, whose points and lines have a look of their own."""
+        return self.number in self.drawing.tags
+
+    def locus(self, name: str, text: str) -> None:
+        """The step's own line beyond the points on it, with what it is drawn by along it."""
+        if not self.is_tried:
+            put_locus(self.plot, self.number, name, text)
+
+    def image(self) -> None:
+        """The step's own point of the plan with its letter; none of a point without letter."""
+        if not self.is_tried:
+            put_point(self.plot, self.number, self.step, self.value(self.number))
+
+    def pole(self) -> None:
+        """The step's own point as the pole of the plan."""
+        put_pole(self.plot, self.number, self.step, self.value(self.number))
+
+    def side(self, start: Any, end: Any) -> None:
+        """A side of the image of a link, where it is long enough to be drawn."""
+        if self.size(end - start) > NEAR:
+            cls = "trial" if self.is_tried else "construction"
+            ends = *self.plot.field(start), *self.plot.field(end)
+            self.plot.board.marks.append(LineMark(*ends, cls, self.step.name, self.number))
 
     # --- centres -----------------------------------------------------------------------------
 

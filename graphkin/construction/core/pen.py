@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.branches import block_of, side_of, way_of
 from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import (
     CONTACT,
@@ -200,6 +201,7 @@ class Pen:
             name = "o" if plane is Plane.VELOCITIES else "o" + PRIME
             part = Part.VELOCITY if plane is Plane.VELOCITIES else Part.ACCELERATION
             self.shared[key] = self._add(Step(pole, (), part, plane, name))
+            self.make(PlanPole(pole=self.shared[key]))
         return self.shared[key]
 
     def turns(self, link: str) -> bool:

@@ -7,9 +7,7 @@ from math import hypot
 from typing import Any
 
 from graphkin.construction.core.amounts import OnPaper
-from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import BEYOND
-from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
 from graphkin.construction.core.program import Plane, Step
@@ -18,7 +16,7 @@ from graphkin.drawing.field import XY
 from graphkin.drawing.label import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark
 from graphkin.drawing.style import BY_SIGN
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import PIN, SHORT, arrow
 
 SAME = 0.01
@@ -27,20 +25,18 @@ DOT = 0.7
 """Radius of a point of a plan in mm."""
 
 
-def put_line(plot: Plot, number: int, step: Step, value: Any) -> None:
-    """A construction line as far as the layout says, with what it is square or parallel to.
+def put_locus(plot: Plot, number: int, name: str, text: str) -> None:
+    """A construction line as far as the layout says, with what it is drawn by along it.
 
     Between its first point and the one that was found on it an arrow lies; it is drawn beyond.
     """
-    kind = construction(step)
-    own = kind.line_name(plot.drawing.trace.program.steps, step.role) if kind else line_name(step)
-    name, ends = own.replace(" ", ""), [part for part in beyond(plot, number, value) if part]
+    value = plot.drawing.trace.values[number]
+    ends = [part for part in beyond(plot, number, value) if part]
     for part in ends:
         plot.board.marks.append(LineMark(*part[0], *part[1], "construction", name, number))
-    markup = line_label(plot, step)
-    if markup and ends:
+    if ends:
         plot.board.labels.append(
-            Label(markup, "construction", ends[-1], 2.5, name, number, priority=-1)
+            Label(text, "construction", ends[-1], 2.5, name, number, priority=-1)
         )
 
 
@@ -52,25 +48,6 @@ def beyond(plot: Plot, number: int, value: Any) -> list[tuple[XY, XY] | None]:
     first = line_part(plot, value, low, low + BEYOND)
     last = line_part(plot, value, high - BEYOND, high)
     return [first, last] if abs(low) < abs(high) else [last, first]
-
-
-def line_name(step: Step) -> str:
-    """Name of a construction line: what it is drawn through and what it is square to."""
-    key = step.action.key if step.action else ""
-    sign = {"square-to": "⊥", "parallel-to": "∥"}.get(key, "")
-    return sign + step.says.get("p", step.says.get("g", "")) + step.says.get("q", "")
-
-
-def line_label(plot: Plot, step: Step) -> str:
-    """What is written along a construction line of a plan."""
-    key, kind = step.action.key if step.action else "", construction(step)
-    if kind is not None:
-        return kind.label(step.role)
-    if key == "square-to":
-        return f"⊥ {bar(step.says['p'], step.says['q'])}"
-    if key == "parallel-to":
-        return f"∥ {way_of(plot.drawing, step.says['g'])}"
-    return ""
 
 
 def put_arc(plot: Plot, number: int, step: Step, value: Any) -> None:
@@ -89,9 +66,8 @@ def put_driver_ray(plot: Plot, number: int, step: Step, value: Any) -> None:
         high = plot.layout.spans[number][1]
         part = line_part(plot, value, high - 2 * BEYOND, high)
         if part:
-            plot.board.marks.append(
-                LineMark(*part[0], *part[1], "construction", line_name(step), number)
-            )
+            name = step.says.get("p", "") + step.says.get("q", "")
+            plot.board.marks.append(LineMark(*part[0], *part[1], "construction", name, number))
 
 
 def put_point(plot: Plot, number: int, step: Step, value: Any) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from graphkin.construction.core.program import Roles, Step
+from graphkin.construction.core.program import Plane, Roles, Step
 
 
 @dataclass(frozen=True)
@@ -33,3 +33,8 @@ def sign_of(step: Step) -> str:
     """The sign of the component that a step draws; nothing for whole vectors and other steps."""
     vector = plan_vector(step)
     return vector.sign if vector else ""
+
+
+def is_set_on(step: Step) -> bool:
+    """Whether a step sets a vector of a plan on the mechanism, as the last sentence asks."""
+    return step.plane is Plane.MECHANISM and plan_vector(step) is not None

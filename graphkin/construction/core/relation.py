@@ -8,6 +8,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 
 DIGITS = 5
 """Significant digits of figures put in, so that results of four digits follow from them."""
+FINE = 6
+"""The same of rates put into sums, whose digits may cancel."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +65,12 @@ def rounded(value: float) -> float:
 def squared(figures: str) -> str:
     """The square of a figure that is put in; a power of ten is squared with the rest."""
     return f"({figures})^2" if "·" in figures else f"{figures}^2"
+
+
+def within(drawing: Drawing, value: float) -> str:
+    """A number after a sign: in brackets if it is negative."""
+    text = figure(drawing, value, FINE)
+    return f"({text})" if value < 0 else text
 
 
 def answer(drawing: Drawing, value: float) -> str:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from graphkin.construction.acceleration import acceleration
 from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
 from graphkin.construction.core.bases import under
-from graphkin.construction.core.pen import Pen, Says, image, letter, named, second_image
+from graphkin.construction.core.pen import Pen, Says, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import compass, ray
+from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.guide_actions import (
     axis_by_guide,
     axis_stretched,
-    driven_slide,
     length_of,
     stretch,
 )
@@ -68,9 +68,9 @@ def move(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
     point = group.pin.point
     start, line = pen.the("velocity", point), pen.shared["guide", *group.slide.links]
     speed = pen.drive(group.driver).speed
-    says: Says = {"q": letter(foot), "g": group.slide.block, "s": named(pen, start)}
+    steps, block = (start, line, speed), group.slide.block
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        found = pen.draw(driven_slide, start, line, speed, name=image(foot), extra=(way,), **says)
+        found = slide_image(pen, letter(foot), block, steps, name=image(foot), way=way)
     pen.want("velocity", foot, found)
     velocity_arrows(pen, foot, point)
     velocity.dyad(pen, shapes, group.dyad)
@@ -84,11 +84,13 @@ def accelerate(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
     rate = pen.drive(group.driver).acceleration
     images = pen.the("velocity", point), pen.the("velocity", foot)
     corner = component_between(pen, far, images, point, group.slide.block)
-    says: Says = {"q": letter(foot), "g": group.slide.block, "s": named(pen, start)}
+    steps, block = (corner, line, rate), group.slide.block
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         name = second_image(foot)
         with pen.calls_for(acceleration.sliding_effect(pen, rate)):
-            found = pen.draw(driven_slide, corner, line, rate, name=name, extra=(way,), **says)
+            found = slide_image(
+                pen, letter(foot), block, steps, name=name, way=way, told_from=start
+            )
         slide_arrow(pen, corner, found, far, point)
     pen.want("acceleration", foot, found)
     acceleration.dyad(pen, shapes, group.dyad)

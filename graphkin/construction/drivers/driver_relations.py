@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.parameter_words import is_derived, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (
@@ -20,6 +21,7 @@ from graphkin.construction.core.relation import (
 )
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.result_tables import sense
+from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -98,13 +100,13 @@ def speed_letter(driver: Driver) -> str:
 def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
     """The bars of a driver's link from its fixed pivot to its pins."""
     frame = drawing.scene.frame.points
+    number = drawing.scene.drivers.index(driver)
     for _, step, _ in drawing.steps(Plane.VELOCITIES):
-        if step.action is None or step.action.key != "turned-velocity":
-            continue
-        p, q, rate = step.says["p"], step.says["q"], drawing.trace.program.steps[step.args[3]]
-        number = drawing.scene.drivers.index(driver)
-        if p in frame and rate.given is not None and int(rate.says.get("d", -1)) == number:
-            yield p, q
+        kind = construction(step)
+        if isinstance(kind, TurnedVelocity) and kind.p in frame:
+            rate = drawing.trace.program.steps[kind.omega]
+            if rate.given is not None and int(rate.says.get("d", -1)) == number:
+                yield kind.p, kind.q
 
 
 def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relation]:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, velocity_arrows
+from graphkin.construction.acceleration import turned_acceleration
+from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.bases import under
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import (
     Pen,
-    Says,
     about,
     against,
     image,
@@ -16,22 +15,15 @@ from graphkin.construction.core.pen import (
     second_image,
 )
 from graphkin.construction.core.program import CONTACT, Part, Plane
-from graphkin.construction.core.vocabulary import (
-    alike,
-    centripetal,
-    difference,
-    driven_tangential,
-    epsilon,
-    in_proportion,
-    omega,
-    similar_point,
-    sum_of,
-    turned_velocity,
-)
-from graphkin.construction.rolling.wheel_actions import speed_rolled
+from graphkin.construction.core.vocabulary import in_proportion
+from graphkin.construction.velocity.image_of_link import image_of_link
+from graphkin.construction.velocity.translated_image import translated_image
+from graphkin.construction.velocity.turned_velocity import turned_image
+from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.scene.model import FRAME
 
-RATES = {"omega": ("velocity", omega), "epsilon": ("acceleration", epsilon)}
+PLANS = {"omega": "velocity", "epsilon": "acceleration"}
+"""What of points each rate of links is found from."""
 
 
 def omega_of(pen: Pen, link: str, quantity: str = "omega") -> int:
@@ -50,13 +42,13 @@ def rate_of(pen: Pen, link: str, quantity: str) -> int:
     base = pen.bases[link]
     if base.end is None:
         return omega_of(pen, pen.leads[link], quantity)
-    plan, action = RATES[quantity]
-    points = (base.start, base.end)
-    ends = [pen.the(what, point) for what in ("position", plan) for point in points]
+    plan = PLANS[quantity]
+    index = (against if plan == "velocity" else about)(pen, base.end, base.start)
+    places = pen.the("position", base.start), pen.the("position", base.end)
+    images = pen.the(plan, base.start), pen.the(plan, base.end)
+    letters = letter(base.start), letter(base.end)
     with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for(None):
-        says: Says = {"p": letter(base.start), "q": letter(base.end)}
-        says["i"] = (against if plan == "velocity" else about)(pen, base.end, base.start)
-        return pen.draw(action, *ends, name=link, **says)
+        return turning_of_link(pen, quantity, link, letters, index, (places, images))
 
 
 def image_under(pen: Pen, link: str, point: str) -> int:
@@ -103,7 +95,7 @@ def shifted(pen: Pen, link: str, point: str, quantity: str) -> int:
         called = image(name) if quantity == "velocity" else second_image(name)
         pen.want("position", name, pen.the("position", point))
         with pen.on(pen.steps[number].part, pen.steps[number].plane):
-            found = pen.draw(alike, number, name=called, p=letter(start), q=letter(name))
+            found = translated_image(pen, number, (letter(start), letter(name)), called)
         pen.shared["fallen", found] = number
         pen.want(quantity, name, found)
     return pen.the(quantity, name)
@@ -126,53 +118,29 @@ def found_under(pen: Pen, link: str, point: str, quantity: str) -> int:
     ends = start, pen.the(quantity, base.end)
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         ratio = pen.draw(in_proportion, places[0], pen.the("position", base.end), places[1])
-    says: Says = {"p": letter(base.start), "q": letter(base.end), "r": letter(name)}
+    letters = letter(base.start), letter(base.end), letter(name)
     is_velocity = quantity == "velocity"
-    says |= {} if is_velocity else {"w": owned(name)}
     part = Part.VELOCITY if is_velocity else Part.ACCELERATION
     plane = Plane.VELOCITIES if is_velocity else Plane.ACCELERATIONS
     with pen.on(part, plane):
         called = image(name) if is_velocity else second_image(name)
-        return pen.draw(similar_point, *ends, ratio, name=called, **says)
+        whole = "" if is_velocity else owned(name)
+        return image_of_link(pen, (*ends, ratio), letters, name=called, whole=whole)
 
 
 def found_by_turning(pen: Pen, link: str, point: str, quantity: str) -> int:
     """The image of a point of a link whose turning is known, from that of its base."""
     base, name = pen.bases[link], under(point, link)
     start = pen.the(quantity, base.start)
-    ends = pen.the("position", base.start), pen.the("position", point)
-    says: Says = {"p": base.start, "q": letter(name), "s": pen.steps[start].name, "k": link}
     turning = omega_of(pen, link)
     if quantity == "velocity":
+        places = pen.the("position", base.start), pen.the("position", point)
+        letters, called = (base.start, letter(name)), image(name)
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-            return pen.draw(turned_velocity, start, *ends, turning, name=image(name), **says)
-    rate, called = omega_of(pen, link, "epsilon"), second_image(name)
-    says |= {"i": about(pen, name, base.start), "w": owned(name)}
-    steady = pen.is_nought(rate)
+            return turned_image(pen, link, letters, start, places, name=called, omega=turning)
+    steady = pen.is_nought(omega_of(pen, link, "epsilon"))
+    points, called = (base.start, name), second_image(name)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        with pen.calls_for(Effect.NORMAL):
-            given = called if steady else ""
-            corner = pen.draw(centripetal, start, *ends, turning, name=given, **says)
-        if not steady or start != pen.pole(Plane.ACCELERATIONS):
-            component_arrow(pen, start, corner, "ν", name, base.start)
-        if steady:
-            return corner
-        with pen.calls_for(tangential_effect(pen, rate)):
-            found = pen.draw(driven_tangential, corner, *ends, rate, name=called, **says)
-        component_arrow(pen, corner, found, "τ", name, base.start)
-        return found
-
-
-def tangential_effect(pen: Pen, rate: int) -> Effect:
-    """A tangential component is a driver's where its rate holds what that is accelerated by."""
-    return Effect.DRIVER if accelerated(pen, rate) else Effect.TANGENTIAL
-
-
-def accelerated(pen: Pen, rate: int) -> bool:
-    """Whether a rate is a driver's acceleration, alone or with another's, and not nought."""
-    step = pen.steps[rate]
-    if step.given is not None:
-        given = {drive.acceleration for drive in pen.drives.values()}
-        return rate in given and not pen.is_nought(rate)
-    passed_on = step.action in (sum_of, difference, speed_rolled)
-    return passed_on and any(accelerated(pen, arg) for arg in step.args)
+        return turned_acceleration.turned_image(
+            pen, link, points, start, name=called, steady=steady
+        )

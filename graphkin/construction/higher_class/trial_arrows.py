@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, Says, about, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane, Target
-from graphkin.construction.core.vocabulary import Action, driven_tangential
+from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.guides.sliding import slid
 from graphkin.construction.higher_class.trial_actions import (
     after_component,
@@ -60,13 +61,12 @@ def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range)
 
 def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
     """Normal and tangential component of a point that a link of known turning carries."""
-    step = pen.steps[number]
-    if step.action is not driven_tangential or number not in right:
+    turned = pen.steps[number].of
+    if not isinstance(turned, TurnedAcceleration) or turned.image != number or number not in right:
         return
-    corner = step.args[0]
-    start = pen.steps[corner].args[0]
-    ends = right.get(start, start), right[number]
-    legs(pen, "ντ", along_way, after_way, (*ends, start, corner), step.says)
+    ends = right.get(turned.start, turned.start), right[number]
+    says: Says = {"i": turned.index, "q": turned.q, "p": turned.p}
+    legs(pen, "ντ", along_way, after_way, (*ends, turned.start, turned.end), says)
 
 
 def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:

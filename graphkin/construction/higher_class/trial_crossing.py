@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from graphkin.construction.acceleration.tangential_direction import tangential_direction
 from graphkin.construction.core.pen import Pen, named
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import meet, parallel_to
+from graphkin.construction.core.vocabulary import meet
 from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
@@ -13,9 +14,9 @@ from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
-    square,
 )
-from graphkin.construction.velocity import velocity as velocities
+from graphkin.construction.velocity.parallel_through import parallel_through
+from graphkin.construction.velocity.perpendicular_through import perpendicular_through
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
@@ -61,10 +62,10 @@ def locus_of(pen: Pen, shapes: LinkShapes, group: Higher, quantity: str, of: str
     other = next(end.point for end in ends if isinstance(end, Pin) and end.point != of)
     if quantity == "velocity":
         with pen.on(*IN_PLAN[quantity]), pen.hands_way():
-            return velocities.square(pen, other, of)
+            return perpendicular_through(pen, other, of)
     vector = normal_component(pen, other, of)
     with pen.on(*IN_PLAN[quantity]), pen.hands_way():
-        return square(pen, other, of, lay_off_normal(pen, other, of, vector))
+        return tangential_direction(pen, other, of, lay_off_normal(pen, other, of, vector))
 
 
 def along_guide(
@@ -78,4 +79,4 @@ def along_guide(
             start = known_end(pen, pair, link, of)
     guide = known_guide(pen, shapes, pair)
     with pen.on(*IN_PLAN[quantity]), pen.hands_way():
-        return pen.draw(parallel_to, start, guide, s=named(pen, start), g=pair.links[0])
+        return parallel_through(pen, start, guide, pair.links[0])

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.drawn_scene import TAGS, Drawing
 from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.given_pairs import heading
-from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.naming import has_no_length, way_of
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import figure
 from graphkin.construction.core.sentence import Sentence, in_one, together
+from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.higher_class.coincident_images import fallen_on
 from graphkin.construction.higher_class.misclosure import (
     Misclosure,
@@ -21,12 +24,9 @@ from graphkin.construction.higher_class.misclosure import (
     ratio,
 )
 from graphkin.construction.result_tables import sense
-from graphkin.construction.sentence_fields import fields_of
-from graphkin.construction.step_sentences import has_no_length, point_sentence
+from graphkin.construction.step_sentences import point_sentence
+from graphkin.construction.velocity.laid_off_by_rate import LaidOffAboutPivot, LaidOffByRate
 from graphkin.drawing.symbol_markup import symbol
-
-RATE_AT = {"turned-velocity": 3, "driven-tangential": 3, "driven-slide": 2}
-"""Steps that begin a trial, and at which place they take what is tried."""
 
 
 def trial_sentence(drawing: Drawing, number: int) -> Iterator[Sentence]:
@@ -65,9 +65,12 @@ def again_told(drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
     first = {steps[n].name[:-1]: n for n in points_of(drawing, TAGS[0])}
 
     def is_new(number: int) -> bool:
-        action, before = steps[number].action, first.get(steps[number].name[:-1])
-        lays_off = action is not None and action.key in RATE_AT
-        return lays_off or before is None or bool(fallen_on(drawing, before))
+        before = first.get(steps[number].name[:-1])
+        return (
+            begun_by(steps[number]) is not None
+            or before is None
+            or bool(fallen_on(drawing, before))
+        )
 
     for new, run in groupby(named, is_new):
         if new:
@@ -78,16 +81,13 @@ def again_told(drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
 
 def turned_again(drawing: Drawing, number: int) -> str:
     """How a point of the second trial is found, its normal component being that of the first."""
-    steps = drawing.trace.program.steps
-    step = steps[number]
-    if step.action is None or step.action.key != "driven-tangential":
+    kind = construction(drawing.trace.program.steps[number])
+    if not isinstance(kind, TurnedAcceleration) or kind.is_steady:
         return point_of_trial(drawing, number)
-    normal = steps[step.args[0]]
-    if has_no_length(drawing, step.args[0]) or has_no_length(drawing, number):
+    if has_no_length(drawing, kind.end) or has_no_length(drawing, number):
         return point_of_trial(drawing, number)
-    fields = fields_of(drawing, step, step.says)
-    fields["normal"] = fields_of(drawing, normal, normal.says)["vector"]
-    return drawing.words("step.driven-again", name=symbol(step.name), **fields)
+    fields, normal = (kind.fields(drawing, role) for role in ("image", "end"))
+    return drawing.words("step.driven-again", normal=normal["vector"], **fields)
 
 
 def point_of_trial(drawing: Drawing, number: int) -> str:
@@ -107,19 +107,26 @@ def tried(drawing: Drawing, named: list[int]) -> tuple[str, str]:
     steps, values = drawing.trace.program.steps, drawing.trace.values
     for number in named:
         step = steps[number]
-        key = step.action.key if step.action else ""
-        if key in RATE_AT:
-            size = float(values[step.args[RATE_AT[key]]])
-            if key == "driven-slide":
+        rate, kind = begun_by(step), construction(step)
+        if rate is not None:
+            size = float(values[rate])
+            if isinstance(kind, DrivenSlide):
                 sliding = quantity(drawing, abs(size), drawing.sliding.caret_unit)
                 if size:
                     way = heading(values[number] - values[step.args[0]])
                     sliding += f" {drawing.words(f'page.to_{way}')}"
-                return symbol(f"{drawing.sliding.letter}_{step.says['q']}"), sliding
+                return symbol(f"{drawing.sliding.letter}_{kind.point}"), sliding
             turning = quantity(drawing, abs(size), drawing.rate.caret_unit)
             turning += f" {sense(drawing.words, size)}" if size else ""
-            return symbol(f"{drawing.rate.letter}_{step.says['k']}"), turning
+            assert isinstance(kind, LaidOffAboutPivot)
+            return symbol(f"{drawing.rate.letter}_{kind.link}"), turning
     return "", ""
+
+
+def begun_by(step: Step) -> int | None:
+    """The rate by which a step lays off a vector, with which a trial begins; None for others."""
+    kind = construction(step)
+    return kind.tried_rate(step.role) if isinstance(kind, LaidOffByRate) else None
 
 
 def quantity(drawing: Drawing, size: float, unit: str) -> str:

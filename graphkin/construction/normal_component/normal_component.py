@@ -24,7 +24,7 @@ from graphkin.construction.core.component import (
 )
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.naming import plan_amount
-from graphkin.construction.core.pen import Pen, Says, about, against, letter, owned
+from graphkin.construction.core.pen import Pen, about, against, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.too_short import laid_off
@@ -34,7 +34,6 @@ from graphkin.construction.core.vocabulary import (
     meet,
     set_velocity,
     square_at,
-    square_to,
 )
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point
@@ -306,12 +305,3 @@ def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
     pen.make(LaidOff(component=component, start=start, corner=end))
     component_arrow(pen, start, end, "ν", pin, pivot)
     return end
-
-
-def square(pen: Pen, pivot: str, pin: str, corner: int) -> int:
-    """Through the end of a normal component the perpendicular to its bar."""
-    ends = pen.the("position", pivot), pen.the("position", pin)
-    says: Says = {"p": letter(pivot), "q": letter(pin), "i": about(pen, pin, pivot)}
-    says |= {"w": owned(pin), "x": owned(pivot)}
-    with pen.calls_for(Effect.TANGENTIAL):
-        return pen.draw(square_to, corner, *ends, **says)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.relation import Relation
@@ -46,13 +47,13 @@ class CommonNormal(Construction):
         start = symbol(drawing.trace.program.steps[self.start].name)
         return drawing.words("step.common-normal", s=start, **self.symbols())
 
-    def label(self, role: str) -> str:
-        """What it is parallel to."""
-        return f"∥ {bar(self.p, self.q)}"
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The line, with the radius to which it is parallel."""
+        canvas.locus(f"∥{self.p}{self.q}", f"∥ {bar(self.p, self.q)}")
 
-    def equation(self, drawing: Drawing) -> Relation:
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Where wheels touch their accelerations differ along the common normal only."""
-        return Relation(drawing.words("calculation.touching", bar=bar(self.p, self.q)))
+        yield Relation(drawing.words("calculation.touching", bar=bar(self.p, self.q)))
 
 
 def common_normal(pen: Pen, start: int, ends: tuple[str, str]) -> int:

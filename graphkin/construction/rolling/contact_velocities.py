@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import constructions
-from graphkin.construction.core.naming import arrow_of, index_of
+from graphkin.construction.core.kind import construction, constructions
+from graphkin.construction.core.naming import arrow_of
+from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.rolling.contact_points import PointOfContact
+from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import symbol
 
 
@@ -35,12 +38,11 @@ def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], s
     program, pole = drawing.trace.program, -1
     contacts = {each.point for each in constructions(program, PointOfContact)}
     for number, step, _ in drawing.steps(drawing.plane, Plane.NUMBERS):
-        p, q = step.says.get("p", ""), step.says.get("q", "")
-        match step.action.key if step.action else "":
-            case "pole":
+        match construction(step):
+            case PlanPole():
                 pole = number
-            case "square-to" if "c" in step.says:
-                yield p, p, (pole, step.args[0]), "no_slip"
-            case "omega" if step.args[1] in contacts:
-                key = "contact_rests_opposite" if step.args[3] == pole else "no_slip"
-                yield q, index_of(drawing, step.says), (step.args[2], step.args[3]), key
+            case PerpendicularThrough(contact=contact, p=p, start=start) if contact:
+                yield p, p, (pole, start), "no_slip"
+            case TurningOfLink(quantity="omega", places=(_, place)) as turning if place in contacts:
+                key = "contact_rests_opposite" if turning.images[1] == pole else "no_slip"
+                yield turning.q, turning.index, turning.images, key

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.amounts import in_mm
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     Component,
     OwnSizes,
@@ -71,6 +72,11 @@ class RollingNormal(Component):
     def is_computed(self, scales: Scales | TriangleChoice) -> bool:
         """No triangle gives it: the turning of the wheel is known."""
         return True
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The image in which it ends."""
+        if role == "image":
+            canvas.image()
 
     # --- saying it -------------------------------------------------------------------------------
 

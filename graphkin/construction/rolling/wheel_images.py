@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from graphkin.construction.acceleration.tangential_direction import tangential_direction
+from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.arrows import (
     acceleration_arrow,
     component_arrow,
@@ -11,41 +13,33 @@ from graphkin.construction.core.arrows import (
 from graphkin.construction.core.bases import contact_name, under
 from graphkin.construction.core.pen import (
     Pen,
-    Says,
     about,
     against,
     image,
     letter,
-    named,
     owned,
     second_image,
 )
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import (
-    alike,
-    centripetal,
-    driven_tangential,
-    epsilon,
-    in_proportion,
-    meet,
-    omega,
-    parallel_to,
-    similar_point,
-    turned_velocity,
-)
+from graphkin.construction.core.vocabulary import centripetal, driven_tangential, in_proportion
 from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
-    square,
 )
 from graphkin.construction.rolling.common_normal import common_normal
 from graphkin.construction.rolling.rolling import radius_of
 from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.rolling.wheel_actions import speed_rolled
+from graphkin.construction.velocity.crossed_image import crossed_image
+from graphkin.construction.velocity.image_of_link import image_of_link
+from graphkin.construction.velocity.parallel_through import parallel_through
+from graphkin.construction.velocity.translated_image import translated_image
+from graphkin.construction.velocity.turned_velocity import turned_image
+from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
@@ -89,34 +83,46 @@ def geared(pen: Pen, group: Geared) -> None:
         case Sliding():
             point = pen.bases[link].start
             if pen.turns(link):
-                ends = pen.the("position", name), pen.the("position", point)
-                says: Says = {"p": letter(name), "q": point, "s": named(pen, start)}
-                says["i"] = against(pen, point, under(name, link))
+                places = pen.the("position", name), pen.the("position", point)
+                index = against(pen, point, under(name, link))
                 with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-                    rate = omega_of(pen, link)
-                    start = pen.draw(turned_velocity, start, *ends, rate, name=image(point), **says)
+                    start = turned_image(
+                        pen,
+                        link,
+                        (letter(name), point),
+                        start,
+                        places,
+                        name=image(point),
+                        omega=omega_of(pen, link),
+                        index=index,
+                    )
             else:
                 with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-                    start = pen.draw(alike, start, name=image(point), p=letter(name), q=point)
+                    start = translated_image(pen, start, (letter(name), point), image(point))
             pen.want("velocity", point, start)
             velocity_arrows(pen, point, under(name, link) if pen.turns(link) else None)
         case Contact() as own:
             first = touched(pen, own, link, partner(own, link))
             names = [under(contact_name(own), link), under(name, link)]
-            centre = own.wheel.centre
-            places = [pen.the("position", each) for each in (*names, centre)]
+            centre, letters = own.wheel.centre, (letter(names[0]), letter(names[1]))
+            ends = pen.the("position", names[0]), pen.the("position", names[1])
             with pen.on(Part.SHAPE, Plane.NUMBERS):
-                ratio = pen.draw(in_proportion, *places)
-            says = {"p": letter(names[0]), "q": letter(names[1]), "r": centre}
-            says |= {"c": image(names[0]), "d": image(names[1])}
+                ratio = pen.draw(in_proportion, *ends, pen.the("position", centre))
             with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-                found = pen.draw(similar_point, first, start, ratio, name=image(centre), **says)
+                found = image_of_link(
+                    pen,
+                    (first, start, ratio),
+                    (*letters, centre),
+                    name=image(centre),
+                    touching=(image(names[0]), image(names[1])),
+                )
             pen.want("velocity", centre, found)
             velocity_arrows(pen, centre, None)
             relative_arrow(pen, names[1], names[0])
-            says["i"] = against(pen, names[1], names[0])
+            index = against(pen, names[1], names[0])
             with pen.on(Part.RESULT, Plane.NUMBERS):
-                turning = pen.draw(omega, *places[:2], first, start, name=link, **says)
+                steps = ends, (first, start)
+                turning = turning_of_link(pen, "omega", link, letters, index, steps)
             pen.want("omega", link, turning)
 
 
@@ -141,9 +147,9 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     vector = normal_component(pen, centre, own)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = lay_off_normal(pen, centre, own, vector)
-        line = square(pen, centre, own, corner)
+        line = tangential_direction(pen, centre, own, corner)
         along = common_normal(pen, other, (centre, own))
-        found = pen.draw(meet, line, along, name=second_image(own), q=own)
+        found = crossed_image(pen, line, along, name=second_image(own), of=own)
         component_arrow(pen, corner, found, "τ", own, centre)
     return pen.want("acceleration", own, found)
 
@@ -156,8 +162,8 @@ def train(pen: Pen, group: Train) -> None:
     images = [touched(pen, each, link, partner(each, link)) for each in group.contacts]
     divided = on_line_of(pen, names, images, centre)
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        says: Says = {"p": letter(under(names[0], link)), "q": letter(under(names[1], link))}
-        found = pen.draw(similar_point, *divided, name=image(centre), r=centre, **says)
+        letters = letter(under(names[0], link)), letter(under(names[1], link)), centre
+        found = image_of_link(pen, divided, letters, name=image(centre))
     pen.want("velocity", centre, found)
     velocity_arrows(pen, centre, None)
 
@@ -185,11 +191,11 @@ def second_train(pen: Pen, group: Train) -> None:
     vector = normal_component(pen, pivot, centre)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = lay_off_normal(pen, pivot, centre, vector)
-        line = square(pen, pivot, centre, corner)
-        says: Says = {"p": letter(names[0]), "q": letter(names[1]), "r": centre}
-        across = pen.draw(similar_point, *on_line_of(pen, names, others, centre), **says)
+        line = tangential_direction(pen, pivot, centre, corner)
+        letters = letter(names[0]), letter(names[1]), centre
+        across = image_of_link(pen, on_line_of(pen, names, others, centre), letters)
         along = common_normal(pen, across, (pivot, centre))
-        found = pen.draw(meet, line, along, name=second_image(centre), q=centre)
+        found = crossed_image(pen, line, along, name=second_image(centre), of=centre)
         component_arrow(pen, corner, found, "τ", centre, pivot)
     pen.want("acceleration", centre, found)
     acceleration_arrow(pen, centre)
@@ -221,9 +227,9 @@ def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> 
     other = carried(pen, wheel, name, "acceleration")
     guide = known_guide(pen, shapes, slide)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        line = pen.draw(parallel_to, start, guide, s=named(pen, start), g=link)
+        line = parallel_through(pen, start, guide, link)
         along = common_normal(pen, other, (contact.wheel.centre, name))
-        found = pen.draw(meet, line, along, q=point, name=second_image(point))
+        found = crossed_image(pen, line, along, name=second_image(point), of=point)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
 
@@ -240,12 +246,24 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     corner = rolled_image(pen, start, rim, (centre, name), rates)
     ends = pen.the("position", name), pen.the("position", point)
     turning, twist = omega_of(pen, link), omega_of(pen, link, "epsilon")
-    says: Says = {"p": letter(rim), "q": point, "s": named(pen, corner), "k": link}
-    says |= {"i": about(pen, point, rim), "x": owned(rim)}
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        end = pen.draw(centripetal, corner, *ends, turning, **says)
-        named_ = second_image(point)
-        found = pen.draw(driven_tangential, end, *ends, twist, name=named_, **says)
+        end = pen.draw(centripetal, corner, *ends, turning)
+        found = pen.draw(driven_tangential, end, *ends, twist, name=second_image(point))
+        pen.make(
+            TurnedAcceleration(
+                p=letter(rim),
+                q=point,
+                index=about(pen, point, rim),
+                whole=point,
+                base=owned(rim),
+                link=link,
+                start=corner,
+                omega=turning,
+                epsilon=twist,
+                end=end,
+                image=found,
+            )
+        )
         component_arrow(pen, corner, end, "ν", point, rim)
         component_arrow(pen, end, found, "τ", point, rim)
     pen.want("acceleration", point, found)
@@ -263,17 +281,20 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
         images.append(rolled_image(pen, start, under(name, link), (name, centre), rates))
         names.append(name)
         starts.append(start)
-    places = [pen.the("position", each) for each in (*names, centre)]
+    ends = pen.the("position", names[0]), pen.the("position", names[1])
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        ratio = pen.draw(in_proportion, *places)
+        ratio = pen.draw(in_proportion, *ends, pen.the("position", centre))
     rims = [under(name, link) for name in names]
-    says: Says = {"p": letter(rims[0]), "q": letter(rims[1]), "r": centre}
+    letters, (first, second) = (letter(rims[0]), letter(rims[1])), images
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        found = pen.draw(similar_point, *images, ratio, name=second_image(centre), **says)
+        points, called = (*letters, centre), second_image(centre)
+        found = image_of_link(pen, (first, second, ratio), points, name=called)
         if not any(pen.turns(partner(contact, link)) for contact in (own, group.contact)):
             component_arrow(pen, starts[0], starts[1], "τ", rims[1], rims[0])
     pen.want("acceleration", centre, found)
     acceleration_arrow(pen, centre)
-    says["i"] = about(pen, rims[1], rims[0])
+    index = about(pen, rims[1], rims[0])
     with pen.on(Part.RESULT, Plane.NUMBERS):
-        pen.want("epsilon", link, pen.draw(epsilon, *places[:2], *images, name=link, **says))
+        steps = ends, (first, second)
+        turning = turning_of_link(pen, "epsilon", link, letters, index, steps)
+    pen.want("epsilon", link, turning)

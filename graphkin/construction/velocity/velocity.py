@@ -4,27 +4,23 @@ from __future__ import annotations
 
 from graphkin.construction.core.arrows import arrow_between, velocity_arrows
 from graphkin.construction.core.bases import Base, crank_tip, sides_of, under
-from graphkin.construction.core.pen import Pen, Says, against, image, letter, named
-from graphkin.construction.core.program import CONTACT, Part, Plane
-from graphkin.construction.core.vocabulary import (
-    alike,
-    difference,
-    join,
-    meet,
-    parallel_to,
-    part_along,
-    similar_point,
-    square_to,
-    sum_of,
-    turned_velocity,
-)
+from graphkin.construction.core.pen import Pen, image, letter
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import difference, join, part_along
+from graphkin.construction.drivers.driven_slide import slide_image
+from graphkin.construction.drivers.summed_rate import summed_rate
 from graphkin.construction.guides.coincident_points import image_under, omega_of, source_of
-from graphkin.construction.guides.guide_actions import driven_slide
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
 from graphkin.construction.links.position import led_path
 from graphkin.construction.rolling import wheel_images
+from graphkin.construction.velocity.crossed_image import crossed_image
+from graphkin.construction.velocity.image_of_link import image_of_link
+from graphkin.construction.velocity.parallel_through import parallel_through
+from graphkin.construction.velocity.perpendicular_through import perpendicular_through
+from graphkin.construction.velocity.translated_image import translated_image
+from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
 from graphkin.structure.joints import Joint, partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
@@ -54,9 +50,8 @@ def driven_rate(pen: Pen, group: Crank, quantity: str, given: int) -> int:
     if not pen.turns(against):
         return given if group.driver.link == group.link else turned_round(pen, given)
     rate = omega_of(pen, against, quantity)
-    action = sum_of if group.driver.link == group.link else difference
     with pen.on(Part.RESULT, Plane.NUMBERS):
-        return pen.draw(action, rate, given, name=group.link)
+        return summed_rate(pen, group.driver, group.link, rate, given)
 
 
 def turned_round(pen: Pen, given: int) -> int:
@@ -69,10 +64,8 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str) -> None:
     """Image of a point of a link whose angular velocity is known, from that of its pivot."""
     ends = pen.the("position", pivot), pen.the("position", tip)
     start = pen.the("velocity", pivot)
-    says: Says = {"p": pivot, "q": tip, "s": named(pen, start), "k": link}
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        rate = pen.the("omega", link)
-        found = pen.draw(turned_velocity, start, *ends, rate, name=image(tip), **says)
+        found = turned_image(pen, link, (pivot, tip), start, ends, name=image(tip))
     pen.want("velocity", tip, found)
     velocity_arrows(pen, tip, pivot)
 
@@ -93,8 +86,8 @@ def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, s
     line = line_of(pen, shapes, pair, link, point)
     start = image_under(pen, known, point)
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        says: Says = {"q": point, "g": pair.links[0], "s": named(pen, start)}
-        found = pen.draw(driven_slide, start, line, speed, name=image(point), extra=(way,), **says)
+        steps = start, line, speed
+        found = slide_image(pen, point, pair.links[0], steps, name=image(point), way=way)
     pen.want("velocity", point, found)
     velocity_arrows(pen, point, None)
     slide_arrow(pen, pair, link, point)
@@ -123,7 +116,7 @@ def cross(
     """The image of a point where the lines meet that two pairs leave it free on."""
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
         lines = [ray(pen, shapes, *side, name, point) for side in sides]
-        found = pen.draw(meet, *lines, name=image(name), q=name)
+        found = crossed_image(pen, *lines, name=image(name), of=name)
     pen.want("velocity", name, found)
     for pair, link in sides:
         velocity_arrows(pen, name, source(pair, name))
@@ -143,21 +136,11 @@ def source(pair: Joint, point: str) -> str | None:
 def ray(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, name: str, point: str) -> int:
     """The line on which a pair of a link leaves the image of a point free."""
     if isinstance(pair, Pin):
-        return square(pen, pair.point, name)
+        return perpendicular_through(pen, pair.point, name)
     line, known = line_of(pen, shapes, pair, link, point), partner(pair, link)
     own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
     start = pen.the("velocity", point) if own else image_under(pen, known, point)
-    return pen.draw(parallel_to, start, line, s=named(pen, start), g=pair.links[0])
-
-
-def square(pen: Pen, pivot: str, pin: str) -> int:
-    """Through the image of one end of a bar the perpendicular to the bar."""
-    start = pen.the("velocity", pivot)
-    ends = pen.the("position", pivot), pen.the("position", pin)
-    says: Says = {"s": named(pen, start), "p": letter(pivot), "q": letter(pin)}
-    if pivot.startswith(CONTACT):
-        says |= {"c": image(pivot), "i": against(pen, pin, pivot)}
-    return pen.draw(square_to, start, *ends, **says)
+    return parallel_through(pen, start, line, pair.links[0])
 
 
 def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
@@ -180,16 +163,18 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
         if pen.has("velocity", point):
             continue
         ratio = shapes.ratio_of(base, point)
-        by_hand = None
+        hand = None
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             if crosses_well(pen, ratio):
                 with pen.hands_way():
-                    lines = square(pen, base.start, point), square(pen, base.end, point)
-                    by_hand = pen.draw(meet, *lines)
-            says: Says = {"p": letter(base.start), "q": letter(base.end), "r": point}
-            found = pen.draw(
-                similar_point, *ends, ratio, name=image(point), by_hand=by_hand, **says
-            )
+                    lines = (
+                        perpendicular_through(pen, base.start, point),
+                        perpendicular_through(pen, base.end, point),
+                    )
+                    hand = crossed_image(pen, *lines)
+            letters = letter(base.start), letter(base.end), point
+            images = *ends, ratio
+            found = image_of_link(pen, images, letters, name=image(point), hand=hand)
         pen.want("velocity", point, found)
         velocity_arrows(pen, point, base.start)
         if base.end in pen.scene.link(base.link).points:
@@ -207,7 +192,7 @@ def led_points(pen: Pen, base: Base) -> None:
             continue
         start = pen.the("velocity", base.start)
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-            found = pen.draw(alike, start, name=image(point), p=base.start, q=point)
+            found = translated_image(pen, start, (base.start, point), image(point))
         pen.want("velocity", point, found)
         velocity_arrows(pen, point, None)
 

@@ -1,0 +1,49 @@
+"""Through the end of a normal component the perpendicular to its bar: the tangential direction."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.pen import Pen, about, letter, owned
+from graphkin.construction.core.vocabulary import square_to
+from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
+from graphkin.drawing.symbol_markup import symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@dataclass(frozen=True, kw_only=True)
+class TangentialDirection(PerpendicularThrough):
+    """The ``line`` along which the tangential component of a pin about a pivot leads."""
+
+    reasons: ClassVar[Mapping[str, str]] = {"line": "why.tangential"}
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """Through the end of the normal component; through its start where that is too short."""
+        fields = {"vector": symbol(f"a_{self.index}^τ"), **self.symbols()}
+        laid = laid_off(drawing.trace.program, self.start)
+        if laid is not None and laid.is_short(drawing):
+            start = symbol(drawing.trace.program.steps[laid.start].name)
+            return drawing.words("step.square-to", s=start, **fields)
+        return drawing.words("step.square-to-end", **fields)
+
+
+def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
+    """Through the end of a normal component the perpendicular to its bar."""
+    ends = pen.the("position", pivot), pen.the("position", pin)
+    with pen.calls_for(Effect.TANGENTIAL):
+        line = pen.draw(square_to, corner, *ends)
+    names = {
+        "p": letter(pivot),
+        "q": letter(pin),
+        "index": about(pen, pin, pivot),
+        "whole": owned(pin),
+        "base": owned(pivot),
+    }
+    pen.make(TangentialDirection(**names, start=corner, line=line))
+    return line

@@ -1,0 +1,199 @@
+"""The acceleration of a pin about a pivot by known rates: ω²·l along the bar, ε·l across it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from graphkin.construction.core.arrows import component_arrow
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.naming import has_no_length, is_driven, rate_symbol
+from graphkin.construction.core.pen import Pen, about, letter, owned
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vocabulary import (
+    centripetal,
+    difference,
+    driven_tangential,
+    sum_of,
+)
+from graphkin.construction.rolling.wheel_actions import speed_rolled
+from graphkin.construction.velocity.laid_off_by_rate import (
+    LaidOffAboutPivot,
+    falls,
+    length_drawn,
+    rate_words,
+)
+from graphkin.drawing.symbol_markup import symbol
+
+
+@dataclass(frozen=True, kw_only=True)
+class TurnedAcceleration(LaidOffAboutPivot):
+    """ω²·l and ε·l laid off in the acceleration plan from the second image ``start`` of a pivot.
+
+    The normal component ends in ``end``, the tangential one from there in the pin's ``image``;
+    where the ``link`` of both turns steadily there is none, and ``end`` is the pin's image.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("end", "image")
+    reasons: ClassVar[Mapping[str, str]] = {"end": "why.normal", "image": "why.driven_tangential"}
+    laid_off: ClassVar[frozenset[str]] = frozenset({"end", "image"})
+
+    start: int
+    omega: int
+    epsilon: int | None
+    end: int
+    image: int | None
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether it has no tangential component."""
+        return self.image is None
+
+    def tried_rate(self, role: str) -> int | None:
+        """The angular acceleration."""
+        return self.epsilon if role == "image" else None
+
+    def index_at(self, role: str) -> str:
+        """Its own index."""
+        return self.index
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The normal component before the tangential one."""
+        if role == "image":
+            return (self.end,)
+        return (self.start,) if self.is_steady else ()
+
+    def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
+        """Ends, bar, rate and drawn length of the normal or the tangential component."""
+        steps = drawing.trace.program.steps
+        names = {**self.symbols(), "s": symbol(steps[self.start].name)}
+        if role == "end":
+            whole = self.is_steady and steps[self.start].name == drawing.pole
+            rate = rate_symbol(drawing, self.omega)
+            return {
+                **names,
+                "name": symbol(steps[self.end].name),
+                "vector": symbol(f"a_{self.index}" + ("" if whole else "^ν")),
+                "omega": rate,
+                "rate": rate,
+                "drawn": length_drawn(drawing, self.start, self.end),
+            }
+        assert self.image is not None and self.epsilon is not None
+        return {
+            **names,
+            "name": symbol(steps[self.image].name),
+            "vector": symbol(f"a_{self.index}^τ"),
+            "epsilon": rate_words(drawing, self.image, self.epsilon, self.link, "ε"),
+            "drawn": length_drawn(drawing, self.end, self.image),
+        }
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """The normal component by number, before the tangential one."""
+        if role == "image" or self.is_steady:
+            return ""
+        key = "none" if has_no_length(drawing, self.end) else "computed"
+        return drawing.words(f"step.lay-off-{key}", **self.fields(drawing, role))
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """How the component that ends in the pin's image is laid off."""
+        fields = self.fields(drawing, role)
+        if role == "end":
+            if has_no_length(drawing, self.end):
+                return drawing.words(falls(drawing, self.end, fields["s"]), **fields)
+            as_long = drawing.scales.as_crank(drawing.kind) and is_driven(drawing, self.omega)
+            return drawing.words(f"step.centripetal{'' if as_long else '-scaled'}", **fields)
+        assert self.image is not None
+        alone = has_no_length(drawing, self.end)
+        if has_no_length(drawing, self.image):
+            key = "falls" if alone and fields["s"] else "falls-end"
+        else:
+            key = "driven-tangential-only" if alone else "driven-tangential"
+        return drawing.words(f"step.{key}", **fields)
+
+    # --- marks and relations ---------------------------------------------------------------------
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point at the end of a component, if it has a letter."""
+        canvas.image()
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """Euler's theorem, and both sizes; a driver's crank has relations of its own."""
+        if role == "end":
+            driven = self.is_of_driver(drawing, self.omega)
+            if not (driven and self.is_steady):
+                yield self.euler(drawing, steady=self.is_steady)
+            if not driven:
+                yield self.by_turning(drawing, self.omega, "ν")
+            return
+        assert self.epsilon is not None
+        if self.image not in drawing.tags and not self.is_of_driver(drawing, self.epsilon):
+            yield self.by_turning(drawing, self.epsilon, "τ")
+
+    def rate_taken(self, drawing: Drawing, role: str) -> str:
+        """The angular acceleration."""
+        if role == "end" or self.epsilon is None:
+            return ""
+        return rate_symbol(drawing, self.epsilon, "ε")
+
+
+# --- planning it ---------------------------------------------------------------------------------
+
+
+def turned_image(
+    pen: Pen, link: str, points: tuple[str, str], start: int, *, name: str, steady: bool
+) -> int:
+    """The second image of the second of two ``points`` of a link whose rates are known.
+
+    ``start`` is that of the first; both components have their arrows, but for a single one that is
+    the whole acceleration.
+    """
+    pivot, pin = points
+    places = pen.the("position", pivot), pen.the("position", pin)
+    omega = pen.the("omega", link)
+    with pen.calls_for(Effect.NORMAL):
+        end = pen.draw(centripetal, start, *places, omega, name=name if steady else "")
+    if not steady or start != pen.pole(Plane.ACCELERATIONS):
+        component_arrow(pen, start, end, "ν", pin, pivot)
+    epsilon, image = None, None
+    if not steady:
+        epsilon = pen.the("epsilon", link)
+        with pen.calls_for(tangential_effect(pen, epsilon)):
+            image = pen.draw(driven_tangential, end, *places, epsilon, name=name)
+        component_arrow(pen, end, image, "τ", pin, pivot)
+    pen.make(
+        TurnedAcceleration(
+            p=pivot,
+            q=letter(pin),
+            index=about(pen, pin, pivot),
+            whole=owned(pin),
+            base=pivot,
+            link=link,
+            start=start,
+            omega=omega,
+            epsilon=epsilon,
+            end=end,
+            image=image,
+        )
+    )
+    return end if image is None else image
+
+
+def tangential_effect(pen: Pen, rate: int) -> Effect:
+    """A tangential component is a driver's where its rate holds what that is accelerated by."""
+    return Effect.DRIVER if accelerated(pen, rate) else Effect.TANGENTIAL
+
+
+def accelerated(pen: Pen, rate: int) -> bool:
+    """Whether a rate is a driver's acceleration, alone or with another's, and not nought."""
+    step = pen.steps[rate]
+    if step.given is not None:
+        given = {drive.acceleration for drive in pen.drives.values()}
+        return rate in given and not pen.is_nought(rate)
+    passed_on = step.action in (sum_of, difference, speed_rolled)
+    return passed_on and any(accelerated(pen, arg) for arg in step.args)

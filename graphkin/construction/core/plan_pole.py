@@ -1,0 +1,25 @@
+"""The pole of a plan: the image of everything that stands still."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.kind import Construction
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanPole(Construction):
+    """The ``pole`` of a plan, chosen freely: o of the velocities, o′ of the accelerations."""
+
+    gives: ClassVar[tuple[str, ...]] = ("pole",)
+    unmarked: ClassVar[frozenset[str]] = frozenset({"pole"})
+
+    pole: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point, larger than those of images."""
+        canvas.pole()

@@ -1,0 +1,148 @@
+"""What a driver, a trial or a law of rolling gives a slider along its guide, laid off in a plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import driver_index
+from graphkin.construction.core.naming import WELL_KNOWN, has_no_length, vector_of
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.relation import Relation, answer
+from graphkin.construction.guides.guide_actions import driven_slide
+from graphkin.construction.velocity.along_guide import AlongGuide
+from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate, falls, length_drawn
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.model import Driver
+
+LETTERS = {"omega": "ω", "v": "v", "epsilon": "ε", "a": "a"}
+"""The letters of the given rates of drivers by their names."""
+SPEEDS = {"epsilon": "ω", "a": "v"}
+"""The letter of the speed of which each acceleration is the rate."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrivenSlide(AlongGuide, LaidOffByRate):
+    """The motion of a ``point`` along a guide, laid off from ``start`` to its ``image``.
+
+    ``speed`` is its speed or acceleration along the guide, ``told_from`` the step of the point from
+    which a sentence lays it off.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("image",)
+    reasons: ClassVar[Mapping[str, str]] = {"image": "why.driven"}
+    laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+
+    point: str
+    speed: int
+    told_from: int
+    image: int
+
+    def tried_rate(self, role: str) -> int:
+        """The speed or acceleration."""
+        return self.speed
+
+    def symbols(self) -> Mapping[str, str]:
+        """The point, and the guide by its block."""
+        return {"q": symbol(self.point), "g": escape(self.guide)}
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """What ends where it begins."""
+        return (self.start,)
+
+    def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
+        """Its ends, its guide, and its drawn length."""
+        steps = drawing.trace.program.steps
+        return {
+            **self.symbols(),
+            "s": symbol(steps[self.told_from].name),
+            "name": symbol(steps[self.image].name),
+            "guide": self.way(drawing),
+            "vector": self.vector_along(drawing, self.image),
+            "drawn": length_drawn(drawing, self.start, self.image),
+        }
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """How it is laid off; where it is nought, why the point falls on the one before."""
+        fields = self.fields(drawing, role)
+        if has_no_length(drawing, self.image):
+            key, rate = self.fallen(drawing, fields["s"])
+            return drawing.words(key, rate=rate, **fields)
+        key = "driven-slide" if fields["s"] else "driven-slide-end"
+        return drawing.words(f"step.{key}", **fields)
+
+    def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
+        """The key of the sentence where nothing is laid off, and the rate that is told in it."""
+        key, driver = falls(drawing, self.image, start), self.driver(drawing)
+        name = drawing.trace.program.steps[self.speed].name
+        if driver is None:
+            return key.removesuffix("-nought"), ""
+        steady = name in SPEEDS and driver.acceleration.is_zero()
+        key = key.replace("-nought", "-constant") if steady else key
+        letter = (SPEEDS if steady else LETTERS)[name]
+        return key, f"*{letter}*_{{{driver_index(driver)}}}"
+
+    def driver(self, drawing: Drawing) -> Driver | None:
+        """The driver that gives its speed; None for one that is found or tried."""
+        rate = drawing.trace.program.steps[self.speed]
+        if rate.given is None or rate.name not in WELL_KNOWN:
+            return None
+        return drawing.scene.drivers[int(rate.says["d"])]
+
+    # --- marks and relations ---------------------------------------------------------------------
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point at its end."""
+        canvas.image()
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """What is given along the guide; in a trial the motion along it."""
+        if self.image in drawing.tags:
+            yield self.motion_of(drawing, self.point)
+            return
+        letter = drawing.vector.letter
+        default = symbol(f"{letter}_{self.point}")
+        yield Relation(
+            vector_of(drawing, self.start, self.image, default),
+            symbol(f"{letter}_{self.guide}"),
+            "",
+            answer(drawing, abs(float(drawing.trace.values[self.speed]))),
+            drawing.vector.caret_unit,
+            f"∥ {self.way(drawing)}",
+        )
+
+
+def slide_image(
+    pen: Pen,
+    point: str,
+    guide: str,
+    steps: tuple[int, int, int],
+    *,
+    name: str,
+    way: int,
+    told_from: int | None = None,
+) -> int:
+    """The image of a point that slides, from those of what is known of it.
+
+    ``steps`` are where it begins, the guide and the speed, ``way`` is the sense in which that is
+    counted, ``told_from`` the point from which it is said to be laid off, if not where it begins.
+    """
+    start, _, speed = steps
+    image = pen.draw(driven_slide, *steps, name=name, extra=(way,))
+    pen.make(
+        DrivenSlide(
+            point=point,
+            guide=guide,
+            start=start,
+            speed=speed,
+            told_from=start if told_from is None else told_from,
+            image=image,
+        )
+    )
+    return image

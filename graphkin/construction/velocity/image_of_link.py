@@ -1,0 +1,191 @@
+"""The image of a rigid link in a plan is a figure similar to it (Burmester, Mehmke)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any, ClassVar
+
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
+from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vocabulary import similar_point
+from graphkin.construction.velocity.crossed_image import CrossedImage
+from graphkin.drawing.symbol_markup import bar, symbol
+
+IN_LINE = 1e-9
+"""How far beside its line, in parts of its distance, a point still counts as on it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageOfLink(Construction):
+    """The ``image`` of a point ``r`` of a link, of which those of ``p`` and ``q`` are known.
+
+    ``first`` and ``second`` are their images, ``ratio`` says how r lies to p and q, and ``hand`` is
+    the step that finds the same by crossing two lines, None where similarity alone does. ``whole``
+    is the index of its own vector. ``touching`` are the names of the images where p and q are
+    points of contact.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("image",)
+    laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+
+    p: str
+    q: str
+    r: str
+    whole: str
+    first: int
+    second: int
+    ratio: int
+    hand: int | None
+    image: int
+    touching: tuple[str, ...] = ()
+
+    def symbols(self) -> Mapping[str, str]:
+        """The three points, and the bar between the first two."""
+        names = {"p": symbol(self.p), "q": symbol(self.q), "r": symbol(self.r)}
+        return {**names, "bar": bar(self.p, self.q)}
+
+    def crossing(self, drawing: Drawing) -> CrossedImage | None:
+        """The crossing that finds it by hand on a sheet; None where similarity does."""
+        if self.hand not in drawing.trace.values:
+            return None
+        assert self.hand is not None
+        kind = construction(drawing.trace.program.steps[self.hand])
+        assert isinstance(kind, CrossedImage)
+        return kind
+
+    def is_in_line(self, drawing: Drawing) -> bool:
+        """Whether the point lies on the line of the two that it follows from."""
+        ratio = drawing.trace.values[self.ratio]
+        return bool(abs(ratio.imag) <= IN_LINE * abs(ratio))
+
+    def figures(self, drawing: Drawing) -> dict[str, str]:
+        """Its name, the two similar figures, and the points of the link."""
+        steps = drawing.trace.program.steps
+        name = symbol(steps[self.image].name)
+        images = symbol(steps[self.first].name) + symbol(steps[self.second].name)
+        figure = bar(self.p, self.q) + symbol(self.r)
+        drawn = {"images": images, "image": images + name, "figure": figure}
+        return {"name": name, **drawn, **self.symbols()}
+
+    # --- drawing it ------------------------------------------------------------------------------
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point, with the sides of the image that nothing else draws."""
+        for start, end in self.undrawn_sides(canvas.drawing):
+            canvas.side(canvas.value(start), canvas.value(end))
+        canvas.image()
+
+    def undrawn_sides(self, drawing: Drawing) -> Iterator[tuple[int, int]]:
+        """The sides of the image, by the steps of their ends, along which no arrow of a plan lies.
+
+        None where the hand finds the point by crossing two lines. Three points in line have one
+        side, or, where an arrow lies along a part of it, those from each to the next.
+        """
+        if self.hand in drawing.trace.values:
+            return
+        corners = [self.first, self.second, self.image]
+        sides = [*combinations(corners, 2)]
+        bare = [side for side in sides if not is_joined(drawing, *side)]
+        if self.is_in_line(drawing):
+            share = drawing.trace.values[self.ratio].real
+            along = dict(zip(corners, (0.0, 1.0, share), strict=True))
+            whole = max(sides, key=lambda side: abs(along[side[1]] - along[side[0]]))
+            if whole not in bare:
+                return
+            bare = [whole] if bare == sides else [side for side in bare if side != whole]
+        yield from bare
+
+    # --- saying it -------------------------------------------------------------------------------
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """The similarity, or the lines that find it by hand."""
+        return "why.similar" if self.crossing(drawing) is None else "why.meet"
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The lines that find it by hand."""
+        crossing = self.crossing(drawing)
+        return crossing.said_before(drawing, role) if crossing else ()
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """The similar figures, or that the lines meet."""
+        fields = self.figures(drawing)
+        if self.crossing(drawing) is not None:
+            return drawing.words("step.meet", **fields)
+        if not self.is_in_line(drawing):
+            return drawing.words("step.similar-point", **fields)
+        if not self.touching:
+            return drawing.words("step.similar-in-line", **fields)
+        touching = dict(zip("cd", map(symbol, self.touching), strict=True))
+        return drawing.words("step.similar-touch", **touching, **fields)
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """Its vector by similarity to the link, where no lines find it."""
+        if self.crossing(drawing) is None:
+            vector = symbol(f"{drawing.vector.letter}_{self.whole}")
+            key = "similar_in_line" if self.is_in_line(drawing) else "similar"
+            fields = self.figures(drawing)
+            yield Relation(drawing.words(f"calculation.{key}", vector=vector, **fields))
+
+
+def is_joined(drawing: Drawing, one: int, other: int) -> bool:
+    """Whether a plan draws an arrow between two of its points, or points at the same places."""
+    values, near = drawing.trace.values, NOISE * drawing.largest
+    for (tail, tip), step in drawing.joins.items():
+        if drawing.number_of(step) in values and (
+            {tail, tip} == {one, other}
+            or is_same(values, (tail, tip), (one, other), near)
+            or is_same(values, (tip, tail), (one, other), near)
+        ):
+            return True
+    return False
+
+
+def is_same(
+    values: Mapping[int, Any], ends: tuple[int, int], side: tuple[int, int], near: float
+) -> bool:
+    """Whether two points of a plan lie where two others do, and stand by then."""
+    pairs = zip(ends, side, strict=True)
+    return max(ends) <= max(side) and all(abs(values[a] - values[b]) <= near for a, b in pairs)
+
+
+# --- planning it ---------------------------------------------------------------------------------
+
+
+def image_of_link(
+    pen: Pen,
+    images: tuple[int, int, int],
+    points: tuple[str, str, str],
+    *,
+    name: str = "",
+    whole: str = "",
+    hand: int | None = None,
+    touching: tuple[str, ...] = (),
+) -> int:
+    """The image of the third of three ``points``, lettered as in figures, under its ``name``.
+
+    ``images`` are the steps of the first two images and of the ratio, ``whole`` the index of its
+    vector where it is not its letter, ``hand`` the step that crosses two lines.
+    """
+    first, second, ratio = images
+    image = pen.draw(similar_point, *images, name=name, by_hand=hand)
+    p, q, r = points
+    pen.make(
+        ImageOfLink(
+            p=p,
+            q=q,
+            r=r,
+            whole=whole or r,
+            first=first,
+            second=second,
+            ratio=ratio,
+            hand=hand,
+            image=image,
+            touching=touching,
+        )
+    )
+    return image

@@ -1,0 +1,98 @@
+"""Vectors of the plans that a rate gives, which is known or tried: laid off from a known point."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from graphkin.construction.core.amounts import in_mm
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.naming import drawn_between, is_driven, rate_symbol
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.too_short import laid_off
+from graphkin.construction.higher_class.misclosure import tried_link
+from graphkin.construction.velocity.about_pivot import AboutPivot
+from graphkin.drawing.symbol_markup import symbol
+
+
+class LaidOffByRate(Construction, ABC):
+    """A vector that a rate gives, or two that follow from both rates of one link."""
+
+    @abstractmethod
+    def tried_rate(self, role: str) -> int | None:
+        """The rate by which a trial lays off the vector that ends in a role; None for others."""
+
+    @abstractmethod
+    def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
+        """What a sentence about the vector that ends in a role speaks of."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LaidOffAboutPivot(AboutPivot, LaidOffByRate):
+    """Vectors of a pin about a pivot by the rates of their ``link``."""
+
+    link: str
+
+    def is_of_driver(self, drawing: Drawing, rate: int) -> bool:
+        """Whether it is that of a crank on the frame, of which the driver's own relations tell."""
+        return is_driven(drawing, rate) and self.p in drawing.scene.frame.points
+
+    def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
+        """What a known turning gives: rate times bar, or its square for the normal component."""
+        value = abs(float(drawing.trace.values[rate]))
+        length = length_of(drawing, self.p, self.q)
+        square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
+        size = value * value * length if square else value * length
+        remark = drawing.words("calculation.square_to", bar=self.bar)
+        if square:
+            remark = laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
+        return Relation(
+            symbol(f"{drawing.vector.letter}_{self.index}{signed(sign)}"),
+            f"{rate_symbol(drawing, rate, letter)}{square}·{self.bar}",
+            f"{figure(drawing, value, 6)}{square}·{figure(drawing, length)}",
+            answer(drawing, size),
+            drawing.vector.caret_unit,
+            remark,
+            over=(self.p, self.q),
+        )
+
+
+def signed(sign: str) -> str:
+    """The sign of a component as it stands in a symbol."""
+    return f"^{sign}" if sign else ""
+
+
+def length_drawn(drawing: Drawing, tail: int, tip: int) -> str:
+    """How long a vector is drawn in its plan, in mm, without the unit."""
+    plane = drawing.trace.program.steps[tip].plane
+    return in_mm(drawing.words, drawn_between(drawing, tail, tip, plane))
+
+
+def falls(drawing: Drawing, number: int, start: str) -> str:
+    """The key of the sentence of a point that falls on its vector's ``start``: its rate is nought.
+
+    No rate is told of a trial, which tries it.
+    """
+    if not start:
+        return "step.falls-end"
+    return "step.falls" if number in drawing.tags else "step.falls-nought"
+
+
+def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
+    """The rate by which a step lays off a vector; one that a trial plan tries is its link's."""
+    if number in drawing.tags and link:
+        own, lead = symbol(f"{letter}_{link}"), tried_link(drawing, rate)
+        if lead not in ("", link):
+            return f"{own} = {symbol(f'{letter}_{lead}')}"
+        if lead or drawing.trace.program.steps[rate].name not in drawing.scene.links:
+            return own
+    return rate_symbol(drawing, rate, letter) + source_of_rate(drawing, number, rate)
+
+
+def source_of_rate(drawing: Drawing, number: int, rate: int) -> str:
+    """From what of this plan a rate is found, where it is taken the first time."""
+    steps = drawing.trace.program.steps
+    kind, action = construction(steps[rate]), steps[number].action
+    first = next(user for user in drawing.children[rate] if steps[user].action is action)
+    return kind.source_of_rate(drawing) if kind and first == number else ""

@@ -1,0 +1,88 @@
+"""Through a point of a plan the parallel to a guide: what slides can move along it only."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vocabulary import parallel_to
+from graphkin.construction.velocity.along_guide import AlongGuide
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParallelThrough(AlongGuide):
+    """The ``line`` on which the image of a point that slides on a guide must lie."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+    lines: ClassVar[Mapping[str, str]] = {"line": "∥ guide {guide}"}
+
+    line: int
+
+    @property
+    def lies_along(self) -> str:
+        """The guide."""
+        return f"the guide of {self.guide}"
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """Relative to its guide a block moves, and accelerates, along it only."""
+        velocity = drawing.trace.program.steps[self.line].plane is Plane.VELOCITIES
+        return "why.along" if velocity else "why.along_acceleration"
+
+    def symbols(self) -> Mapping[str, str]:
+        """The guide by its block."""
+        return {"g": escape(self.guide)}
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """What ends where it begins."""
+        return (self.start,)
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """Through which point it is drawn, or which end of the component laid off before."""
+        steps = drawing.trace.program.steps
+        laid = laid_off(drawing.trace.program, self.start)
+        start, key = self.start, "parallel-to"
+        if laid is not None and laid.is_short(drawing):
+            start = laid.start
+        elif not steps[start].name:
+            back = laid is not None and laid.back
+            key = "parallel-to-tail" if back else "parallel-to-end"
+        fields = {"guide": self.way(drawing), "vector": self.vector_along(drawing, self.line)}
+        return drawing.words(f"step.{key}", s=symbol(steps[start].name), **fields)
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The line, with the guide to which it is parallel."""
+        canvas.locus(f"∥{self.guide}", f"∥ {self.way(canvas.drawing)}")
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The motion along the guide of the point that is found on it."""
+        if sought := self.found_on_it(drawing):
+            yield self.motion_of(drawing, sought)
+
+    def found_on_it(self, drawing: Drawing) -> str:
+        """The point whose image is found on the line; nothing where none is."""
+        steps = drawing.trace.program.steps
+        for child in drawing.children.get(self.line, ()):
+            user = steps[drawing.results.get(child, child)]
+            kind = construction(user)
+            if found := kind.sought if kind else user.says.get("q", ""):
+                return found
+        return ""
+
+
+def parallel_through(pen: Pen, start: int, along: int, guide: str) -> int:
+    """Through a point of a plan the parallel to a line of the mechanism: a block's guide."""
+    line = pen.draw(parallel_to, start, along)
+    pen.make(ParallelThrough(guide=guide, start=start, line=line))
+    return line

@@ -1,0 +1,86 @@
+"""How a link turns: what two of its points move relative to one another, over their bar."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.relation import Relation, figure, length_of
+from graphkin.construction.core.vocabulary import epsilon, omega
+from graphkin.drawing.symbol_markup import bar, symbol
+
+ACTIONS = {"omega": omega, "epsilon": epsilon}
+"""How each rate follows from the bar and its image."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TurningOfLink(Construction):
+    """The ``rate`` of a link from the relative motion of ``q`` about ``p``, read off a plan.
+
+    ``quantity`` is omega or epsilon, ``places`` and ``images`` are the steps of both points.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("rate",)
+    vectors: ClassVar[Mapping[str, str]] = {"omega": "v_{}", "epsilon": "a_{}^τ"}
+
+    quantity: str
+    link: str
+    p: str
+    q: str
+    index: str
+    places: tuple[int, int]
+    images: tuple[int, int]
+    rate: int
+
+    def vector(self, index: str) -> str:
+        """The symbol of the relative vector that is perpendicular to the bar."""
+        return self.vectors[self.quantity].format(index)
+
+    def source_of_rate(self, drawing: Drawing) -> str:
+        """The relative vector over the bar."""
+        return f" = {symbol(self.vector(self.index))}/{bar(self.p, self.q)}"
+
+    def relation(self, drawing: Drawing, tail: tuple[str, str, str]) -> Relation:
+        """The same as it is computed; ``tail`` is the result with its unit and sense."""
+        drawn = {
+            v.symbol for _, step, _ in drawing.steps(drawing.plane) if (v := plan_vector(step))
+        }
+        vectors = [self.vector(index) for index in (self.index, self.p + self.q)]
+        relative = symbol(next((vector for vector in vectors if vector in drawn), vectors[0]))
+        length = length_of(drawing, self.p, self.q)
+        size = abs(float(drawing.trace.values[self.rate])) * length
+        size = 0.0 if drawing.turning(self.link) == 0 else size
+        figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
+        name = symbol(f"{drawing.rate.letter}_{self.link}")
+        whole, over = f"{relative}/{bar(self.p, self.q)}", (self.p, self.q)
+        return Relation(name, whole, figures, *tail, over=over)
+
+
+def turning_of_link(
+    pen: Pen,
+    quantity: str,
+    link: str,
+    letters: tuple[str, str],
+    index: str,
+    steps: tuple[tuple[int, int], tuple[int, int]],
+) -> int:
+    """The rate of a link by two of its points: their letters, and steps of places and images."""
+    places, images = steps
+    rate = pen.draw(ACTIONS[quantity], *places, *images, name=link)
+    p, q = letters
+    found = TurningOfLink(
+        quantity=quantity,
+        link=link,
+        p=p,
+        q=q,
+        index=index,
+        places=places,
+        images=images,
+        rate=rate,
+    )
+    return pen.make(found).rate
