@@ -8,9 +8,7 @@ from typing import Any
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.paper_canvas import draw_part
 from graphkin.construction.core.plan_marks import (
-    put_arc,
     put_arrow,
-    put_driver_ray,
 )
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.plot import Plot
@@ -60,8 +58,6 @@ def put_step(plot: Plot, number: int, step: Step, value: Any) -> None:
 PUTS: dict[
     tuple[Plane, str], Put
 ] = {  # the look of each action on the mechanism, and on a plan (NUMBERS)
-    (Plane.MECHANISM, "compass"): put_arc,
-    (Plane.MECHANISM, "ray"): put_driver_ray,
     (Plane.NUMBERS, "between"): put_divided,
     (Plane.NUMBERS, "line-through"): put_trial_line,
 }

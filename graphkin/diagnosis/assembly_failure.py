@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate
 from graphkin.construction.higher_class.closure_solver import (
@@ -45,11 +47,9 @@ def does_not_close(
     step = failed.step
     if isinstance(failed.__cause__, ClosingError):
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
-    if falls(step):
-        return ClosureError(no_direction(step))
+    if (open_ := undetermined(step, failed.args_found)) is not None:
+        return ClosureError(open_)
     loci = loci_of(failed.args_found)
-    if loci is not None and loci[0] == loci[1]:
-        return ClosureError(no_single_crossing(step))
     early = step.part in (Part.SHAPE, Part.POSITION)
     if not early:
         values = run_before(program, needed, failed.number, scene.values)
@@ -79,7 +79,7 @@ def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Probl
 def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
     """The problem of two loci that cross, but not where rounding has moved them to."""
     step = program.steps[number]
-    loci = "the arcs" if "q" in step.says else "the arc and the guide"
+    loci = step.of.loci if isinstance(step.of, Determined) else Determined.loci
     depth, moved = -found.missed, found.rounded - found.missed
     return Problem(
         f"position of {step.name}",
@@ -103,23 +103,14 @@ def sought(program: Program, number: int) -> str:
     step = program.steps[number]
     if step.action is not None and step.action.key == "share":
         return f"links {', '.join(closed_by(program, number))}"
-    return step.name or "-".join(step.says[key] for key in ("p", "q") if key in step.says)
+    kind = construction(step)
+    ends = kind.points if kind is not None else (step.says.get(key, "") for key in "pq")
+    return step.name or "-".join(filter(None, ends))
 
 
-def falls(step: Step) -> bool:
-    """Whether a step looks for the direction from one point to another, which fall together."""
-    return step.action is not None and step.action.key == "swing-through"
-
-
-def no_direction(step: Step) -> Problem:
-    """The problem of a slot through a pivot on which the pin in the slot has come to stand."""
-    says = step.says
-    return Problem(
-        f"position of link {says['k']}",
-        f"{says['q']} falls on {says['p']}, so that the guide through both may have any direction",
-        f"{says['q']} and {says['p']} apart",
-        f"move the driver, or give the guide an offset from {says['p']}",
-    )
+def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
+    """The problem of a step whose loci leave any place or direction open; None for others."""
+    return step.of.undetermined(args) if isinstance(step.of, Determined) else None
 
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
@@ -171,11 +162,9 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
 
 def why(scene: Scene, program: Program, failed: StepFailed) -> str:
     """Words for what hinders a step: loci that miss each other, or parallel lines."""
-    step = failed.step
-    key = step.action.key if step.action else ""
-    if key == "swing":
-        return f"{step.says['q']} stands nearer to {step.says['p']} than the guide passes it"
-    return in_line(scene, program, failed.number)
+    kind = failed.step.of
+    own = kind.failing() if isinstance(kind, Determined) else ""
+    return own or in_line(scene, program, failed.number)
 
 
 def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
@@ -189,19 +178,8 @@ def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
 
 def miss_words(scene: Scene, step: Step, missed: float) -> str:
     """By how much the loci of a step miss each other."""
-    loci = "the arcs miss each other" if "q" in step.says else "the arc misses the guide"
-    return f"{loci} by {measured(scene, missed)}"
-
-
-def no_single_crossing(step: Step) -> Problem:
-    """The problem of two bars of one length whose outer pins have come to fall together."""
-    p, q, pin = step.says["p"], step.says["q"], step.name
-    return Problem(
-        f"position of {pin}",
-        f"{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {pin} may stand anywhere about it",
-        f"{p} and {q} apart",
-        "this is a change point: move the driver",
-    )
+    apart = step.of.apart if isinstance(step.of, Determined) else Determined.apart
+    return f"{apart} by {measured(scene, missed)}"
 
 
 # --- whether loci meet, decided apart from where they do -----------------------------------------
@@ -257,8 +235,8 @@ def refuse_blind(scene: Scene, trace: Trace) -> None:
         step = program.steps[number]
         if step.hand or step.part not in MOVING or margin >= BLIND:
             continue
-        if falls(step):
-            raise ClosureError(no_direction(step))
+        if (open_ := undetermined(step, [trace.values[arg] for arg in step.args])) is not None:
+            raise ClosureError(open_)
         words = f"{in_line(scene, program, number)} as far as doubles tell, a dead point"
         raise ClosureError(not_found(program, number, words, DEAD))
 

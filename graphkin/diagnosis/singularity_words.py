@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.kind import construction, lies_along
 from graphkin.construction.core.program import Program, Step
 from graphkin.construction.higher_class.trial import needed_of
@@ -17,16 +18,9 @@ def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> st
     ``nearly`` is put before these words where the crossing is flat only.
     """
     step = program.steps[number]
-    key = step.action.key if step.action else ""
-    says, pin = step.says, step.name
-    if key == "arcs-meet" and pin and "q" in says:
-        return f"{says['p']}{pin} and {says['q']}{pin} are {nearly}in line"
-    if key == "arc-cuts-line" and pin and "p" in says:
-        return f"{says['p']}{pin} is {nearly}square to {guide_under(program, step)}"
-    if key == "swing-through":
-        return f"{says['q']} {nearly}falls on {says['p']}"
-    if key == "swing":
-        return f"{says['p']}{says['q']} is {nearly}square to the guide of {says['g']}"
+    kind, key = step.of, step.action.key if step.action else ""
+    if isinstance(kind, Determined) and (words := kind.in_line(program.steps, nearly)):
+        return words
     if key.startswith(("close", "part", "share")) and (links := closed_by(program, number)):
         bars = arms(scene, links)
         if bars:
@@ -75,23 +69,12 @@ def parallel(program: Program, step: Step, nearly: str = "") -> str:
 
 def line_words(program: Program, line: Step) -> tuple[str, bool]:
     """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
-    key, kind = line.action.key if line.action else "", construction(line)
+    kind = construction(line)
     if kind is not None and kind.perpendicular_to:
         return kind.perpendicular_to, True
     if along := lies_along(line):
         return along, False
-    if key == "shifted":
-        return line_words(program, program.steps[line.args[0]])
     return "", False
-
-
-def guide_under(program: Program, step: Step) -> str:
-    """The guide on which a step seeks its point, from the words of the lines before it."""
-    for arg in step.args:
-        words, _ = line_words(program, program.steps[arg])
-        if words:
-            return words
-    return "its guide"
 
 
 def beside_dead_point(scene: Scene, program: Program, number: int) -> str:

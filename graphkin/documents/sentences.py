@@ -8,9 +8,7 @@ from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component, component_of, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_pairs import SWINGS
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.naming import drawn_amount, height_above
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane, Step
@@ -26,8 +24,7 @@ from graphkin.construction.links.placed_point import with_starts_together
 from graphkin.construction.normal_component.component_words import with_normals_together
 from graphkin.construction.step_sentences import point_sentence
 from graphkin.documents.indices import with_indices
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import symbol
 
 TURNING = "turning"
 """The name of the last sentence where it says how the turning of links is read off."""
@@ -102,6 +99,8 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
         elif laid is not None:
             if is_own(drawing, step) and (markup := laid.sentence(drawing)):
                 yield Sentence(number, key, markup)
+        elif alone := said_alone(drawing, step):
+            yield Sentence(number, key, alone)
         elif key in OWN and is_own(drawing, step):
             if markup := OWN[key](drawing, number, step):
                 yield Sentence(number, key, markup)
@@ -114,6 +113,14 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
 def is_again(drawing: Drawing, step: Step) -> bool:
     """True for a step that the sheet before has shown: the mechanism itself."""
     return drawing.again and step.part is Part.POSITION
+
+
+def said_alone(drawing: Drawing, step: Step) -> str:
+    """What a construction says of a step that finds no point."""
+    kind = construction(step)
+    if kind is None or not is_own(drawing, step):
+        return ""
+    return kind.sentence_alone(drawing, step.role)
 
 
 def is_own(drawing: Drawing, step: Step) -> bool:
@@ -135,22 +142,7 @@ def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
 # --- sentences of their own ----------------------------------------------------------------------
 
 
-def swing_sentence(drawing: Drawing, number: int, step: Step) -> str:
-    """A lever laid through a pin; at an offset as the tangent by Thales' circle."""
-    says = step.says
-    key = "step.swing" if step.by_hand in drawing.trace.values else "step.swing-through"
-    return drawing.words(
-        key,
-        p=symbol(says["p"]),
-        q=symbol(says["q"]),
-        k=escape(says["k"]),
-        bar=bar(says["p"], says["q"]),
-        radius=drawn_amount(drawing, height_above(drawing, step)) if len(step.args) > 2 else "",
-    )
-
-
 OWN: dict[str, Callable[[Drawing, int, Step], str]] = {
-    **dict.fromkeys(SWINGS, swing_sentence),
     "close": closing_sentence,
     "share": share_sentence,
 }

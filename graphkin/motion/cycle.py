@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.construction.core.program import Target
+from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.program import Step, Target
 from graphkin.construction.core.results import gathered, row_of, rows_of
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Solution
@@ -276,10 +277,15 @@ def columns_at(
                 columns[target] = placed(columns.get(target), value, rows, len(at))
         for n, margin in trace.margins.items():
             step = piece.course.program.steps[n]
-            name = step.name or step.says.get("k", "")  # a guide through two pins finds a link
+            name = step.name or link_of(step)
             if n in piece.course.crossings and name:
                 margins.setdefault(name, np.full(len(at), np.nan))[rows] = margin
     return Columns(which, columns, margins)
+
+
+def link_of(step: Step) -> str:
+    """The link that a step finds where it finds no point."""
+    return step.of.found_link if isinstance(step.of, Determined) else step.says.get("k", "")
 
 
 def assigned(sweep: Sweep, path: Path, at: Reals, near: float) -> tuple[Any, Reals]:

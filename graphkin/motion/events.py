@@ -7,17 +7,15 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.construction.core.kind import lies_along
+from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.program import Program
 from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN
 from graphkin.motion.ends import Event
 from graphkin.motion.numbered_closures import numbered
 from graphkin.motion.pieces import ALIKE, Path
-from graphkin.numbers.plane import Circle, Line
+from graphkin.numbers.plane import Line
 
-COINCIDE = 1e-6
-"""Distance of two centres, in radii, at which they fall on one another."""
 FLAT = 0.02
 """Sine of a crossing that counts as flat beside a dead point."""
 INSIDE = 1e-7
@@ -91,32 +89,15 @@ def words(course: Course, number: int, inside: float) -> tuple[str, str]:
     """The pin that a step finds, and which lines are in line, square or parallel there."""
     program = course.program
     step = program.steps[number]
-    if step.action is not None and step.action.key == "swing-through":
-        return f"link {step.says['k']}", f"{step.says['q']} on {step.says['p']}"
+    loci = course.loci(number, inside)
+    kind = step.of if isinstance(step.of, Determined) else None
+    if kind is not None and (told := kind.at_end(program.steps, loci)) is not None:
+        return told
     pin = step.name or of_later(program, number)
-    p, q = step.says.get("p", ""), step.says.get("q", "")
-    match course.loci(number, inside):
-        case (Circle() as m, Circle() as n) if p and q:
-            if abs(m.centre - n.centre) < COINCIDE * m.radius:
-                return pin, f"{p} on {q}"
-            return pin, f"{p}, {pin} and {q} in line"
-        case (Line(), Circle()) | (Circle(), Line()) if p:
-            return pin, f"{p}-{pin} square to {guide_under(program, number)}"
+    match loci:
         case (Line(), Line()):
             return pin, f"the two lines through {pin} parallel"
     return pin, f"the loci of {pin} touch"
-
-
-def guide_under(program: Program, number: int) -> str:
-    """The guide on which a step seeks its point, from the words of the lines before it."""
-    for arg in program.steps[number].args:
-        line: int | None = arg
-        while line is not None:
-            step = program.steps[line]
-            if guide := lies_along(step):
-                return guide
-            line = next((a for a in step.args if program.steps[a].action is not None), None)
-    return "its guide"
 
 
 def of_later(program: Program, number: int) -> str:

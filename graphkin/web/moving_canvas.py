@@ -27,6 +27,7 @@ class MovingCanvas:
     faces: Any = None
     swung: Ends | None = None
     is_beyond: bool = False
+    is_end: bool = False
     stands: Any = None
     is_cut: bool = False
     endless: Ends | None = None
@@ -68,6 +69,13 @@ class MovingCanvas:
     def line_beyond(self) -> None:
         """The same, while it leads farther than its own two points."""
         self.is_beyond = True
+
+    def line_end(self, name: str) -> None:
+        """The end of the step's own line."""
+        self.is_end = True
+
+    def arc(self, name: str) -> None:
+        """The arc, which is the step's own value."""
 
     def right_angle(self, toward: Any) -> None:
         """The mark of a right angle at the beginning of the step's line."""

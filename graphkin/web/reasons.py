@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import names_in
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.coincident_images import fallen_on
 from graphkin.documents.flattest import OWN
@@ -20,9 +20,6 @@ from graphkin.text import Words
 from graphkin.web.label_names import as_labelled
 
 WHY = {
-    (Part.POSITION, "arcs-meet"): "why.arcs",
-    (Part.POSITION, "arc-cuts-line"): "why.arc",
-    (Part.POSITION, "swing-through"): "why.lever",
     (Part.VELOCITY, "between"): "why.trials",
     (Part.ACCELERATION, "between"): "why.trials",
 }
@@ -39,8 +36,6 @@ TURNS = {"velocity": "why.omega", "acceleration": "why.epsilon"}
 """Why the turning of links is read off as each sheet says."""
 NO_STEP = -1
 """Whose reason it is that belongs to no single step."""
-BY_HAND = {Plane.MECHANISM: "why.arcs"}
-"""The reason for a point of a plate that is found by two lines or arcs; in a plan they meet."""
 
 
 def reasons(
@@ -98,7 +93,7 @@ def reason(drawing: Drawing, step: Step) -> str:
     if step.action is None:
         return ""
     if step.action.key == "similar-point" and step.by_hand in drawing.trace.values:
-        return BY_HAND.get(step.plane, LAST)
+        return LAST
     return WHY.get((step.part, step.action.key), "")
 
 

@@ -248,7 +248,7 @@ class Steps(VisibleSteps):
 
     def which(self, number: int, mark: LineMark) -> int:
         """Which part of its line a mark is."""
-        if self.key(number) == "ray":
+        if self.part_of(number).is_end:
             return LAST
         if self.key(number) not in BEYOND_BOTH or number in self.binder.places.drawing.tags:
             return FULL

@@ -33,13 +33,10 @@ class PencilMark(Enum):
 COUNT = {PencilMark.POINT: 2, PencilMark.ARROW: 3}
 COUNT |= dict.fromkeys((PencilMark.LINE, PencilMark.ARC, PencilMark.WAY, PencilMark.CLOSING), 1)
 LAID = {
-    "arm",
     "beside",
     "similar-point",
 }
 """Actions that lay off a point from the one that is their first value."""
-WAYS = {"axis", "from-foot", "swing", "swing-through"}
-"""Actions whose value is a direction, as a unit vector."""
 
 
 def mark_of(step: Step, value: Any) -> PencilMark | None:
@@ -57,7 +54,8 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
         return PencilMark.ARC
     if isinstance(value, Ratio):
         return PencilMark.POINT
-    if key in WAYS:
+    kind = construction(step)
+    if key == "axis" or (kind is not None and step.role in kind.directions):
         return PencilMark.WAY
     is_laid = key in LAID or (kind is not None and step.role in kind.laid_off)
     return (

@@ -14,13 +14,12 @@ from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.grading.slips import Slip, differs, unit_ratios
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.component import component_of
+from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.program import Program
 from graphkin.construction.registry import COMPONENTS
 from graphkin.numbers.arithmetic import turn_by
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Crank
-
-REFLECTED = ("arcs-meet", "arc-cuts-line")
 
 
 def constructions(standard: Standard) -> Iterator[Slip]:
@@ -103,8 +102,8 @@ def of_sides(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
     program = standard.mechanism.program
     for number in standard.needed:
         step = program.steps[number]
-        key = step.action.key if step.action is not None else ""
-        if key in REFLECTED and step.extra and step.name and not step.hand:
+        mirrored = isinstance(step.of, Determined) and step.of.has_mirror
+        if mirrored and step.extra:
             other = replace(step, extra=tuple(-sign for sign in step.extra))
             steps = (*program.steps[:number], other, *program.steps[number + 1 :])
             yield "other_side", standard.told({}, replaced(program, steps))

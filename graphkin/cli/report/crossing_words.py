@@ -24,9 +24,7 @@ def place_words(program: Program, number: int) -> str:
     whole = next((n for n, other in enumerate(program.steps) if other.by_hand == number), None)
     if whole is not None and not step.name:
         return place_words(program, whole)
-    says, key = step.says, step.action.key if step.action else ""
-    if key == "swing-through":
-        return f"the line {says['p']}-{says['q']}"
+    key = step.action.key if step.action else ""
     kind = construction(step)
     if kind is not None and (title := kind.title(step.role)):
         return title

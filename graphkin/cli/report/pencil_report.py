@@ -31,13 +31,9 @@ DRAWN_IN = {
 }
 """Where a crossing is drawn."""
 LINES = {
-    "compass": "the arc {p}{q} about {p}",
     "line-through": "the line of the trials",
-    "ray": "the line through {p}",
 }
 """What lines and arcs are called, by the key of their sentence."""
-UNNAMED = {"ray": "guide {g}"}
-"""The same where they pass through no point with a name."""
 
 
 def pencil_record(found: Forecast) -> dict[str, Any]:
@@ -221,8 +217,6 @@ def line_words(program: Program, step: Step) -> str:
     if kind is not None:
         return kind.line_name(program.steps, step.role)
     words = LINES.get(step.action.key if step.action is not None else "")
-    if "p" in step.says and not step.says["p"]:
-        words = UNNAMED.get(step.action.key if step.action is not None else "")
     try:
         return words.format_map(step.says) if words else ""
     except KeyError:

@@ -40,6 +40,12 @@ class Canvas(Protocol):
     def line_beyond(self) -> None:
         """The same, where it leads farther than its own two points."""
 
+    def line_end(self, name: str) -> None:
+        """The end of the step's own line, beyond what is drawn on it."""
+
+    def arc(self, name: str) -> None:
+        """As much of the step's own circle as finds the points on it."""
+
     def right_angle(self, toward: Any) -> None:
         """The mark of a right angle where the step's line begins, against the way to a point."""
 

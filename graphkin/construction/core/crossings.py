@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import asin, inf, sin
 
+from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.run import Trace
 
 FAR = 1e-3
 """Sine below which the lines to a centre are parallel on paper: it is at infinity."""
-JOINED = "swing-through"
-"""The action that only joins two points, whose margin is no angle."""
 CLOSED = "part"
 """The action that takes a value from what closes a group; its first one is where loci cross."""
 
@@ -53,7 +52,13 @@ def is_drawn(step: Step, sine: float) -> bool:
     key = step.action.key if step.action is not None else ""
     centre = step.part in (Part.CENTRE, Part.POLE)
     first = key != CLOSED or step.extra == (0,)
-    return step.part is not Part.SHAPE and key != JOINED and first and not (centre and sine < FAR)
+    angle = not isinstance(step.of, Determined) or step.of.has_angle
+    return step.part is not Part.SHAPE and angle and first and not (centre and sine < FAR)
+
+
+def is_found_by_closing(step: Step) -> bool:
+    """Whether a step holds a value at which a group of higher class was found to close."""
+    return step.action is not None and step.action.key == CLOSED
 
 
 def flattest(found: tuple[Crossing, ...]) -> Crossing | None:

@@ -150,17 +150,6 @@ class Drawing:
         return start + 1j * along * float(slide.offset.si(self.scene.values)), along
 
     @cached_property
-    def pivots(self) -> Mapping[str, str]:
-        """For each block that an arc puts on its guide, the point that the arc is about."""
-        return {
-            link.name: step.says["p"]
-            for _, step, _ in self.steps(Plane.MECHANISM)
-            if step.action is not None and step.action.key == "arc-cuts-line"
-            for link in self.scene.links.values()
-            if link.slides and step.name in link.points
-        }
-
-    @cached_property
     def children(self) -> Mapping[int, tuple[int, ...]]:
         """The steps that use each step, among those that were run."""
         found: dict[int, list[int]] = {}

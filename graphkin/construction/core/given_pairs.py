@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from cmath import phase
 from collections.abc import Iterator
-from math import degrees
 
 from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.line_words import axis_of, straight
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.line_words import axis_of, heading, straight
 from graphkin.construction.core.parameter_words import after_parameter
+from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
+from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -18,8 +19,6 @@ from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Wa
 from graphkin.scene.quantity import shortest
 from graphkin.text import MINUS, Words
 
-SWINGS = ("swing", "swing-through")
-"""Actions that lay a lever through a pin."""
 WHEELS = {
     (False, False): "page.wheel",
     (False, True): "page.wheel_teeth",
@@ -57,9 +56,10 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
     words, branch, line = drawing.words, drawing.scene.branches.get(link.name), drawing.guide(slide)
     if not isinstance(branch, Way) or slide is not link.slides[0]:
         return ""
-    if line and link.name in drawing.pivots:
+    centres = tuple(centres_about(drawing, link.points))
+    if line and centres:
         side = words(f"page.{heading(line[1] * branch.way)}")
-        return words("page.way", side=side, pivot=symbol(drawing.pivots[link.name]))
+        return words("page.way", side=side, pivot=symbol(centres[-1]))
     if is_led(drawing, link, slide):
         p, q = (symbol(point) for point in slide.along or ())
         key = "half_line" if branch.way > 0 else "half_line_back"
@@ -72,9 +72,7 @@ def is_led(drawing: Drawing, link: Link, slide: Slide) -> bool:
     if not slide.along or not slide.offset.is_zero():
         return False
     ends = slide.along[0], link.points[0]
-    steps = drawing.trace.program.steps
-    swings = (step.says for step in steps if step.action and step.action.key in SWINGS)
-    return any((says["p"], says["q"]) == ends for says in swings)
+    return any(each.points == ends for each in constructions(drawing.trace.program, SwungGuide))
 
 
 def positive(drawing: Drawing, link: Link, slide: Slide) -> str:
@@ -226,9 +224,3 @@ def closures(drawing: Drawing) -> Iterator[str]:
                 number=str(branch.number),
                 axis=axis_of(drawing, scene.link(says["a"])),
             )
-
-
-def heading(way: complex) -> str:
-    """Which side of a point a direction leads to: the nearest of right, above, left, below."""
-    sides = ("right", "above", "left", "below")
-    return sides[round(degrees(phase(way)) / 90) % 4]

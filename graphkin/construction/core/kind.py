@@ -19,14 +19,15 @@ class Construction(Roles):
 
     ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,
     ``laid_off`` the roles of points that are laid off from the first value of their step,
-    ``unmarked`` those of points that a pencil need not mark, ``slips`` by what a student's slip
-    multiplies its result.
+    ``unmarked`` those of points that a pencil need not mark, ``directions`` those of unit vectors,
+    ``slips`` by what a student's slip multiplies its result.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
     lines: ClassVar[Mapping[str, str]] = {}
     laid_off: ClassVar[frozenset[str]] = frozenset()
     unmarked: ClassVar[frozenset[str]] = frozenset()
+    directions: ClassVar[frozenset[str]] = frozenset()
     slips: ClassVar[Mapping[str, complex]] = {}
 
     def reason(self, drawing: Drawing, role: str) -> str:
@@ -65,6 +66,19 @@ class Construction(Roles):
     def falls_on(self) -> int | None:
         """The step of the image on which its own falls whatever the motion; None for others."""
         return None
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The points of the mechanism that it joins."""
+        return ()
+
+    def laid_length(self, role: str) -> tuple[str, str] | None:
+        """The points whose distance is laid off at a role's step; None for other roles."""
+        return None
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """What is said of a role's step that finds no point; nothing for other roles."""
+        return ""
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that are told before the step of a role."""

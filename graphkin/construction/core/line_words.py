@@ -106,3 +106,9 @@ def is_along(block: Link, link: Link) -> bool:
 def number(drawing: Drawing, value: float) -> str:
     """A reckoned number without noughts at its end, never minus nought."""
     return drawing.words.decimal(shortest(round(value, FINE) + 0.0))
+
+
+def heading(way: complex) -> str:
+    """Which side of a point a direction leads to: the nearest of right, above, left, below."""
+    sides = ("right", "above", "left", "below")
+    return sides[round(degrees(phase(way)) / 90) % 4]

@@ -8,15 +8,12 @@ from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.numbers.plane import dot
 
 NAUGHT = 1e-6
 """A vector drawn shorter than this, in mm, is none."""
-WELL_KNOWN = {"omega": "speed", "v": "speed", "epsilon": "acceleration", "a": "acceleration"}
-"""The names of given rates of drivers, and which of their rates it is."""
 
 
 def has_plan(drawing: Drawing) -> bool:
@@ -96,8 +93,8 @@ def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
     step = drawing.trace.program.steps[number]
     if step.name in drawing.scene.links:
         return symbol(f"{letter}_{step.name}")
-    if step.given is not None and step.name in WELL_KNOWN:
-        return symbol(f"{letter}_{drawing.scene.drivers[int(step.says['d'])].link}")
+    if isinstance(step.of, Drive):
+        return symbol(f"{letter}_{drawing.scene.drivers[step.of.driver].link}")
     return f"*{letter}*"
 
 
@@ -110,8 +107,7 @@ def index_of(drawing: Drawing, says: Mapping[str, str]) -> str:
 
 def is_driven(drawing: Drawing, number: int) -> bool:
     """True for a rate that the scene gives."""
-    step = drawing.trace.program.steps[number]
-    return step.given is not None and step.name in WELL_KNOWN
+    return isinstance(drawing.trace.program.steps[number].of, Drive)
 
 
 def drawn_amount(drawing: Drawing, metres: float) -> str:
@@ -122,25 +118,6 @@ def drawn_amount(drawing: Drawing, metres: float) -> str:
 def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
     """How a vector of a given size is drawn in a plan."""
     return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
-
-
-def height_above(drawing: Drawing, step: Step) -> float:
-    """The offset of a guide that turns about a pivot, in metres, without its sign."""
-    return abs(float(drawing.trace.values[step.args[2]]))
-
-
-def share_of(drawing: Drawing, start: complex, end: complex, point: complex) -> float:
-    """Where a point of a line stands between two others."""
-    way = end - start
-    return float(dot(way, point - start) / dot(way, way))
-
-
-def beyond(drawing: Drawing, step: Step) -> str:
-    """The end of its bar beyond which a point of the line lies; nothing for one between them."""
-    first, second = step.says["p"], step.says["q"]
-    spot = drawing.standing.spot
-    share = share_of(drawing, spot(first), spot(second), spot(step.says["r"]))
-    return first if share < 0 else second if share > 1 else ""
 
 
 def names_in(says: Mapping[str, str]) -> dict[str, str]:

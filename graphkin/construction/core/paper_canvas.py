@@ -11,7 +11,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND, SWEEP
 from graphkin.construction.core.plan_marks import name_point, put_locus, put_point, put_pole
-from graphkin.construction.core.plot import Plot, above_foot, line_ends, middle
+from graphkin.construction.core.plot import Plot, above_foot, line_ends, line_part, middle
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import XY, clipped
@@ -110,6 +110,23 @@ class PaperCanvas:
         low, high = self.plot.layout.spans[self.number]
         if high - low >= 2 * BEYOND + TINY:
             self.line()
+
+    def line_end(self, name: str) -> None:
+        """The end of the step's own line, beyond what is drawn on it."""
+        high = self.plot.layout.spans[self.number][1]
+        part = line_part(self.plot, self.value(self.number), high - 2 * BEYOND, high)
+        if part:
+            line = LineMark(*part[0], *part[1], "construction", name, self.number)
+            self.plot.board.marks.append(line)
+
+    def arc(self, name: str) -> None:
+        """As much of the step's own circle as the layout says, where points were found on it."""
+        span = self.plot.layout.spans.get(self.number)
+        if span is not None:
+            circle = self.value(self.number)
+            centre, radius = self.plot.field(circle.centre), self.size(circle.radius)
+            marks = self.plot.board.marks
+            marks.append(Arc(*centre, radius, *span, "compass", name, self.number))
 
     def thin(self, start: XY, end: XY, part: str = "") -> None:
         """A construction line."""

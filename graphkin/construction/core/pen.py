@@ -158,13 +158,15 @@ class Pen:
         if number >= 0:
             self.make(replace(of, arrow=number))
 
-    def given(self, form: str, *quantities: Any, name: str = "", **says: Any) -> int:
-        """Add a value that the scene states; the same value is written down once."""
-        key = (form, quantities, name, self.plane, says.get("d"), says.get("k"))
+    def given(
+        self, form: str, *quantities: Any, name: str = "", of: int | str | None = None
+    ) -> int:
+        """Add a value that the scene states; the same value of one thing is written down once."""
+        key = (form, quantities, name, self.plane, of)
         if key not in self.shared:
             given = Given(form, quantities)
             plane = self.plane if form == "point" else Plane.NUMBERS
-            step = Step(None, (), self.part, plane, name, (), given, says=says)
+            step = Step(None, (), self.part, plane, name, (), given)
             self.shared[key] = self._add(step)
         return self.shared[key]
 
@@ -215,19 +217,16 @@ class Pen:
         number = self.scene.drivers.index(driver)
         if number not in self.drives:
             turning = driver.kind == "turn"
+            form = "direction" if turning else "length"
             with self.on(Part.SHAPE, Plane.NUMBERS):
-                self.drives[number] = Drive(
+                position, speed, acceleration = (
+                    self.given(form, driver.position, name="phi" if turning else "s", of=number),
+                    self.given("number", driver.speed, name="omega" if turning else "v", of=number),
                     self.given(
-                        "direction" if turning else "length",
-                        driver.position,
-                        name="phi" if turning else "s",
-                        d=number,
-                    ),
-                    self.given("number", driver.speed, name="omega" if turning else "v", d=number),
-                    self.given(
-                        "number", driver.acceleration, name="epsilon" if turning else "a", d=number
+                        "number", driver.acceleration, name="epsilon" if turning else "a", of=number
                     ),
                 )
+            self.drives[number] = self.make(Drive(number, position, speed, acceleration))
         return self.drives[number]
 
     def driven_angle(self, driver: Driver) -> int:
@@ -235,8 +234,8 @@ class Pen:
         drive, number = self.drive(driver), self.scene.drivers.index(driver)
         if drive.angle is None:
             with self.on(Part.SHAPE, Plane.NUMBERS):
-                angle = self.given("number", turned(self.scene, driver), name="angle", d=number)
-            self.drives[number] = drive._replace(angle=angle)
+                angle = self.given("number", turned(self.scene, driver), name="angle", of=number)
+            self.drives[number] = self.make(replace(drive, angle=angle))
             return angle
         return drive.angle
 

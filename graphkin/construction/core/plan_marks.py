@@ -14,7 +14,7 @@ from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import XY
 from graphkin.drawing.label import Label
-from graphkin.drawing.marks import Arc, CircleMark, LineMark
+from graphkin.drawing.marks import CircleMark, LineMark
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import PIN, SHORT, arrow
@@ -48,26 +48,6 @@ def beyond(plot: Plot, number: int, value: Any) -> list[tuple[XY, XY] | None]:
     first = line_part(plot, value, low, low + BEYOND)
     last = line_part(plot, value, high - BEYOND, high)
     return [first, last] if abs(low) < abs(high) else [last, first]
-
-
-def put_arc(plot: Plot, number: int, step: Step, value: Any) -> None:
-    """The part of a compass arc that finds a point."""
-    if number not in plot.layout.spans:
-        return
-    name = step.says["p"] + step.says["q"]
-    centre, radius = plot.field(value.centre), value.radius * plot.field.mm
-    span = plot.layout.spans[number]
-    plot.board.marks.append(Arc(*centre, radius, *span, "compass", name, number))
-
-
-def put_driver_ray(plot: Plot, number: int, step: Step, value: Any) -> None:
-    """The line at the driver's angle; guides are drawn with their symbols."""
-    if "g" not in step.says:
-        high = plot.layout.spans[number][1]
-        part = line_part(plot, value, high - 2 * BEYOND, high)
-        if part:
-            name = step.says.get("p", "") + step.says.get("q", "")
-            plot.board.marks.append(LineMark(*part[0], *part[1], "construction", name, number))
 
 
 def put_point(plot: Plot, number: int, step: Step, value: Any) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.vocabulary import Action
@@ -120,13 +120,17 @@ Target = tuple[str, str]
 """What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""
 
 
-class Drive(NamedTuple):
-    """The steps that hold a driver's given position, speed and acceleration.
+@dataclass(frozen=True)
+class Drive(Roles):
+    """The steps that hold the given position, speed and acceleration of a ``driver`` (a number).
 
     The position is a direction (unit complex) for one that turns, else a length in metres.
     ``angle`` holds the angle in radians too, where wheels need it; None where none does.
     """
 
+    gives: ClassVar[tuple[str, ...]] = ("position", "speed", "acceleration", "angle")
+
+    driver: int
     position: int
     speed: int
     acceleration: int

@@ -53,19 +53,6 @@ def ray(start: Point, direction: Point) -> Line:
     return Line(start, direction)
 
 
-@action("arm")
-def arm(pivot: Point, direction: Point, start: Point, end: Point, base: Point, tip: Point) -> Point:
-    """A point of a turning link from the direction of one of its lines (start to end)."""
-    line = end - start
-    return pivot + direction * (tip - base) * (abs(line) / line)
-
-
-@action("arm")
-def arm_by_axis(pivot: Point, direction: Point, base: Point, tip: Point) -> Point:
-    """A point of a turning link from the direction of the link's own x axis."""
-    return pivot + direction * (tip - base)
-
-
 @action("across")
 def across(first: Point, point: Point) -> Real:
     """How far a point of a block lies to the left of the line that its first point keeps."""

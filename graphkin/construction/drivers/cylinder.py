@@ -5,9 +5,8 @@ from __future__ import annotations
 from graphkin.construction.acceleration import acceleration
 from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
 from graphkin.construction.core.bases import under
-from graphkin.construction.core.pen import Pen, Says, image, letter, second_image
+from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import compass, ray
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.guide_actions import (
     axis_by_guide,
@@ -15,9 +14,11 @@ from graphkin.construction.guides.guide_actions import (
     length_of,
     stretch,
 )
+from graphkin.construction.guides.guide_line import guide_at
 from graphkin.construction.guides.guides import local_line
 from graphkin.construction.guides.sliding import component_between
 from graphkin.construction.links import position
+from graphkin.construction.links.compass_arc import draw_arc
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity import velocity
 from graphkin.structure.groups import Stretched
@@ -36,7 +37,7 @@ def place(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
     with pen.on(Part.POSITION, Plane.MECHANISM):
         with pen.on(Part.SHAPE, Plane.NUMBERS):
             length = pen.draw(length_of, way)
-        arc = pen.draw(compass, start, length, p=near, q=far)
+        arc = draw_arc(pen, (near, far), start, length)
     position.dyad_on(pen, shapes, group.dyad, arc)
     places = [pen.the("position", pins[link]) for link in (carrier, block)]
     ends = local_line(pen, shapes, group.slide.slide, carrier)
@@ -45,8 +46,8 @@ def place(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
         pen.want("axis", block, turn)
         pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        says: Says = {"p": near, "g": block}
-        pen.draw_shared(("guide", *group.slide.links), ray, start, turn, **says)
+        line = guide_at(pen, block, (start, near), turn)
+    pen.shared["guide", *group.slide.links] = line
 
 
 def way_between_pins(pen: Pen, shapes: LinkShapes, group: Stretched, pins: dict[str, str]) -> int:

@@ -9,8 +9,9 @@ from typing import ClassVar
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import driver_index
-from graphkin.construction.core.naming import WELL_KNOWN, has_no_length, vector_of
+from graphkin.construction.core.naming import has_no_length, vector_of
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Drive
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.guides.guide_actions import driven_slide
 from graphkin.construction.velocity.along_guide import AlongGuide
@@ -90,10 +91,8 @@ class DrivenSlide(AlongGuide, LaidOffByRate):
 
     def driver(self, drawing: Drawing) -> Driver | None:
         """The driver that gives its speed; None for one that is found or tried."""
-        rate = drawing.trace.program.steps[self.speed]
-        if rate.given is None or rate.name not in WELL_KNOWN:
-            return None
-        return drawing.scene.drivers[int(rate.says["d"])]
+        rate = drawing.trace.program.steps[self.speed].of
+        return drawing.scene.drivers[rate.driver] if isinstance(rate, Drive) else None
 
     # --- marks and relations ---------------------------------------------------------------------
 

@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.parameter_words import is_derived, reckoned
-from graphkin.construction.core.program import Plane
+from graphkin.construction.core.program import Drive, Plane
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -104,8 +104,8 @@ def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
     for _, step, _ in drawing.steps(Plane.VELOCITIES):
         kind = construction(step)
         if isinstance(kind, TurnedVelocity) and kind.p in frame:
-            rate = drawing.trace.program.steps[kind.omega]
-            if rate.given is not None and int(rate.says.get("d", -1)) == number:
+            rate = drawing.trace.program.steps[kind.omega].of
+            if isinstance(rate, Drive) and rate.driver == number:
                 yield kind.p, kind.q
 
 
@@ -210,8 +210,10 @@ def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
     """The bars that are laid off on the mechanism, those of one length together, in metres."""
     found: dict[float, list[str]] = {}
     for _, step, _ in drawing.steps(Plane.MECHANISM):
-        if step.action is not None and step.action.key in ("compass", "mark-off", "step-along"):
-            p, q = step.says["p"], step.says.get("r", step.says["q"])
+        kind = construction(step)
+        laid = kind.laid_length(step.role) if kind is not None else None
+        if laid is not None:
+            p, q = laid
             length = round(length_of(drawing, p, q), 12)
             if bar(p, q) not in found.setdefault(length, []):
                 found[length].append(bar(p, q))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.pen import Pen, Says
+from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import across, along_bar, polar, ray, shifted
+from graphkin.construction.core.vocabulary import across, polar
 from graphkin.construction.guides.guide_actions import (
     axis_along,
     axis_by_guide,
@@ -12,10 +12,15 @@ from graphkin.construction.guides.guide_actions import (
     axis_with_guide,
     beside_guide,
     gap,
-    guide_back,
     placed,
     turned,
     way_between,
+)
+from graphkin.construction.guides.guide_line import (
+    guide_along,
+    guide_at,
+    guide_through,
+    shift_guide,
 )
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.scene.model import FRAME, GuideOrTrack, Slide
@@ -60,8 +65,7 @@ def guide_line(pen: Pen, shapes: LinkShapes, slide: GuideOrTrack, on: str, name:
     """A guide or track of a known link, in the plane; its point is where coordinates begin."""
     along = slide.along if isinstance(slide, Slide) else None
     if along is not None:
-        start, end = (pen.the("position", point) for point in along)
-        return pen.draw(along_bar, start, start, end, p=along[0], g=name)
+        return guide_along(pen, name, along)
     through = slide.through
     assert through is not None
     turn = direction_on(pen, shapes, on, pen.given("direction", slide.angle))
@@ -69,8 +73,7 @@ def guide_line(pen: Pen, shapes: LinkShapes, slide: GuideOrTrack, on: str, name:
         start, p = pen.the("position", through), through
     else:
         start, p = point_on(pen, shapes, on, pen.given("point", *through)), ""
-    says: Says = {"p": p, "g": name} if isinstance(slide, Slide) else {}
-    return pen.draw(ray, start, turn, **says)
+    return guide_at(pen, name, (start, p), turn)
 
 
 def point_on(pen: Pen, shapes: LinkShapes, link: str, local: int) -> int:
@@ -94,7 +97,7 @@ def known_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, sought: str = "") -
             else:
                 first = pen.the("position", pen.scene.link(block).points[0])
                 offset = pen.given("length", pair.slide.offset)
-                line = pen.draw(guide_back, first, axis(pen, shapes, block), offset, g=block)
+                line = guide_through(pen, block, first, axis(pen, shapes, block), offset)
         pen.shared[key] = line
     return pen.shared[key]
 
@@ -132,10 +135,10 @@ def path_of_block(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, point:
         with pen.on(Part.POSITION, Plane.NUMBERS):
             pen.want("axis", block, pen.draw(axis_along, line))
     if pair.slide.offset.number(pen.scene.values) != 0:
-        line = pen.draw(shifted, line, pen.given("length", pair.slide.offset), p=block)
+        line = shift_guide(pen, block, line, pen.given("length", pair.slide.offset))
     if point != first:
         ends = shapes.local(block, first), shapes.local(block, point)
-        line = pen.draw(shifted, line, pen.draw(across, *ends), p=block)
+        line = shift_guide(pen, block, line, pen.draw(across, *ends))
     return line
 
 
@@ -152,7 +155,7 @@ def path_of_carrier(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, poin
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         along = pen.draw(way_between, *ends)
         beside = pen.draw(beside_guide, shapes.local(carrier, point), ends[0], along)
-    return pen.draw(shifted, line, beside, p=pair.block)
+    return shift_guide(pen, pair.block, line, beside)
 
 
 def lies_on(slide: Slide, point: str) -> bool:

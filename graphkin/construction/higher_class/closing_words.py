@@ -6,20 +6,17 @@ from collections.abc import Iterator, Mapping
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol
-from graphkin.construction.core.given_pairs import heading
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import arc_span
-from graphkin.construction.core.line_words import place
-from graphkin.construction.core.naming import drawn_amount, way_of
+from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.links.placed_point import PlacedPoint
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Circle
-from graphkin.scene.model import Slide
 
 IDLE = "idle "
 """What the name of a sentence that tells of an idle link begins with; the link's name follows."""
@@ -81,28 +78,11 @@ def links_drawn(drawing: Drawing, says: Mapping[str, str]) -> list[str]:
     return [name for name in names if name != cut]
 
 
-def found_place(drawing: Drawing, step: Step) -> dict[str, str]:
-    """How far from the zero of its path, and on which side of it, a group was found to close."""
-    where = drawing.trace.program.steps[step.args[1]]
-    if where.action is None or where.action.key != "part":
-        return {}
-    link, size = drawing.scene.links[step.says["k"]], float(drawing.trace.values[step.args[1]])
-    path = next(path for path in link.paths if path.on == step.says.get("h", path.on))
-    zero = path.along[0] if isinstance(path, Slide) and path.along else path.through
-    assert zero is not None
-    side = heading(drawing.trace.values[step.args[0]].along * (-1 if size < 0 else 1))
-    return {
-        "what": drawn_amount(drawing, abs(size)),
-        "side": drawing.words(f"page.{side}"),
-        "zero": place(drawing, path.on, zero, on_paper=True),
-    }
-
-
 def points_of(step: Step) -> set[str]:
     """The points of which the sentence of a step speaks."""
-    if isinstance(step.of, PlacedPoint):
-        return {step.of.start, step.of.name}
-    return {str(step.says.get(key, "")) for key in "pqr"} | {step.name}
+    kind = construction(step)
+    joined = (step.says.get(key, "") for key in "pqr") if kind is None else kind.points
+    return {step.name, *joined}
 
 
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:

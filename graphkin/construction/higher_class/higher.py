@@ -30,9 +30,10 @@ from graphkin.construction.higher_class.trial_actions import (
     sine_between,
 )
 from graphkin.construction.higher_class.trial_pen import TrialPen
+from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import plate_points
-from graphkin.construction.links.position import set_on_guide, turn_about
+from graphkin.construction.links.position import set_on_guide
 from graphkin.construction.rolling import rolling
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, TriedLink

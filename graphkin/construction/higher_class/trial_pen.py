@@ -23,9 +23,11 @@ class TrialPen(Pen):
         """A step whose value comes from outside."""
         return self._add(Step(None, (), Part.POSITION, Plane.NUMBERS, given=Given("input", ())))
 
-    def given(self, form: str, *quantities: Any, name: str = "", **says: Any) -> int:
+    def given(
+        self, form: str, *quantities: Any, name: str = "", of: int | str | None = None
+    ) -> int:
         """A value that the scene states comes in too, so that it may vary in a batch."""
-        number = self.parent.given(form, *quantities, name=name, **says)
+        number = self.parent.given(form, *quantities, name=name, of=of)
         key = ("given", number)
         if key not in self.shared:
             self.shared[key] = self.input_step()

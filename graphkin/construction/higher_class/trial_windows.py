@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from graphkin.construction.core.vocabulary import arc_cuts_line, arcs_meet
-from graphkin.construction.guides.guide_actions import swing
+from graphkin.construction.guides.swung_guide import swing
 from graphkin.numbers.plane import Circle, Line, cross
 from graphkin.numbers.roots import Array, Misfit, roots
 

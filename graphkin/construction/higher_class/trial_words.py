@@ -8,8 +8,8 @@ from itertools import groupby
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.drawn_scene import TAGS, Drawing
 from graphkin.construction.core.given_data import driver_index
-from graphkin.construction.core.given_pairs import heading
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.line_words import heading
 from graphkin.construction.core.naming import has_no_length, way_of
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import figure

@@ -87,7 +87,7 @@ def place(pen: Pen, placing: Placing, placed: Placed, name: str = "") -> int:
         case Polar(_, start, length, angle):
             turn = pen.given("direction", angle)
             distance = pen.given("length", length)
-            return pen.draw(polar, placed[start], turn, distance, name=name, p=start)
+            return pen.draw(polar, placed[start], turn, distance, name=name)
         case Triangle(_, first, second, from_first, from_second, side):
             near = pen.draw(compass, placed[first], pen.given("length", from_first))
             far = pen.draw(compass, placed[second], pen.given("length", from_second))

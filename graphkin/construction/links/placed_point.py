@@ -30,6 +30,11 @@ class PlacedPoint(Construction):
     name: str
     point: int
 
+    @property
+    def points(self) -> tuple[str, ...]:
+        """From which point it is laid off, and itself."""
+        return self.start, self.name
+
     def turned(self, drawing: Drawing) -> float | None:
         """By how many degrees the link has turned since the start; None where it is not said."""
         targets, values = drawing.trace.program.targets, drawing.trace.values

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.pen import Pen, Says
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import (
-    arcs_meet,
-    compass,
-    mark_off,
-    similar_point,
-    step_along,
-)
+from graphkin.construction.core.vocabulary import arcs_meet, mark_off, similar_point, step_along
 from graphkin.construction.guides.guides import axis
+from graphkin.construction.links.compass_arc import draw_arc
+from graphkin.construction.links.dyad_by_arcs import side_words
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
-from graphkin.numbers.plane import Line, crossing_sine
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.plane import Line, crossing_sine, dot
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
 
 CLEAR_CROSSING = 0.342
 """Sine of 20 degrees: below it a plate point is found by similarity, not by two flat lines."""
@@ -23,10 +29,127 @@ IN_LINE = 1e-9
 """How far beside its line, in parts of its distance, a plate point still counts as on it."""
 
 
+# --- what they are -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlatePoint(Construction):
+    """A ``point`` of a link, called ``name``, on its base from ``start`` to ``end``.
+
+    Its value is that of the figure similar to the link; by hand it is the ``corner``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("corner", "point")
+    laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+
+    start: str
+    end: str
+    name: str
+    point: int
+    corner: int | None = None
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The base and the point."""
+        return self.start, self.end, self.name
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """Where a hand finds it."""
+        return "why.arcs" if role == "point" and self.corner is not None else ""
+
+    def symbols(self) -> Mapping[str, str]:
+        """The base."""
+        return {"p": symbol(lettered(self.start)), "q": symbol(lettered(self.end))}
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By the hand's way; by similarity where there is none."""
+        if self.corner in drawing.trace.values:
+            return self.by_hand(drawing)
+        name, third = symbol(self.name), symbol(self.name)
+        base, figure = symbol(self.start) + symbol(self.end), bar(self.start, self.end)
+        figures = {"image": base + third, "figure": figure + third}
+        return drawing.words("step.similar-point", name=name, **figures)
+
+    def by_hand(self, drawing: Drawing) -> str:
+        """How a hand finds it."""
+        return ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlatePointByArcs(PlatePoint):
+    """A point of a plate in which the arcs ``near`` and ``far`` about the ends of its base meet."""
+
+    near: int
+    far: int
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """Both arcs."""
+        return (self.near, self.far) if self.corner in drawing.trace.values else ()
+
+    def by_hand(self, drawing: Drawing) -> str:
+        """Where they meet, and on which side of the base."""
+        assert self.corner is not None
+        side = side_words(drawing, self.corner, (self.start, self.end))
+        return drawing.words("step.arcs-meet.say", name=symbol(self.name), side=side)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointInLine(PlatePoint):
+    """A point on the line of its base, laid off from its start."""
+
+    def laid_length(self, role: str) -> tuple[str, str] | None:
+        """From the start of the base."""
+        return (self.start, self.name) if role == "corner" else None
+
+    def by_hand(self, drawing: Drawing) -> str:
+        """By its distance; beyond one of the ends on the bar produced."""
+        p, q, name = map(symbol, self.points)
+        fields = {"bar": bar(self.start, self.end), "p": p, "r": name, "name": name}
+        places = map(drawing.standing.spot, self.points)
+        share = share_of(*places)
+        if 0 <= share <= 1:
+            return drawing.words("step.step-along", **fields)
+        return drawing.words("step.step-along-beyond", start=p if share < 0 else q, **fields)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointOnLever(Construction):
+    """A ``point`` called ``name``, laid off from the pivot ``start`` on the line of a lever."""
+
+    gives: ClassVar[tuple[str, ...]] = ("point",)
+
+    start: str
+    name: str
+    point: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The pivot and the point."""
+        return self.start, self.name
+
+    def laid_length(self, role: str) -> tuple[str, str]:
+        """From the pivot."""
+        return self.start, self.name
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By its distance."""
+        name = symbol(self.name)
+        return drawing.words("step.mark-off-lever", p=symbol(self.start), q=name, name=name)
+
+
+def share_of(start: complex, end: complex, point: complex) -> float:
+    """Where a point of a line stands between two others."""
+    way = end - start
+    return float(dot(way, point - start) / dot(way, way))
+
+
+# --- drawing them --------------------------------------------------------------------------------
+
+
 def arc(pen: Pen, shapes: LinkShapes, link: str, centre: str, point: str) -> int:
     """The arc on which a point of a bar lies about its other end."""
     length = shapes.length(link, centre, point)
-    return pen.draw(compass, pen.the("position", centre), length, p=centre, q=point)
+    return draw_arc(pen, (centre, point), pen.the("position", centre), length)
 
 
 def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
@@ -37,25 +160,22 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
         if base.end is None or "@" in base.end:
             found = set_by_axis(pen, shapes, base, point)
         else:
-            ends = pen.the("position", base.start), pen.the("position", base.end)
-            ratio = shapes.ratio(base.link, base.start, base.end, point)
-            by_hand = hands_way(pen, shapes, base, point)
-            with pen.on(Part.POSITION, Plane.MECHANISM):
-                says: Says = {"p": base.start, "q": base.end, "r": point}
-                found = pen.draw(similar_point, *ends, ratio, name=point, by_hand=by_hand, **says)
+            found = set_by_base(pen, shapes, base, point)
         pen.want("position", point, found)
 
 
-def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, point: str) -> int:
+def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
     """A point of a link that is turned to its axis already; on its own guide it is laid off."""
     line = pen.shared.get(("swing", base.link))
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        if line is not None and runs_along(pen, base, point):
-            length = shapes.length(base.link, base.start, point)
-            return pen.draw(mark_off, line, length, name=point, p=base.start, q=point)
+        if line is not None and runs_along(pen, base, name):
+            length = shapes.length(base.link, base.start, name)
+            point = pen.draw(mark_off, line, length, name=name)
+            pen.make(PointOnLever(start=base.start, name=name, point=point))
+            return point
         here = (pen.the("position", base.start), axis(pen, shapes, base.link))
-        ends = shapes.local(base.link, base.start), shapes.local(base.link, point)
-        return place_point(pen, base.link, (base.start, point), *here, *ends)
+        ends = shapes.local(base.link, base.start), shapes.local(base.link, name)
+        return place_point(pen, base.link, (base.start, name), *here, *ends)
 
 
 def runs_along(pen: Pen, base: Base, point: str) -> bool:
@@ -67,30 +187,35 @@ def runs_along(pen: Pen, base: Base, point: str) -> bool:
     return False
 
 
-def hands_way(pen: Pen, shapes: LinkShapes, base: Base, point: str) -> int | None:
-    """An arc about each end of the base; on its own line the distance is laid off."""
+def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
+    """A point of a link on its base: by hand an arc about each end, on its line the distance."""
     assert base.end is not None
-    ratio = pen.peek(shapes.ratio(base.link, base.start, base.end, point))
-    if ratio is None or ratio == 0:
-        return None
-    if abs(ratio.imag) > IN_LINE * abs(ratio):
-        return two_arcs(pen, shapes, base, point)
-    start, end = pen.the("position", base.start), pen.the("position", base.end)
-    length = shapes.length(base.link, base.start, point)
-    sense = 1 if ratio.real > 0 else -1
+    ends = pen.the("position", base.start), pen.the("position", base.end)
+    ratio = shapes.ratio(base.link, base.start, base.end, name)
+    own: dict[str, Any] = {"start": base.start, "end": base.end, "name": name}
+    value = pen.peek(ratio)
+    if not value:
+        return similar_on(pen, PlatePoint(**own, point=0), *ends, ratio)
+    if abs(value.imag) <= IN_LINE * abs(value):
+        length = shapes.length(base.link, base.start, name)
+        with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
+            sense = 1 if value.real > 0 else -1
+            corner = pen.draw(step_along, ends[0], *ends, length, extra=(sense,))
+        return similar_on(pen, PointInLine(**own, point=0, corner=corner), *ends, ratio)
     with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
-        says: Says = {"p": base.start, "q": base.end, "r": point}
-        return pen.draw(step_along, start, start, end, length, extra=(sense,), **says)
+        near = arc(pen, shapes, base.link, base.start, name)
+        far = arc(pen, shapes, base.link, base.end, name)
+        corner = pen.draw(arcs_meet, near, far, extra=(1 if value.imag > 0 else -1,))
+    by_arcs = PlatePointByArcs(**own, point=0, corner=corner, near=near, far=far)
+    return similar_on(pen, by_arcs, *ends, ratio)
 
 
-def two_arcs(pen: Pen, shapes: LinkShapes, base: Base, point: str) -> int:
-    """The hand's way to a plate point: an arc about each end of the base."""
-    assert base.end is not None
-    side = 1 if pen.peek(shapes.ratio(base.link, base.start, base.end, point)).imag > 0 else -1
-    with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
-        near = arc(pen, shapes, base.link, base.start, point)
-        far = arc(pen, shapes, base.link, base.end, point)
-        return pen.draw(arcs_meet, near, far, extra=(side,), p=base.start, q=base.end)
+def similar_on(pen: Pen, kind: PlatePoint, start: int, end: int, ratio: int) -> int:
+    """The value of a plate's point: the third point of the figure similar to the link."""
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        point = pen.draw(similar_point, start, end, ratio, name=kind.name, by_hand=kind.corner)
+    pen.make(replace(kind, point=point))
+    return point
 
 
 def crosses_well(pen: Pen, ratio: int) -> bool:

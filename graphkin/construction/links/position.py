@@ -3,40 +3,23 @@
 from __future__ import annotations
 
 from graphkin.construction.core.bases import crank_tip, led_point
-from graphkin.construction.core.pen import Pen, Says
+from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import (
-    arc_cuts_line,
-    arcs_meet,
-    arm,
-    arm_by_axis,
-    compass,
-    mark_off,
-    meet,
-    ray,
-)
-from graphkin.construction.guides.guide_actions import (
-    axis_by_guide,
-    axis_with_guide,
-    from_foot,
-    half,
-    middle,
-    set_at,
-    set_back,
-    size,
-    swing,
-    swing_through,
-    turned_back,
-)
+from graphkin.construction.guides.dyad_by_arc_and_guide import cut_line
+from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
+from graphkin.construction.guides.guide_line import cross_guides
 from graphkin.construction.guides.guides import (
     axis,
     direction_on,
-    height_of,
     known_guide,
     local_line,
     path_of,
     turned_with,
 )
+from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
+from graphkin.construction.guides.swung_guide import swing_guide
+from graphkin.construction.links.driven_crank import turn_about
+from graphkin.construction.links.dyad_by_arcs import meet_arcs
 from graphkin.construction.links.link_shapes import LinkShapes, place
 from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.construction.rolling import rolling
@@ -79,35 +62,6 @@ def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
             turn_about(pen, shapes, link, ends, (), pen.draw(turned_back, lead, given))
 
 
-def turn_about(
-    pen: Pen,
-    shapes: LinkShapes,
-    link: str,
-    ends: tuple[str, str | None],
-    line: tuple[str, ...],
-    turn: int,
-) -> None:
-    """Set a link at its pivot so that one of its lines (its x axis if none) has a direction."""
-    pivot, tip = ends
-    start = pen.the("position", pivot)
-    if not line:
-        pen.want("axis", link, turn)
-    if tip is None:
-        if line:
-            here = [shapes.local(link, point) for point in line]
-            pen.want("axis", link, pen.draw(axis_by_guide, turn, *here))
-        return
-    if line == (pivot, tip):
-        way = pen.draw(ray, start, turn, p=pivot, k=link)
-        length = shapes.length(link, pivot, tip)
-        found = pen.draw(mark_off, way, length, name=tip, p=pivot, q=tip)
-    else:
-        locals_ = [shapes.local(link, point) for point in (*line, pivot, tip)]
-        action = arm if line else arm_by_axis
-        found = pen.draw(action, start, turn, *locals_, name=tip, p=pivot, q=tip, k=link)
-    pen.want("position", tip, found)
-
-
 def axis_line(link: Link) -> tuple[str, ...]:
     """The two points along the x axis of a link given by lengths; none when it has its own axes."""
     return link.points[:2] if any(isinstance(each, Apart) for each in link.placings) else ()
@@ -126,16 +80,16 @@ def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
 def set_on_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, link: str, where: int) -> None:
     """A point of a link at a coordinate of the guide on which it slides, or which it carries."""
     point = pen.bases[link].start
-    says: Says = {"q": point, "g": pair.links[0], "k": link, "h": partner(pair, link)}
+    sides = link, partner(pair, link)
     line = path_of(pen, shapes, pair, link, point)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         if pair.block == link:
-            found = pen.draw(set_at, line, where, name=point, **says)
+            found = set_point(pen, point, sides, line, where)
         else:
             zero = known_guide(pen, shapes, pair, link)
             through = local_line(pen, shapes, pair.slide, link)[0]
             ends = shapes.local(link, point), through, axis(pen, shapes, link)
-            found = pen.draw(set_back, zero, where, *ends, name=point, **says)
+            found = set_carrier(pen, point, sides, zero, where, *ends)
     pen.want("position", point, found)
 
 
@@ -148,7 +102,7 @@ def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
         case Pin(), Pin(), _:
             dyad_on(pen, shapes, group, first_arc(pen, shapes, group))
         case Pin(), Sliding(), Pin():
-            swivelling(pen, shapes, group)
+            swing_guide(pen, shapes, group)
         case _, Pin(point=pin), _:
             two_guides(pen, shapes, pin, (group.left, group.right), group.links)
         case Pin(), Sliding() as inner, Sliding() as right:
@@ -176,8 +130,8 @@ def two_bars(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
     with pen.on(Part.POSITION, Plane.MECHANISM):
         far = arc(pen, shapes, group.links[1], right, pin)
         side, extra = pen.choice(group)
-        says: Says = {"p": left.partition("@")[0], "q": right}
-        found = pen.draw(arcs_meet, near, far, *side, name=pin, extra=extra, **says)
+        centres = left.partition("@")[0], right
+        found = meet_arcs(pen, pin, centres, (near, far), *side, sign=extra)
     pen.want("position", pin, found)
 
 
@@ -188,7 +142,7 @@ def bar_and_guide(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
     path = led_path(pen, shapes, group.right, link, pin)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         way, extra = pen.choice(group)
-        found = pen.draw(arc_cuts_line, path, near, *way, name=pin, extra=extra, p=left)
+        found = cut_line(pen, pin, left, (path, near), *way, sign=extra)
     pen.want("position", pin, found)
     if isinstance(group.right, Contact):
         rolling.touch_and_turn(pen, shapes, group.right)
@@ -214,61 +168,9 @@ def two_guides(
 ) -> None:
     """A point that two guides lead: where their lines cross."""
     paths = [led_path(pen, shapes, *each, point) for each in zip(pairs, links, strict=True)]
-    names = [pair.links[0] for pair in pairs]
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        found = pen.draw(meet, *paths, name=point, g=names[0], h=names[1])
+        found = cross_guides(pen, point, *paths)
     pen.want("position", point, found)
-
-
-def swivelling(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
-    """A dyad RPR: the guide through one pin and, at its height, the other; its link's axis."""
-    assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
-    assert isinstance(group.inner, Sliding)
-    first, second = group.links
-    block, carrier = group.inner.links
-    pins = {first: group.left.point, second: group.right.point}
-    places = [pen.the("position", pins[link]) for link in (carrier, block)]
-    height = height_of(pen, shapes, group.inner, pins)
-    way, extra = pen.choice(group)
-    breadth = breadth_about(pen, places[0])
-    says: Says = {"p": pins[carrier], "q": pins[block], "k": carrier, "g": block}
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        if height is None:
-            turn = pen.draw(swing_through, *places, *way, extra=(*extra, breadth), **says)
-        else:
-            by_hand = None if way else tangent(pen, places, height, extra[0], says)
-            sized = (*extra, breadth)
-            turn = pen.draw(swing, *places, height, *way, extra=sized, by_hand=by_hand, **says)
-        pen.draw_shared(("swing", carrier), ray, places[0], turn, p=pins[carrier], g=block)
-    ends = local_line(pen, shapes, group.inner.slide, carrier)
-    with pen.on(Part.POSITION, Plane.NUMBERS):
-        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
-        pen.want("axis", block, turn)
-    pen.want("position", pen.bases[carrier].end or "", places[1])
-
-
-def breadth_about(pen: Pen, pivot: int) -> float:
-    """The largest distance of a point that stands already from a pivot; nought if none is known."""
-    start = pen.peek(pivot)
-    stands = [number for (what, _), number in pen.targets.items() if what == "position"]
-    places = [pen.peek(number) for number in stands]
-    if start is None:
-        return 0.0
-    return max((abs(place - start) for place in places if place is not None), default=0.0)
-
-
-def tangent(pen: Pen, places: list[int], height: int, way: int, says: Says) -> int | None:
-    """The hand's way to an offset guide: the tangent to a circle, by Thales's circle."""
-    value = pen.peek(height)
-    if not value:
-        return None
-    pivot, pin = places
-    with pen.hands_way():
-        small = pen.draw(compass, pivot, pen.draw(size, height), **says)
-        large = pen.draw(compass, pen.draw(middle, pivot, pin), pen.draw(half, pivot, pin), **says)
-        side = 1 if value * way > 0 else -1
-        foot = pen.draw(arcs_meet, small, large, extra=(side,), **says)
-        return pen.draw(from_foot, foot, pin, extra=(way,), **says)
 
 
 def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:

@@ -113,6 +113,11 @@ class CentrePath(Construction):
     track: int
     line: int
 
+    @property
+    def lies_along(self) -> str:
+        """As the guide of its wheel."""
+        return f"the guide of {self.wheel}"
+
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The track."""
         return (self.track,)

@@ -9,8 +9,8 @@ from graphkin.construction.core.bases import contact_name, no_construction, unde
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, coordinate, difference, sum_of
-from graphkin.construction.guides.guide_actions import set_at
 from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
+from graphkin.construction.guides.set_by_coordinate import set_at, set_point
 from graphkin.construction.links.counted_turn import CountedTurn, counted_link, counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
@@ -105,7 +105,7 @@ def set_on_track(pen: Pen, shapes: LinkShapes, contact: Contact, centre: str, wa
     """A wheel that has rolled a way along a straight track: centre, contact, axis."""
     path = path_of_centre(pen, shapes, contact)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        found = pen.draw(set_at, path, way, name=centre, q=centre, k=contact.links[0])
+        found = set_point(pen, centre, contact.links, path, way)
     pen.want("position", centre, found)
     touch_and_turn(pen, shapes, contact)
 
@@ -259,7 +259,7 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
         if driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
         near = pen.near.get(link, exact(0, "deg"))
-        ends = pen.given("direction", near, k=link), pen.given("number", near, k=link)
+        ends = pen.given("direction", near, of=link), pen.given("number", near, of=link)
         found = pen.draw(counted_near, axis(pen, shapes, link), *ends)
         if pen.turns(link):
             pen.make(CountedTurn(link=link, heading=ends[0], radians=ends[1], turn=found))

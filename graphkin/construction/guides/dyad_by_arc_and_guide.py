@@ -1,0 +1,84 @@
+"""The pin between a bar and a link that a guide or a track leads: an arc cuts its line in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphkin.construction.core.determined import Determined, which_side
+from graphkin.construction.core.kind import lies_along
+from graphkin.construction.core.line_words import heading
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Step
+from graphkin.construction.core.vocabulary import arc_cuts_line
+from graphkin.drawing.symbol_markup import symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@dataclass(frozen=True, kw_only=True)
+class DyadByArcAndGuide(Determined):
+    """The ``pin`` called ``name``, in which the ``arc`` about ``centre`` cuts the line ``path``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("pin",)
+    reasons: ClassVar[Mapping[str, str]] = {"pin": "why.arc"}
+    loci: ClassVar[str] = "the arc and the guide"
+    apart: ClassVar[str] = "the arc misses the guide"
+    has_mirror: ClassVar[bool] = True
+
+    name: str
+    centre: str
+    path: int
+    arc: int
+    pin: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The centre of the arc, and the pin."""
+        return self.centre, self.name
+
+    def symbols(self) -> Mapping[str, str]:
+        """The centre of the arc."""
+        return {"p": symbol(lettered(self.centre))}
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The line and the arc."""
+        return self.path, self.arc
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """Where the arc cuts the line, and on which side of its centre that is."""
+        along = drawing.trace.values[self.path].along * which_side(drawing, self.pin)
+        side = drawing.words(f"page.{heading(along)}")
+        fields = {"name": symbol(self.name), "p": symbol(self.centre), "side": side}
+        return drawing.words("step.arc-cuts-line", **fields)
+
+    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+        """The bar and the guide."""
+        guide = lies_along(steps[self.path]) or "its guide"
+        return f"{self.centre}{self.name} is {nearly}square to {guide}"
+
+    def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:
+        """The bar perpendicular to the guide."""
+        if not loci:
+            return None
+        guide = lies_along(steps[self.path]) or "its guide"
+        return self.name, f"{self.centre}-{self.name} square to {guide}"
+
+
+def cut_line(
+    pen: Pen, name: str, centre: str, loci: tuple[int, int], *way: int, sign: tuple[int, ...]
+) -> int:
+    """The pin in which an arc cuts a line: on a stated side, or on that which a step says."""
+    pin = pen.draw(arc_cuts_line, *loci, *way, name=name, extra=sign)
+    pen.make(DyadByArcAndGuide(name=name, centre=centre, path=loci[0], arc=loci[1], pin=pin))
+    return pin
+
+
+def centres_about(drawing: Drawing, points: Sequence[str]) -> Iterator[str]:
+    """The centres of the arcs that find some points on their guides."""
+    for _, step, _ in drawing.mechanism_steps():
+        if isinstance(step.of, DyadByArcAndGuide) and step.of.name in points:
+            yield step.of.centre

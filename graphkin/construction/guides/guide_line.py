@@ -1,0 +1,171 @@
+"""Lines of guides in the plane, and the parallels to them on which points move."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import degrees
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.vocabulary import action, along_bar, meet, ray, shifted
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Line
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.construction.core.program import Step
+
+
+@action("guide-back")
+def guide_back(first: Point, axis: Point, offset: Real) -> Line:
+    """The line of a guide from the block on it: the block stands its offset to the left."""
+    return Line(first - 1j * axis * offset, axis)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuideLine(Construction):
+    """The ``line`` of the guide of a ``block``, through the point ``start`` if that has a name."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+
+    block: str
+    start: str
+    line: int
+
+    @property
+    def lies_along(self) -> str:
+        """The guide itself."""
+        return f"the guide of {self.block}"
+
+    def line_name(self, steps: Sequence[Step], role: str) -> str:
+        """By the point that it passes through, or its block."""
+        return f"the line through {self.start}" if self.start else f"guide {self.block}"
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """The only guide needs no name."""
+        links = drawing.scene.links
+        if sum(len(link.paths) for link in links.values()) == 1 and links[self.block].slides:
+            return drawing.words("step.guide")
+        return drawing.words("step.guide-named", guide=way_of(drawing, self.block))
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuideAlongBar(GuideLine):
+    """The ``line`` along a bar that stands already."""
+
+    def line_name(self, steps: Sequence[Step], role: str) -> str:
+        """None: the bar is no line of its own."""
+        return ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuideThroughBlock(Construction):
+    """The ``line`` of a guide through its ``block``, which is turned to an ``axis`` already."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+
+    block: str
+    axis: int
+    line: int
+
+    @property
+    def lies_along(self) -> str:
+        """The guide itself."""
+        return f"the guide of {self.block}"
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """Through the point of the block; at an angle where that was found with a group."""
+        words, steps = drawing.words, drawing.trace.program.steps
+        point = symbol(drawing.scene.links[self.block].points[0])
+        fields = {"q": point, "guide": way_of(drawing, self.block)}
+        if not is_found_by_closing(steps[self.axis]):
+            return words("step.guide-back", **fields)
+        angle = words.fixed(degrees(phase(drawing.trace.values[self.line].along)), 1)
+        return words("step.guide-back-found", angle=angle, **fields)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShiftedGuide(Construction):
+    """The parallel ``line`` to the line ``guide`` of a ``block``, on which a point moves."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line",)
+
+    block: str
+    guide: int
+    line: int
+
+    @property
+    def lies_along(self) -> str:
+        """The guide."""
+        return f"the guide of {self.block}"
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The guide."""
+        return (self.guide,)
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """By the offset."""
+        return drawing.words("step.shifted")
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidesMeet(Construction):
+    """The ``point`` called ``name``, where the lines ``one`` and ``other`` of guides meet."""
+
+    gives: ClassVar[tuple[str, ...]] = ("point",)
+
+    name: str
+    one: int
+    other: int
+    point: int
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """Both lines."""
+        return self.one, self.other
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """Where they meet."""
+        return drawing.words("step.meet", name=symbol(self.name))
+
+
+def guide_at(pen: Pen, block: str, through: tuple[int, str], direction: int) -> int:
+    """The line of a guide through a point, whose name is beside it, in a direction."""
+    start, name = through
+    line = pen.draw(ray, start, direction)
+    pen.make(GuideLine(block=block, start=name, line=line))
+    return line
+
+
+def guide_along(pen: Pen, block: str, bar: tuple[str, str]) -> int:
+    """The line of a guide along a bar, from its first point."""
+    start, end = (pen.the("position", point) for point in bar)
+    line = pen.draw(along_bar, start, start, end)
+    pen.make(GuideAlongBar(block=block, start=bar[0], line=line))
+    return line
+
+
+def guide_through(pen: Pen, block: str, first: int, axis: int, offset: int) -> int:
+    """The line of a guide from the block on it."""
+    line = pen.draw(guide_back, first, axis, offset)
+    pen.make(GuideThroughBlock(block=block, axis=axis, line=line))
+    return line
+
+
+def shift_guide(pen: Pen, block: str, guide: int, offset: int) -> int:
+    """The parallel to the line of a guide at an offset."""
+    line = pen.draw(shifted, guide, offset)
+    pen.make(ShiftedGuide(block=block, guide=guide, line=line))
+    return line
+
+
+def cross_guides(pen: Pen, name: str, one: int, other: int) -> int:
+    """The point in which the lines of two guides meet."""
+    point = pen.draw(meet, one, other, name=name)
+    pen.make(GuidesMeet(name=name, one=one, other=other, point=point))
+    return point

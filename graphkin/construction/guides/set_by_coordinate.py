@@ -1,0 +1,113 @@
+"""Links set at a coordinate of their guide or track: a driver gives it, or a group closes there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.line_words import heading, place
+from graphkin.construction.core.naming import drawn_amount
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Drive
+from graphkin.construction.core.vocabulary import action
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Line
+from graphkin.scene.model import Slide
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("set-at")
+def set_at(line: Line, coordinate: Real) -> Point:
+    """The point of a guide at a coordinate."""
+    return line.point + line.along * (coordinate / abs(line.along))
+
+
+@action("set-back")
+def set_back(line: Line, coordinate: Real, here: Point, through: Point, axis: Point) -> Point:
+    """A point of the link that carries a guide, from where its block stands on it."""
+    zero = line.point - line.along * (coordinate / abs(line.along))
+    return zero + axis * (here - through)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetByCoordinate(Construction):
+    """The ``point`` of a ``link`` at the coordinate ``where`` of its ``path`` on a link ``on``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("point",)
+
+    link: str
+    on: str
+    path: int
+    where: int
+    point: int
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """Its path."""
+        return (self.path,)
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By its coordinate; by where it lies from the zero where a group was found to close."""
+        name = symbol(drawing.trace.program.steps[self.point].name)
+        if not is_found_by_closing(drawing.trace.program.steps[self.where]):
+            return drawing.words("step.set-at", name=name, what=self.coordinate(drawing))
+        size = float(drawing.trace.values[self.where])
+        paths = drawing.scene.links[self.link].paths
+        path = next(path for path in paths if path.on == self.on)
+        zero = path.along[0] if isinstance(path, Slide) and path.along else path.through
+        assert zero is not None
+        side = heading(drawing.trace.values[self.path].along * (-1 if size < 0 else 1))
+        return drawing.words(
+            "step.set-at-found",
+            name=name,
+            what=drawn_amount(drawing, abs(size)),
+            side=drawing.words(f"page.{side}"),
+            zero=place(drawing, path.on, zero, on_paper=True),
+        )
+
+    def coordinate(self, drawing: Drawing) -> str:
+        """The coordinate, by the letter of the driver that gives it, or as it is drawn."""
+        amount = drawn_amount(drawing, float(drawing.trace.values[self.where]))
+        drive = drawing.trace.program.steps[self.where].of
+        if not isinstance(drive, Drive) or drive.position != self.where:
+            return amount
+        return f"{angle_symbol(drawing.scene, drawing.scene.drivers[drive.driver])} ({amount})"
+
+
+@dataclass(frozen=True, kw_only=True)
+class CarrierSetByCoordinate(SetByCoordinate):
+    """A ``point`` of the ``link`` that carries a guide, from where the block on it stands."""
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """Nothing: the guide comes with its link."""
+        return ()
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By the coordinate of the block."""
+        name = symbol(drawing.trace.program.steps[self.point].name)
+        what = self.coordinate(drawing)
+        return drawing.words("step.set-back", name=name, k=escape(self.link), what=what)
+
+
+def set_point(pen: Pen, name: str, pair: tuple[str, str], path: int, where: int) -> int:
+    """A point of a link, the first of a pair, at a coordinate of its path on the other."""
+    point = pen.draw(set_at, path, where, name=name)
+    link, on = pair
+    pen.make(SetByCoordinate(link=link, on=on, path=path, where=where, point=point))
+    return point
+
+
+def set_carrier(
+    pen: Pen, name: str, pair: tuple[str, str], zero: int, where: int, *ends: int
+) -> int:
+    """A point of a link that carries a guide: ``zero`` is the guide where its block stands."""
+    point = pen.draw(set_back, zero, where, *ends, name=name)
+    link, on = pair
+    pen.make(CarrierSetByCoordinate(link=link, on=on, path=zero, where=where, point=point))
+    return point

@@ -1,0 +1,282 @@
+"""A guide that turns about a pivot and leads a pin: laid through both, or as a tangent from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.naming import drawn_amount
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.vocabulary import action, arcs_meet, compass, ray
+from graphkin.construction.guides.guide_actions import axis_by_guide
+from graphkin.construction.guides.guides import height_of, local_line
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
+from graphkin.structure.groups import Dyad
+from graphkin.structure.pairs import Pin, Sliding
+from graphkin.text.errors import Problem
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
+
+# --- their values --------------------------------------------------------------------------------
+
+
+def swing_margin(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Real:
+    """Cosine of the angle between the guide and the line of its two pins.
+
+    Pins much nearer to one another than the mechanism is large (``size``) tell the direction as
+    badly as a flat crossing: it is then that of the foot and the size.
+    """
+    bar = abs(pin - pivot)
+    return sqrt((bar - height) * (bar + height)) / pick(bar < size, size, bar)
+
+
+@action("swing", margin=swing_margin)
+def swing(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Point:
+    """Direction of a guide that turns about a pivot and keeps a pin at a height to its left.
+
+    The pin lies ahead of the pivot (way +1) or behind it (-1); nearer than the height it raises.
+    """
+    line = pin - pivot
+    bar = abs(line)
+    foot = way * sqrt((bar - height) * (bar + height))
+    return line / bar * (at(foot, -height) / bar)
+
+
+def through_margin(pivot: Point, pin: Point, way: int, size: float) -> Real:
+    """Distance of the pins over the size of the mechanism, where it is less: else 1."""
+    bar = abs(pin - pivot)
+    return bar / pick(bar < size, size, bar)
+
+
+@action("swing-through", margin=through_margin)
+def swing_through(pivot: Point, pin: Point, way: int, size: float) -> Point:
+    """Direction of a guide whose line passes through both pins: from the pivot to the pin, or back.
+
+    The pin on the pivot raises: any direction would do.
+    """
+    line = way * (pin - pivot)
+    return line / abs(line)
+
+
+@action("middle")
+def middle(p: Point, q: Point) -> Point:
+    """The point halfway between two."""
+    return (p + q) / 2
+
+
+@action("half")
+def half(p: Point, q: Point) -> Real:
+    """Half the distance of two points: the radius of Thales's circle on them."""
+    return abs(q - p) / 2
+
+
+@action("size")
+def size(height: Real) -> Real:
+    """The height without its sign: the radius of the circle that the guide touches."""
+    return abs(height)
+
+
+@action("from-foot")
+def from_foot(foot: Point, pin: Point, way: int) -> Point:
+    """Direction of the tangent from its foot to the pin."""
+    line = way * (pin - foot)
+    return line / abs(line)
+
+
+# --- what they are -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class SwungGuide(Determined):
+    """A guide of a ``link`` that turns about its ``pivot`` and leads the ``pin`` of a ``block``.
+
+    It gives its direction ``turn`` and its ``line``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("turn", "line")
+    directions: ClassVar[frozenset[str]] = frozenset({"turn"})
+    lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
+
+    link: str
+    block: str
+    pivot: str
+    pin: str
+    turn: int
+    line: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Both pins."""
+        return self.pivot, self.pin
+
+    @property
+    def found_link(self) -> str:
+        """The link that it turns."""
+        return self.link
+
+    @property
+    def lies_along(self) -> str:
+        """The guide itself."""
+        return f"the guide of {self.block}"
+
+    def symbols(self) -> Mapping[str, str]:
+        """Both pins, and the link that turns."""
+        p, q = (symbol(lettered(point)) for point in self.points)
+        return {"p": p, "q": q, "k": escape(self.link)}
+
+    def fields(self) -> Mapping[str, str]:
+        """What its sentence speaks of."""
+        p, q = map(symbol, self.points)
+        return {"p": p, "q": q, "k": escape(self.link), "bar": bar(self.pivot, self.pin)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuideThroughPins(SwungGuide):
+    """A guide whose line passes through both pins."""
+
+    reasons: ClassVar[Mapping[str, str]] = {"turn": "why.lever"}
+    has_angle: ClassVar[bool] = False
+
+    def title(self, role: str) -> str:
+        """By its pins."""
+        return f"the line {self.pivot}-{self.pin}"
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """Joining them."""
+        return drawing.words("step.swing-through", **self.fields()) if role == "turn" else ""
+
+    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+        """Pins at one place."""
+        return f"{self.pin} {nearly}falls on {self.pivot}"
+
+    def undetermined(self, args: Sequence[Any]) -> Problem:
+        """Where the pin has come to stand on the pivot."""
+        p, q = self.pivot, self.pin
+        return Problem(
+            f"position of link {self.link}",
+            f"{q} falls on {p}, so that the guide through both may have any direction",
+            f"{q} and {p} apart",
+            f"move the driver, or give the guide an offset from {p}",
+        )
+
+    def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str]:
+        """Pins at one place."""
+        return f"link {self.link}", f"{self.pin} on {self.pivot}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class TangentGuide(SwungGuide):
+    """A guide that keeps the pin at a ``height`` to its left: a tangent of the circle about its
+    pivot.
+
+    By hand the ``small`` circle has the height as its radius, the ``large`` one is that of Thales
+    on both pins; they meet in the ``foot`` of the ``tangent``.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("small", "large", "foot", "tangent", "turn", "line")
+    directions: ClassVar[frozenset[str]] = frozenset({"tangent", "turn"})
+    lines: ClassVar[Mapping[str, str]] = {
+        **SwungGuide.lines,
+        **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
+    }
+
+    height: int
+    small: int | None = None
+    large: int | None = None
+    foot: int | None = None
+    tangent: int | None = None
+
+    def laid_length(self, role: str) -> tuple[str, str] | None:
+        """The distance of the pins, of which Thales's circle needs half."""
+        return (self.pivot, self.pin) if role == "large" else None
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """As much of both circles as finds the foot."""
+        if role in ("small", "large"):
+            canvas.arc(self.pivot + self.pin)
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """By Thales's circle, where it is drawn."""
+        if role != "turn":
+            return ""
+        if self.tangent not in drawing.trace.values:
+            return drawing.words("step.swing-through", **self.fields())
+        radius = drawn_amount(drawing, abs(float(drawing.trace.values[self.height])))
+        return drawing.words("step.swing", radius=radius, **self.fields())
+
+    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+        """The line of the pins and the guide."""
+        return f"{self.pivot}{self.pin} is {nearly}square to the guide of {self.block}"
+
+    def failing(self) -> str:
+        """A pin within the circle that the guide touches."""
+        return f"{self.pin} stands nearer to {self.pivot} than the guide passes it"
+
+
+# --- drawing them --------------------------------------------------------------------------------
+
+
+def swing_guide(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+    """A dyad RPR: the guide through one pin and, at its height, the other; its link's axis."""
+    assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
+    assert isinstance(group.inner, Sliding)
+    first, second = group.links
+    block, carrier = group.inner.links
+    pins = {first: group.left.point, second: group.right.point}
+    places = [pen.the("position", pins[link]) for link in (carrier, block)]
+    height = height_of(pen, shapes, group.inner, pins)
+    way, extra = pen.choice(group)
+    sized = (*extra, breadth_about(pen, places[0]))
+    own: dict[str, Any] = {"link": carrier, "block": block}
+    own |= {"pivot": pins[carrier], "pin": pins[block]}
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        by_hand: dict[str, Any] = {}
+        if height is None:
+            turn = pen.draw(swing_through, *places, *way, extra=sized)
+        else:
+            by_hand = {} if way else tangent(pen, places, height, extra[0])
+            last = by_hand.get("tangent")
+            turn = pen.draw(swing, *places, height, *way, extra=sized, by_hand=last)
+        line = pen.draw_shared(("swing", carrier), ray, places[0], turn)
+    if height is None:
+        pen.make(GuideThroughPins(**own, turn=turn, line=line))
+    else:
+        pen.make(TangentGuide(**own, turn=turn, line=line, height=height, **by_hand))
+    ends = local_line(pen, shapes, group.inner.slide, carrier)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
+        pen.want("axis", block, turn)
+    pen.want("position", pen.bases[carrier].end or "", places[1])
+
+
+def breadth_about(pen: Pen, pivot: int) -> float:
+    """The largest distance of a point that stands already from a pivot; zero if none is known."""
+    start = pen.peek(pivot)
+    stands = [number for (what, _), number in pen.targets.items() if what == "position"]
+    places = [pen.peek(number) for number in stands]
+    if start is None:
+        return 0.0
+    return max((abs(place - start) for place in places if place is not None), default=0.0)
+
+
+def tangent(pen: Pen, places: list[int], height: int, way: int) -> dict[str, int]:
+    """The hand's way to an offset guide: the tangent to a circle, by Thales's circle."""
+    value = pen.peek(height)
+    if not value:
+        return {}
+    pivot, pin = places
+    with pen.hands_way():
+        small = pen.draw(compass, pivot, pen.draw(size, height))
+        large = pen.draw(compass, pen.draw(middle, pivot, pin), pen.draw(half, pivot, pin))
+        foot = pen.draw(arcs_meet, small, large, extra=(1 if value * way > 0 else -1,))
+        last = pen.draw(from_foot, foot, pin, extra=(way,))
+    return {"small": small, "large": large, "foot": foot, "tangent": last}

@@ -1,0 +1,57 @@
+"""The arc that a compass draws about one end of a bar: its other end lies on it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import drawn_amount
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.vocabulary import compass
+from graphkin.drawing.symbol_markup import bar, symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompassArc(Construction):
+    """The ``arc`` of a ``radius`` about the point ``centre``, on which a ``point`` lies."""
+
+    gives: ClassVar[tuple[str, ...]] = ("arc",)
+    lines: ClassVar[Mapping[str, str]] = {"arc": "the arc {centre}{point} about {centre}"}
+
+    centre: str
+    point: str
+    radius: int
+    arc: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Both ends of the bar."""
+        return self.centre, self.point
+
+    def laid_length(self, role: str) -> tuple[str, str]:
+        """The opening of the compass."""
+        return self.centre, self.point
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """As much of the arc as finds the point."""
+        canvas.arc(self.centre + self.point)
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """By the bar; the scene states its length, or it is told as it is drawn."""
+        opening = bar(self.centre, self.point)
+        if drawing.trace.program.steps[self.radius].given is None:
+            opening += f" ({drawn_amount(drawing, float(drawing.trace.values[self.radius]))})"
+        return drawing.words("step.compass", p=symbol(self.centre), bar=opening)
+
+
+def draw_arc(pen: Pen, ends: tuple[str, str], centre: int, radius: int) -> int:
+    """The arc about the first of two points on which the second lies."""
+    arc = pen.draw(compass, centre, radius)
+    pen.make(CompassArc(centre=ends[0], point=ends[1], radius=radius, arc=arc))
+    return arc

@@ -1,0 +1,153 @@
+"""Links turned about a pivot: to the angle of a driver, or to one at which a group closes."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import degrees
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.core.amounts import in_degrees
+from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.line_words import axis_of
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.vocabulary import action, mark_off, ray
+from graphkin.construction.guides.guide_actions import axis_by_guide
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.scene.model import FRAME
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("arm")
+def arm(pivot: Point, direction: Point, start: Point, end: Point, base: Point, tip: Point) -> Point:
+    """A point of a turning link from the direction of one of its lines (start to end)."""
+    line = end - start
+    return pivot + direction * (tip - base) * (abs(line) / line)
+
+
+@action("arm")
+def arm_by_axis(pivot: Point, direction: Point, base: Point, tip: Point) -> Point:
+    """A point of a turning link from the direction of the link's own x axis."""
+    return pivot + direction * (tip - base)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrivenCrank(Construction):
+    """A bar of a driven ``link`` from its ``pivot``: laid off to its ``tip``, called ``name``, on
+    the ``line`` at the driver's angle."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line", "tip")
+    lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
+
+    link: str
+    pivot: str
+    name: str
+    line: int
+    tip: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Both ends of the bar."""
+        return self.pivot, self.name
+
+    def laid_length(self, role: str) -> tuple[str, str] | None:
+        """The bar."""
+        return (self.pivot, self.name) if role == "tip" else None
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The end of the line, beyond the bar."""
+        if role == "line":
+            canvas.line_end(self.pivot)
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The line."""
+        return (self.line,) if role == "tip" else ()
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """The line at its angle: to the axis of the frame, or to a line of a moving link.
+
+        Where the pivot ends that link's bar it is the bar produced.
+        """
+        scene, words = drawing.scene, drawing.words
+        driver = next(d for d in scene.drivers if d.link == self.link)
+        size = in_degrees(scene, words, driver.position)
+        angle = angle_symbol(scene, driver) + (f" = {size}" if size else "")
+        fields = {"p": symbol(self.pivot), "angle": angle}
+        if driver.against == FRAME:
+            return words("step.ray", **fields)
+        other = scene.links[driver.against]
+        line = axis_of(drawing, other)
+        ends = other.points[1:2] == (self.pivot,) and line == bar(*other.points[:2])
+        return words("step.ray-produced" if ends else "step.ray-against", line=line, **fields)
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """The bar laid off."""
+        p, name = symbol(self.pivot), symbol(self.name)
+        return drawing.words("step.mark-off", p=p, q=name, name=name)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TurnedLink(Construction):
+    """The ``tip``, called ``name``, of a ``link`` that is turned about its ``pivot`` as ``turn``
+    says."""
+
+    gives: ClassVar[tuple[str, ...]] = ("tip",)
+    laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+
+    link: str
+    pivot: str
+    name: str
+    turn: int
+    tip: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The pivot and the tip."""
+        return self.pivot, self.name
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By its angle; by that of the bar in the plane where it was found with a group."""
+        words, spot = drawing.words, drawing.standing.spot
+        fields = {"p": symbol(self.pivot), "name": symbol(self.name)}
+        if not is_found_by_closing(drawing.trace.program.steps[self.turn]):
+            return words("step.arm", k=escape(self.link), **fields)
+        angle = words.fixed(degrees(phase(spot(self.name) - spot(self.pivot))), 1)
+        return words("step.arm-found", bar=bar(self.pivot, self.name), angle=angle, **fields)
+
+
+def turn_about(
+    pen: Pen,
+    shapes: LinkShapes,
+    link: str,
+    ends: tuple[str, str | None],
+    line: tuple[str, ...],
+    turn: int,
+) -> None:
+    """Set a link at its pivot so that one of its lines (its x axis if none) has a direction."""
+    pivot, tip = ends
+    start = pen.the("position", pivot)
+    if not line:
+        pen.want("axis", link, turn)
+    if tip is None:
+        if line:
+            here = [shapes.local(link, point) for point in line]
+            pen.want("axis", link, pen.draw(axis_by_guide, turn, *here))
+        return
+    if line == (pivot, tip):
+        way = pen.draw(ray, start, turn)
+        found = pen.draw(mark_off, way, shapes.length(link, pivot, tip), name=tip)
+        pen.make(DrivenCrank(link=link, pivot=pivot, name=tip, line=way, tip=found))
+    else:
+        locals_ = [shapes.local(link, point) for point in (*line, pivot, tip)]
+        found = pen.draw(arm if line else arm_by_axis, start, turn, *locals_, name=tip)
+        pen.make(TurnedLink(link=link, pivot=pivot, name=tip, turn=turn, tip=found))
+    pen.want("position", tip, found)

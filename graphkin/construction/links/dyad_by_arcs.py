@@ -1,0 +1,105 @@
+"""The pin between two bars whose outer pins stand: two arcs meet in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphkin.construction.core.determined import Determined, which_side
+from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Step
+from graphkin.construction.core.vocabulary import arcs_meet
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.text.errors import Problem
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+COINCIDE = 1e-6
+"""Distance of two centres, in radii, below which they fall together."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DyadByArcs(Determined):
+    """The ``pin`` called ``name``, in which the arcs ``near`` about ``left`` and ``far`` about
+    ``right`` meet."""
+
+    gives: ClassVar[tuple[str, ...]] = ("pin",)
+    reasons: ClassVar[Mapping[str, str]] = {"pin": "why.arcs"}
+    loci: ClassVar[str] = "the arcs"
+    apart: ClassVar[str] = "the arcs miss each other"
+    has_mirror: ClassVar[bool] = True
+
+    name: str
+    left: str
+    right: str
+    near: int
+    far: int
+    pin: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Its outer pins and the inner one."""
+        return self.left, self.right, self.name
+
+    def symbols(self) -> Mapping[str, str]:
+        """The outer pins."""
+        return {"p": symbol(lettered(self.left)), "q": symbol(lettered(self.right))}
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """Both arcs."""
+        return self.near, self.far
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """Where they meet, and on which side of the line of their centres."""
+        side = side_words(drawing, self.pin, (self.left, self.right))
+        return drawing.words("step.arcs-meet.say", name=symbol(self.name), side=side)
+
+    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+        """The two bars."""
+        return f"{self.left}{self.name} and {self.right}{self.name} are {nearly}in line"
+
+    def undetermined(self, args: Sequence[Any]) -> Problem | None:
+        """Of two bars of one length whose outer pins fall together the pin may stand anywhere."""
+        if args[0] != args[1]:
+            return None
+        p, q, pin = self.left, self.right, self.name
+        anywhere = f"{pin} may stand anywhere about it"
+        return Problem(
+            f"position of {pin}",
+            f"{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {anywhere}",
+            f"{p} and {q} apart",
+            "this is a change point: move the driver",
+        )
+
+    def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:
+        """The three pins in line, or both outer ones at one place."""
+        if not loci:
+            return None
+        near, far = loci
+        if abs(near.centre - far.centre) < COINCIDE * near.radius:
+            return self.name, f"{self.left} on {self.right}"
+        return self.name, f"{self.left}, {self.name} and {self.right} in line"
+
+
+def side_words(drawing: Drawing, number: int, centres: tuple[str, str]) -> str:
+    """On which side of the way from one centre to the other two arcs meet."""
+    fields = {"p": symbol(centres[0]), "q": symbol(centres[1])}
+    return drawing.words(f"step.arcs-meet.side{which_side(drawing, number):+d}", **fields)
+
+
+def meet_arcs(
+    pen: Pen,
+    name: str,
+    centres: tuple[str, str],
+    arcs: tuple[int, int],
+    *side: int,
+    sign: tuple[int, ...],
+) -> int:
+    """The pin in which two arcs meet: on a stated side, or on that which a step says."""
+    pin = pen.draw(arcs_meet, *arcs, *side, name=name, extra=sign)
+    left, right = centres
+    pen.make(DyadByArcs(name=name, left=left, right=right, near=arcs[0], far=arcs[1], pin=pin))
+    return pin
