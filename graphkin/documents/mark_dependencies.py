@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.program import CONTACT
 from graphkin.construction.guides.slide_symbols import frame_guides, places_of
 from graphkin.construction.links.plates import corners_of, farthest
 from graphkin.construction.rolling.wheel_symbols import is_all_wheel, straight_tracks
@@ -46,7 +45,6 @@ def rests_on(drawing: Drawing, mark: Mark) -> Iterator[Target]:
         yield from of_driver(drawing, driver)
     else:
         yield "position", name
-        yield "position", CONTACT + name
 
 
 def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
@@ -73,7 +71,7 @@ def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
 def contacts_of(drawing: Drawing, link: Link) -> list[str]:
     """The points at which the wheels of a link touch their tracks."""
     touches = [touch for touch in drawing.standing.touches if touch.disc.link == link.name]
-    return [CONTACT + drawing.standing.name_at(touch.at) for touch in touches]
+    return [drawing.standing.name_at(touch.at) for touch in touches]
 
 
 def is_carrier(drawing: Drawing, link: Link) -> bool:

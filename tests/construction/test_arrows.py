@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.construction.core.program import CONTACT, Plane
+from graphkin.construction.core.program import ContactName, Plane
 from tests.chance.checking import case
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import mechanism_named
@@ -99,8 +99,8 @@ def small(name):
 def test_the_ends_of_a_relative_velocity_bear_the_letters_of_its_index(name):
     """But for the pole, on which what is fixed falls, and for contacts that plates carry."""
     program = mechanism_named(name).program
-    points = {of for _, of in program.targets if of.startswith(CONTACT)}
-    contacts = {small(point.removeprefix(CONTACT)) for point in points}
+    points = {of for _, of in program.targets if isinstance(of, ContactName)}
+    contacts = {small(point) for point in points}
     for step in keyed(program, "join"):
         letters = {small(step.of.q), small(step.of.p)}
         if step.plane is Plane.VELOCITIES and step.of.p and not letters & contacts:

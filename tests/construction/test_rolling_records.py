@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 from graphkin.construction.core.kind import construction, constructions
-from graphkin.construction.core.program import CONTACT
+from graphkin.construction.core.program import ContactName
 from graphkin.construction.rolling.common_normal import CommonNormal
 from graphkin.construction.rolling.contact_points import CentrePath, PointOfContact, Track
 from graphkin.construction.rolling.rolling_normal import RollingNormal
@@ -36,7 +36,9 @@ def test_each_contact_has_one_record_with_its_wheel_and_what_that_rolls_on(name)
     program = mechanism(name).program
     found = {(each.wheel, each.on): each for each in constructions(program, PointOfContact)}
     assert set(found) == {each.links for each in contacts(mechanism(name).scene)}
-    places = {number for (_, point), number in program.targets.items() if point[:1] == CONTACT}
+    places = {
+        number for (_, point), number in program.targets.items() if isinstance(point, ContactName)
+    }
     assert {each.point for each in found.values()} <= places
 
 
@@ -66,7 +68,7 @@ def test_a_common_normal_and_the_path_of_a_centre_are_parallel_to_what_they_name
     trace, spot = made.trace(made.asked()), {}
     for (what, of), number in made.program.targets.items():
         if what == "position" and number in trace.values:
-            spot[of.removeprefix(CONTACT)] = trace.values[number]
+            spot[of] = trace.values[number]
     for each in constructions(made.program, CommonNormal):
         if each.line in trace.values:
             along = trace.values[each.line].along / (spot[each.q] - spot[each.p])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import image, letter, second_image
-from graphkin.construction.core.program import CONTACT, Part, Program
+from graphkin.construction.core.program import ContactName, Part, Program
 from graphkin.diagnosis.singularity_words import closed_by
 from graphkin.text.plain_table import listed
 
@@ -55,7 +55,7 @@ def point_words(program: Program, name: str) -> str:
     bare = name.rstrip(TAGS)
     for quantity, point in program.targets:
         if quantity == "position" and bare in (letter(point), image(point), second_image(point)):
-            own, _, link = point.removeprefix(CONTACT).partition("@")
-            words = f"the contact {own}" if point.startswith(CONTACT) else own
+            own, _, link = point.partition("@")
+            words = f"the contact {own}" if isinstance(point, ContactName) else own
             return f"{words} on link {link}" if link else words
     return name

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphkin.construction.core.program import CONTACT
+from graphkin.construction.core.program import ContactName
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
     Crank,
@@ -47,15 +47,12 @@ def base_of(scene: Scene, link: str, start: str, end: str | None) -> Base:
 
 def under(point: str, link: str) -> str:
     """Name of the point of a link under another link's point."""
-    return f"{point}@{link}"
+    return type(point)(f"{point}@{link}")
 
 
-def contact_name(contact: Contact) -> str:
-    """Name of the point where a wheel touches what it rolls on: their common centre.
-
-    The mark before it keeps it apart from the points of the scene.
-    """
-    return CONTACT + contact.letter
+def contact_name(contact: Contact) -> ContactName:
+    """Name of the point where a wheel touches what it rolls on: their common centre."""
+    return ContactName(contact.letter)
 
 
 def crank_tip(scene: Scene, crank: Crank) -> str | None:

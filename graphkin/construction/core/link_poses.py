@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.core.bodies import Disc, Guideway, Touch
-from graphkin.construction.core.program import CONTACT
+from graphkin.construction.core.program import ContactName
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Apart, At, Link, Polar, Rolling, Scene, Slide, Wheel
@@ -69,7 +69,7 @@ class LinkPoses:
     def name_at(self, place: complex) -> str:
         """The name of a point of the drawing that no link owns, where it stands; else nothing."""
         near = APART * self.size
-        found = (n for n in self.known if n.startswith(CONTACT) and "@" not in n)
+        found = (n for n in self.known if isinstance(n, ContactName) and "@" not in n)
         return next((lettered(n) for n in found if abs(self.known[n] - place) <= near), "")
 
     @cached_property
@@ -253,7 +253,7 @@ def lettered(point: str) -> str:
 
     A comma keeps the link apart where the point's own name ends in digits or the link has a word.
     """
-    name, _, link = point.removeprefix(CONTACT).partition("@")
+    name, _, link = point.partition("@")
     apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
     return name + apart + link
 

@@ -13,7 +13,7 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import (
-    CONTACT,
+    ContactName,
     Drive,
     Given,
     Part,
@@ -301,25 +301,25 @@ def image(point: str) -> str:
     """
     name, link = ends_of(point)
     small = name.lower() if name.lower() not in (name, "o") else name.lower() + "_v"
-    return f"{small}_{link}" if link and not point.startswith(CONTACT) else small
+    return f"{small}_{link}" if link and not isinstance(point, ContactName) else small
 
 
 def second_image(point: str) -> str:
     """Name of a point's image in the acceleration plan: the small letter with a prime."""
     small, _, index = image(point).partition("_")
-    link = ends_of(point)[1] if point.startswith(CONTACT) else ""
+    link = ends_of(point)[1] if isinstance(point, ContactName) else ""
     return f"{small}{PRIME}_{index or link}" if index or link else small + PRIME
 
 
 def ends_of(point: str) -> tuple[str, str]:
-    """The name of a point without the mark of a contact, and the link that it is of."""
-    name, _, link = point.removeprefix(CONTACT).partition("@")
+    """The name of a point, and the link that it is of."""
+    name, _, link = point.partition("@")
     return name, link
 
 
 def letter(point: str) -> str:
     """A point as the index of a velocity, or in a bar: a contact's is of both its links."""
-    return ends_of(point)[0] if point.startswith(CONTACT) else owned(point)
+    return ends_of(point)[0] if isinstance(point, ContactName) else owned(point)
 
 
 def owned(point: str) -> str:
@@ -341,7 +341,7 @@ def about(pen: Pen, pin: str, pivot: str) -> str:
 def against(pen: Pen, pin: str, pivot: str) -> str:
     """Index of a relative velocity: B alone about what is fixed, or touches what is."""
     rests = pen.the("velocity", pivot) == pen.pole(Plane.VELOCITIES)
-    fixed = pivot in pen.scene.frame.points or (pivot.startswith(CONTACT) and rests)
+    fixed = pivot in pen.scene.frame.points or (isinstance(pivot, ContactName) and rests)
     return letter(pin) if fixed else letter(pin) + letter(pivot)
 
 

@@ -113,8 +113,12 @@ class Step:
 PLACES = ("axis", "guide", "track", "rolled")
 """Quantities that tell how links and guides lie: the drawing needs them, no answer does."""
 
-CONTACT = "~"
-"""The first letter of the names of points of contact, which belong to no scene."""
+
+class ContactName(str):
+    """The name of a point of contact, which belongs to no scene: T, and T@3 as one of link 3."""
+
+    __slots__ = ()
+
 
 Target = tuple[str, str]
 """What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any
 
-from graphkin.construction.core.program import CONTACT, Part
+from graphkin.construction.core.program import ContactName, Part
 from graphkin.construction.core.quantities import QUANTITIES, Whose
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
@@ -46,7 +46,7 @@ def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
             if (value := trace.value(target, name)) is not None
         }
         for name in names
-        if not name.startswith(CONTACT)
+        if not isinstance(name, ContactName)
     }
     return {name: own for name, own in found.items() if own}
 

@@ -14,7 +14,7 @@ from graphkin.construction.core.pen import (
     owned,
     second_image,
 )
-from graphkin.construction.core.program import CONTACT, Part, Plane
+from graphkin.construction.core.program import ContactName, Part, Plane
 from graphkin.construction.core.vocabulary import in_proportion
 from graphkin.construction.velocity.image_of_link import image_of_link
 from graphkin.construction.velocity.translated_image import translated_image
@@ -89,7 +89,7 @@ def shifted(pen: Pen, link: str, point: str, quantity: str) -> int:
     """The image of a point of a link that only shifts: on that of its others, under its letter."""
     start, name = pen.bases[link].start, under(point, link)
     number = pen.the(quantity, start)
-    if point in pen.scene.link(link).points or point.startswith(CONTACT):
+    if point in pen.scene.link(link).points or isinstance(point, ContactName):
         return number
     if not pen.has(quantity, name):
         called = image(name) if quantity == "velocity" else second_image(name)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from graphkin.construction.acceleration.tangential_direction import tangential_direction
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.arrows import (
@@ -168,7 +170,9 @@ def train(pen: Pen, group: Train) -> None:
     velocity_arrows(pen, centre, None)
 
 
-def on_line_of(pen: Pen, names: list[str], images: list[int], centre: str) -> tuple[int, int, int]:
+def on_line_of(
+    pen: Pen, names: Sequence[str], images: list[int], centre: str
+) -> tuple[int, int, int]:
     """Two images and the ratio in which a wheel's centre divides the way of its contacts."""
     places = [pen.the("position", each) for each in (*names, centre)]
     with pen.on(Part.SHAPE, Plane.NUMBERS):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen, against, image, letter
-from graphkin.construction.core.program import CONTACT
+from graphkin.construction.core.program import ContactName
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import square_to
 from graphkin.construction.velocity.about_pivot import AboutPivot
@@ -66,7 +66,7 @@ def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
     ends = pen.the("position", pivot), pen.the("position", pin)
     line = pen.draw(square_to, start, *ends)
     index, contact = q + ("" if p in pen.scene.frame.points else p), ""
-    if pivot.startswith(CONTACT):
+    if isinstance(pivot, ContactName):
         index, contact = against(pen, pin, pivot), image(pivot)
     names = {"p": p, "q": q, "index": index, "whole": q, "base": p}
     pen.make(PerpendicularThrough(**names, start=start, line=line, contact=contact))
