@@ -8,7 +8,7 @@ import pytest
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.link_poses import lettered
-from graphkin.construction.core.program import CONTACT
+from graphkin.construction.core.program import ContactName
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, proved
@@ -51,7 +51,7 @@ def test_a_point_of_contact_has_one_velocity_under_one_name(name):
     found = [r for _, section in relations(drawings(name)) for r in section if r.result]
     assert not [r.left for r in found if r.remark == "no slip"]
     (velocity, *_) = drawings(name)
-    contacts = {of for what, of in velocity.trace.program.targets if of[:1] == CONTACT}
+    contacts = {of for what, of in velocity.trace.program.targets if isinstance(of, ContactName)}
     linked = {lettered(of) for of in contacts if "@" in of}
     assert linked
     symbols = {step.of.symbol for _, step, _ in velocity.steps(velocity.plane) if step.arrow}
