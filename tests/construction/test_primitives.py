@@ -22,6 +22,7 @@ from hypothesis.errors import NoSuchExample, UnsatisfiedAssumption
 from graphkin.construction.centres.acceleration_poles import acceleration_pole
 from graphkin.construction.centres.instant_centre import instant_centre
 from graphkin.construction.core import vocabulary
+from graphkin.construction.links import dyad_by_arcs
 from graphkin.construction.normal_component import normal_component
 from graphkin.numbers.plane import (
     Circle,
@@ -221,7 +222,7 @@ def test_the_margin_of_two_arcs_is_the_sine_of_their_crossing(sample):
         product = (d + r + t) * (d + r - t) * (d - r + t) * (r + t - d)
         assume(product > 0 and not touching(r, t, d))
         sine = mpmath.sqrt(product) / (2 * r * t)
-        found = vocabulary.arcs_meet.margin(m, n, side)
+        found = dyad_by_arcs.arcs_meet.margin(m, n, side)
         smaller = min(r, t)
         assert abs(found - sine) <= 16 * EPS * ((r + t + d) / smaller / sine)
 

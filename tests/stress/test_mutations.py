@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.construction.core import vocabulary
+from graphkin.construction.links import compass_arc, dyad_by_arcs
 from graphkin.numbers.arithmetic import FLOAT
 from tests.construction.test_primitives import (
     EPS,
@@ -76,8 +77,8 @@ def by_differences(u: complex, t: complex, v: complex, w: complex) -> complex:
     for time in (h, -h):
         p, q = v * time - u, w * time - t
         try:
-            m, n = vocabulary.compass(p, abs(u)), vocabulary.compass(q, abs(t))
-            found = [vocabulary.arcs_meet(m, n, way) for way in (side, -side)]
+            m, n = compass_arc.compass(p, abs(u)), compass_arc.compass(q, abs(t))
+            found = [dyad_by_arcs.arcs_meet(m, n, way) for way in (side, -side)]
         except (ValueError, ZeroDivisionError):
             return 0j
         places.append(min(found, key=abs))

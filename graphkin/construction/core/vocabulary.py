@@ -12,16 +12,11 @@ from typing import Any
 
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import (
-    Circle,
     Line,
     Vector,
-    circle_meets_circle,
-    circles_sine,
     cross,
     crossing_sine,
     dot,
-    line_circle_sine,
-    line_meets_circle,
     line_meets_line,
 )
 
@@ -59,36 +54,6 @@ def across(first: Point, point: Point) -> Real:
     return (point - first).imag
 
 
-@action("shifted")
-def shifted(line: Line, offset: Real) -> Line:
-    """The parallel to a line at a distance to its left."""
-    return Line(line.point + 1j * line.along * (offset / abs(line.along)), line.along)
-
-
-@action("mark-off")
-def mark_off(line: Line, length: Real) -> Point:
-    """The point at a given distance along a line."""
-    return line.point + line.along * (length / abs(line.along))
-
-
-@action("compass")
-def compass(centre: Point, radius: Real) -> Circle:
-    """The circle about a point with a given opening of the compass."""
-    return Circle(centre, radius)
-
-
-@action("arcs-meet", margin=lambda m, n, side: circles_sine(m, n))
-def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
-    """Where two arcs meet, on one side of the way from the first centre to the second."""
-    return circle_meets_circle(m, n, side)
-
-
-@action("arc-cuts-line", margin=lambda line, circle, way: line_circle_sine(line, circle))
-def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
-    """Where an arc cuts a line, farther along it or nearer."""
-    return line_meets_circle(line, circle, way)
-
-
 @action("distance")
 def distance(p: Point, q: Point) -> Real:
     """Distance of two points."""
@@ -108,26 +73,6 @@ def part_along(line: Line, o: Point, image: Point) -> Real:
 
 
 # --- the shape of a link, in its own axes --------------------------------------------------------
-
-
-@action("step-along")
-def step_along(start: Point, first: Point, second: Point, length: Real, sense: int) -> Point:
-    """A point at a distance from ``start`` the way from ``first`` to ``second``, or back."""
-    way = second - first
-    return start + way * (sense * length / abs(way))
-
-
-@action("polar")
-def polar(start: Point, direction: Point, length: Real) -> Point:
-    """A point at a distance from another in a given direction."""
-    return start + direction * length
-
-
-@action("angled")
-def angled(vertex: Point, arm: Point, turn: Point, length: Real) -> Point:
-    """A point at a distance from the vertex, turned from an arm of the angle."""
-    way = arm - vertex
-    return vertex + way * turn * (length / abs(way))
 
 
 @action("in-proportion")

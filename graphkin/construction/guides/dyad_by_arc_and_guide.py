@@ -12,11 +12,19 @@ from graphkin.construction.core.line_words import heading
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.vocabulary import arc_cuts_line
+from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Circle, Line, line_circle_sine, line_meets_circle
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("arc-cuts-line", margin=lambda line, circle, way: line_circle_sine(line, circle))
+def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
+    """Where an arc cuts a line, farther along it or nearer."""
+    return line_meets_circle(line, circle, way)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,7 +12,7 @@ from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.vocabulary import action, along_bar, meet, ray, shifted
+from graphkin.construction.core.vocabulary import action, along_bar, meet, ray
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
@@ -26,6 +26,12 @@ if TYPE_CHECKING:
 def guide_back(first: Point, axis: Point, offset: Real) -> Line:
     """The line of a guide from the block on it: the block stands its offset to the left."""
     return Line(first - 1j * axis * offset, axis)
+
+
+@action("shifted")
+def shifted(line: Line, offset: Real) -> Line:
+    """The parallel to a line at a distance to its left."""
+    return Line(line.point + 1j * line.along * (offset / abs(line.along)), line.along)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import across, polar
+from graphkin.construction.core.vocabulary import across
 from graphkin.construction.guides.guide_actions import (
     axis_along,
     axis_by_guide,
@@ -22,7 +22,7 @@ from graphkin.construction.guides.guide_line import (
     guide_through,
     shift_guide,
 )
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import LinkShapes, polar
 from graphkin.scene.model import FRAME, GuideOrTrack, Slide
 from graphkin.structure.pairs import Sliding
 

@@ -11,9 +11,11 @@ from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.vocabulary import action, arcs_meet, compass, ray
+from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_actions import axis_by_guide
 from graphkin.construction.guides.guides import height_of, local_line
+from graphkin.construction.links.compass_arc import compass
+from graphkin.construction.links.dyad_by_arcs import arcs_meet
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol

@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from graphkin.construction.core.vocabulary import arc_cuts_line, arcs_meet
+from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
 from graphkin.construction.guides.swung_guide import swing
+from graphkin.construction.links.dyad_by_arcs import arcs_meet
 from graphkin.numbers.plane import Circle, Line, cross
 from graphkin.numbers.roots import Array, Misfit, roots
 

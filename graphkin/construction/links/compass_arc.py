@@ -9,12 +9,20 @@ from typing import TYPE_CHECKING, ClassVar
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.vocabulary import compass
+from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Circle
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("compass")
+def compass(centre: Point, radius: Real) -> Circle:
+    """The circle about a point with a given opening of the compass."""
+    return Circle(centre, radius)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,17 +14,24 @@ from graphkin.construction.core.given_data import angle_symbol
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.line_words import axis_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.vocabulary import action, mark_off, ray
+from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_actions import axis_by_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
-from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Line
 from graphkin.scene.model import FRAME
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("mark-off")
+def mark_off(line: Line, length: Real) -> Point:
+    """The point at a given distance along a line."""
+    return line.point + line.along * (length / abs(line.along))
 
 
 @action("arm")

@@ -10,8 +10,10 @@ from graphkin.construction.core.determined import Determined, which_side
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.vocabulary import arcs_meet
+from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
 from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:
@@ -19,6 +21,12 @@ if TYPE_CHECKING:
 
 COINCIDE = 1e-6
 """Distance of two centres, in radii, below which they fall together."""
+
+
+@action("arcs-meet", margin=lambda m, n, side: circles_sine(m, n))
+def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
+    """Where two arcs meet, on one side of the way from the first centre to the second."""
+    return circle_meets_circle(m, n, side)
 
 
 @dataclass(frozen=True, kw_only=True)

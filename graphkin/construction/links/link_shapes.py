@@ -8,19 +8,33 @@ from __future__ import annotations
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import (
-    angled,
-    arcs_meet,
-    compass,
-    distance,
-    in_proportion,
-    lay_off,
-    polar,
-    step_along,
-)
+from graphkin.construction.core.vocabulary import action, distance, in_proportion, lay_off
+from graphkin.construction.links.compass_arc import compass
+from graphkin.construction.links.dyad_by_arcs import arcs_meet
+from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
 
 Placed = dict[str, int]
+
+
+@action("step-along")
+def step_along(start: Point, first: Point, second: Point, length: Real, sense: int) -> Point:
+    """A point at a distance from ``start`` the way from ``first`` to ``second``, or back."""
+    way = second - first
+    return start + way * (sense * length / abs(way))
+
+
+@action("polar")
+def polar(start: Point, direction: Point, length: Real) -> Point:
+    """A point at a distance from another in a given direction."""
+    return start + direction * length
+
+
+@action("angled")
+def angled(vertex: Point, arm: Point, turn: Point, length: Real) -> Point:
+    """A point at a distance from the vertex, turned from an arm of the angle."""
+    way = arm - vertex
+    return vertex + way * turn * (length / abs(way))
 
 
 class LinkShapes:

@@ -11,11 +11,12 @@ from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import arcs_meet, mark_off, similar_point, step_along
+from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guides import axis
 from graphkin.construction.links.compass_arc import draw_arc
-from graphkin.construction.links.dyad_by_arcs import side_words
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.driven_crank import mark_off
+from graphkin.construction.links.dyad_by_arcs import arcs_meet, side_words
+from graphkin.construction.links.link_shapes import LinkShapes, step_along
 from graphkin.construction.links.placed_point import place_point
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Line, crossing_sine, dot
