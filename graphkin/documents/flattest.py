@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import product
 from math import degrees
 
-from graphkin.construction.core.component import Component, is_hidden
+from graphkin.construction.core.component import TriangleComponent, is_hidden
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -88,6 +88,6 @@ def letter_of_crossing(drawing: Drawing, crossing: Crossing) -> str:
     if locus:
         return locus[1]
     kind = construction(step)
-    if isinstance(kind, Component):
+    if isinstance(kind, TriangleComponent):
         return kind.letter(drawing, step.role)
     return step.name or crossing.name

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphkin.construction.core.component import Component
+from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.plot import Plot
@@ -55,8 +55,8 @@ class VisibleSteps:
 
         None for what belongs to none.
         """
-        kind = construction(self.step(number))
-        if not isinstance(kind, Component) or self.step(number).plane is not Plane.MECHANISM:
+        step, kind = self.step(number), construction(self.step(number))
+        if not isinstance(kind, TriangleComponent) or step.plane is not Plane.MECHANISM:
             return None
         return kind.room(MovingCanvas(self.binder))
 

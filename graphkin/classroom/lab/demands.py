@@ -12,7 +12,6 @@ from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import BY_TARGET, RATES, Sort
-from graphkin.construction.normal_component.normal_component import NormalComponent
 from graphkin.numbers.plane import Vector
 
 Array = Any
@@ -71,15 +70,12 @@ def measured(sheet: VariantSheet, item: Item) -> Array | None:
 
 
 def triangle_ratios(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
-    """v/l of each right triangle that is drawn for a normal component, at the sheet's scale."""
+    """v/l of each triangle that is drawn for a component, at the sheet's scale."""
     program, values = sheet.trace.program, sheet.trace.values
     for number in values:
         kind = component_of(program, number)
-        if not isinstance(kind, NormalComponent) or program.steps[number].hand:
-            continue
-        if kind.read in values:
-            p, q, tail, tip = (values[end] for end in kind.ends)
-            yield kind.speed, abs(tip - tail) * sheet.seconds / abs(q - p)
+        if kind is not None and not program.steps[number].hand and kind.read in values:
+            yield from kind.proportions(values, sheet.seconds)
 
 
 def ray_angles(sheet: VariantSheet, form: Sequence[Item]) -> Iterator[tuple[str, Array]]:

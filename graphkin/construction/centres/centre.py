@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from cmath import phase
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -193,7 +194,7 @@ class Centre(Construction):
 
 
 @dataclass(frozen=True, kw_only=True)
-class TwoPointCentre(Centre):
+class TwoPointCentre(Centre, ABC):
     """A centre by what two points of its link do, of which ``other`` is the second: the steps of
     the pole ``o`` of the plan, of their ``places`` and of their ``images``.
     """
@@ -231,9 +232,9 @@ class TwoPointCentre(Centre):
         return super().fields(drawing) | bars
 
     @classmethod
+    @abstractmethod
     def lines_at(cls, pen: Pen, points: tuple[str, str], o: int) -> tuple[LineToCentre, ...]:
         """The lines at the two points that meet in it."""
-        raise NotImplementedError
 
     @classmethod
     def draw(cls, pen: Pen, base: Base, points: tuple[str, str]) -> int:

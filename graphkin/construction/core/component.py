@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
@@ -52,10 +53,10 @@ class OwnSizes(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Component(Construction):
-    """A component of an acceleration: its index, the step of its vector, and the triangle's last.
+class Component(Construction, ABC):
+    """A component of an acceleration: its ``index`` and its ``vector``, by both ways.
 
-    ``vector`` is the stable value; ``read`` reads the same off the triangle on the mechanism, None
+    ``vector`` is the stable value; ``read`` reads the same off a triangle on the mechanism, None
     where no triangle is drawn.
     """
 
@@ -80,11 +81,82 @@ class Component(Construction):
         """Markup of its symbol."""
         return symbol(self.name)
 
-    # --- its triangle ----------------------------------------------------------------------------
+    @abstractmethod
+    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
+        """Whether sheets give it by number: no triangle holds, or has room, at these scales."""
 
+    # --- in words and figures --------------------------------------------------------------------
+
+    def size(self, drawing: Drawing) -> float:
+        """Its magnitude on a sheet, in m/s²."""
+        assert self.vector is not None
+        return float(abs(drawing.trace.values[self.vector]))
+
+    def is_drawn(self, drawing: Drawing) -> bool:
+        """Whether its triangle is drawn on a sheet, and is not too short for it."""
+        if self.read not in drawing.trace.values:
+            return False
+        return not is_short(drawing, self.size(drawing), drawing.plane)
+
+    def is_left_out(self, drawing: Drawing) -> bool:
+        """Whether it is too short to be drawn in the plan, though not zero."""
+        size = self.size(drawing)
+        return bool(drawing.settled(size)) and is_short(drawing, size, drawing.plane)
+
+    @abstractmethod
+    def formula(self, drawing: Drawing) -> str:
+        """Markup of what it is computed from."""
+
+    def left_out(self, drawing: Drawing) -> str:
+        """What is said of one that is too short to be drawn: what it is, how long it would be."""
+        drawn = plan_amount(drawing, drawing.plane, self.size(drawing))
+        return f"{self.symbol} = {self.formula(drawing)} ({drawn})"
+
+    @abstractmethod
+    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+        """What to draw, in full the ``first`` time: the kind of the sentence, and its markup."""
+
+    def laid_alone(self, drawing: Drawing, **fields: str) -> str:
+        """What is said of it where it leads to a point that is known; nothing where it is clear."""
+        return ""
+
+    @abstractmethod
+    def section(self, scales: Scales) -> str:
+        """The section of the calculation that holds its relation."""
+
+    @abstractmethod
+    def relation(self, drawing: Drawing) -> Relation:
+        """Its line on the calculation page."""
+
+    # --- what students make of it ----------------------------------------------------------------
+
+    @abstractmethod
+    def sizes(self, own: OwnSizes) -> Iterator[Size]:
+        """Its size by each relation to sizes that a student has."""
+
+    @abstractmethod
+    def power_of(self, args: tuple[int, ...]) -> int:
+        """With which power of a rate or speed, given by the steps that it is read off, it goes."""
+
+    def proportions(self, values: Mapping[int, Any], seconds: Any) -> Iterator[tuple[str, Any]]:
+        """How long its velocity is drawn to its bar, where that decides whether it can be drawn.
+
+        With the velocity's symbol; ``seconds`` is the scale kL/kv.
+        """
+        yield from ()
+
+    def as_measured(self, found: Mapping[int, Any], key: Mapping[int, Any]) -> Any:
+        """Its vector from own values as they are measured; None where the construction says it."""
+        return None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TriangleComponent(Component):
+    """A component that a triangle on the mechanism gives by hand."""
+
+    @abstractmethod
     def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
         """The sides of its triangle that must be long enough to be drawn."""
-        raise NotImplementedError
 
     def room(self, canvas: Canvas | Measured) -> Any:
         """By how much its shortest side is longer than what is drawn at all, in mm."""
@@ -108,67 +180,6 @@ class Component(Construction):
             if other.name.partition("_")[0] == base and kind and not kind.is_hidden(drawing):
                 count += 1
         return base if count == 1 else own
-
-    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
-        """Whether sheets give it by number: no triangle holds, or has room, at these scales."""
-        raise NotImplementedError
-
-    # --- in words and figures --------------------------------------------------------------------
-
-    def size(self, drawing: Drawing) -> float:
-        """Its magnitude on a sheet, in m/s²."""
-        assert self.vector is not None
-        return float(abs(drawing.trace.values[self.vector]))
-
-    def is_drawn(self, drawing: Drawing) -> bool:
-        """Whether its triangle is drawn on a sheet, and is not too short for it."""
-        if self.read not in drawing.trace.values:
-            return False
-        return not is_short(drawing, self.size(drawing), drawing.plane)
-
-    def is_left_out(self, drawing: Drawing) -> bool:
-        """Whether it is too short to be drawn in the plan, though not zero."""
-        size = self.size(drawing)
-        return bool(drawing.settled(size)) and is_short(drawing, size, drawing.plane)
-
-    def formula(self, drawing: Drawing) -> str:
-        """Markup of what it is computed from."""
-        raise NotImplementedError
-
-    def left_out(self, drawing: Drawing) -> str:
-        """What is said of one that is too short to be drawn: what it is, how long it would be."""
-        drawn = plan_amount(drawing, drawing.plane, self.size(drawing))
-        return f"{self.symbol} = {self.formula(drawing)} ({drawn})"
-
-    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
-        """What to draw, in full the ``first`` time: the kind of the sentence, and its markup."""
-        raise NotImplementedError
-
-    def laid_alone(self, drawing: Drawing, **fields: str) -> str:
-        """What is said of it where it leads to a point that is known; nothing where it is clear."""
-        return ""
-
-    def section(self, scales: Scales) -> str:
-        """The section of the calculation that holds its relation."""
-        raise NotImplementedError
-
-    def relation(self, drawing: Drawing) -> Relation:
-        """Its line on the calculation page."""
-        raise NotImplementedError
-
-    # --- what students make of it ----------------------------------------------------------------
-
-    def sizes(self, own: OwnSizes) -> Iterator[Size]:
-        """Its size by each relation to sizes that a student has."""
-        raise NotImplementedError
-
-    def power_of(self, args: tuple[int, ...]) -> int:
-        """With which power of a rate or speed, given by the steps that it is read off, it goes."""
-        raise NotImplementedError
-
-    def as_measured(self, found: Mapping[int, Any], key: Mapping[int, Any]) -> Any:
-        """Its vector from own values as they are measured; None where the construction says it."""
-        return None
 
 
 @dataclass(frozen=True)
@@ -263,6 +274,11 @@ def index_before(program: Program, number: int) -> str:
     return kind.index_at(program.steps[number].role) if kind else ""
 
 
+def components(program: Program) -> Iterator[Component]:
+    """The components of a program, each once, in the order of the work."""
+    return (each for each in constructions(program, Construction) if isinstance(each, Component))
+
+
 def component_of(program: Program, number: int) -> Component | None:
     """The component of whose vector a step holds the value; None for any other."""
     kind = construction(program.steps[number])
@@ -296,8 +312,9 @@ class TriangleChoice(NamedTuple):
 def as_drawn(trace: Trace, scales: Scales | TriangleChoice) -> Trace:
     """A trace without the steps that only the triangles of components given by number need."""
     steps, left = trace.program.steps, dict(trace.values)
-    kinds = (each for each in constructions(trace.program, Component))
-    waiting = [c.read for c in kinds if c.read is not None and c.is_computed(scales)]
+    waiting = [
+        c.read for c in components(trace.program) if c.read is not None and c.is_computed(scales)
+    ]
     while waiting:
         number = waiting.pop()
         used = any(number in steps[other].args for other in left)
@@ -309,4 +326,4 @@ def as_drawn(trace: Trace, scales: Scales | TriangleChoice) -> Trace:
 
 def may_give_way(program: Program) -> bool:
     """Whether a program has triangles that give way where they leave too little room."""
-    return any(component.gives_way for component in constructions(program, Component))
+    return any(component.gives_way for component in components(program))

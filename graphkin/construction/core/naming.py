@@ -11,6 +11,7 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.model import Driver
 
 NAUGHT = 1e-6
 """A vector drawn shorter than this, in mm, is none."""
@@ -108,6 +109,12 @@ def index_of(drawing: Drawing, says: Mapping[str, str]) -> str:
 def is_driven(drawing: Drawing, number: int) -> bool:
     """True for a rate that the scene gives."""
     return isinstance(drawing.trace.program.steps[number].of, Drive)
+
+
+def driver_of_rate(drawing: Drawing, number: int) -> Driver | None:
+    """The driver whose given rate a step holds; None for a rate that is found or tried."""
+    rate = drawing.trace.program.steps[number].of
+    return drawing.scene.drivers[rate.driver] if isinstance(rate, Drive) else None
 
 
 def drawn_amount(drawing: Drawing, metres: float) -> str:

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
-    Component,
     LaidOff,
     Measured,
     OwnSizes,
     Size,
     TriangleChoice,
+    TriangleComponent,
 )
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import construction
@@ -93,7 +93,7 @@ def lay_back(start: Point, vector: Point) -> Point:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoriolisComponent(Component):
+class CoriolisComponent(TriangleComponent):
     """a_c = 2·ω × v_r of a ``point`` that slides on a ``guide``, and the triangles that give it.
 
     From ``omega``, the guide's, and ``tail`` and ``tip``, the images of the point under the sliding
@@ -179,7 +179,7 @@ class CoriolisComponent(Component):
                 canvas.vector(self.name, self.look, value(self.foot), value(self.top))
                 canvas.point(self.letter(drawing, role), value(self.top))
 
-    def same_velocity(self, drawing: Drawing) -> Iterator[tuple[int, Component]]:
+    def same_velocity(self, drawing: Drawing) -> Iterator[tuple[int, TriangleComponent]]:
         """The triangles that set the same velocity at the same pin, with the step that does."""
         assert self.velocity is not None
         step = drawing.trace.program.steps[self.velocity]
@@ -187,7 +187,7 @@ class CoriolisComponent(Component):
             if number == self.velocity or other.action is not step.action:
                 continue
             kind = construction(other)
-            if other.args != step.args or not isinstance(kind, Component):
+            if other.args != step.args or not isinstance(kind, TriangleComponent):
                 continue
             if isinstance(kind, CoriolisComponent) or not kind.is_hidden(drawing):
                 yield number, kind

@@ -9,16 +9,14 @@ from typing import ClassVar
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import driver_index
-from graphkin.construction.core.naming import has_no_length, vector_of
+from graphkin.construction.core.naming import driver_of_rate, has_no_length, vector_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Drive
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.guides.guide_actions import driven_slide
 from graphkin.construction.velocity.along_guide import AlongGuide
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate, falls, length_drawn
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.model import Driver
 
 LETTERS = {"omega": "ω", "v": "v", "epsilon": "ε", "a": "a"}
 """The letters of the given rates of drivers by their names."""
@@ -80,7 +78,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate):
 
     def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
         """The key of the sentence where nothing is laid off, and the rate that is told in it."""
-        key, driver = falls(drawing, self.image, start), self.driver(drawing)
+        key, driver = falls(drawing, self.image, start), driver_of_rate(drawing, self.speed)
         name = drawing.trace.program.steps[self.speed].name
         if driver is None:
             return key.removesuffix("-nought"), ""
@@ -88,11 +86,6 @@ class DrivenSlide(AlongGuide, LaidOffByRate):
         key = key.replace("-nought", "-constant") if steady else key
         letter = (SPEEDS if steady else LETTERS)[name]
         return key, f"*{letter}*_{{{driver_index(driver)}}}"
-
-    def driver(self, drawing: Drawing) -> Driver | None:
-        """The driver that gives its speed; None for one that is found or tried."""
-        rate = drawing.trace.program.steps[self.speed].of
-        return drawing.scene.drivers[rate.driver] if isinstance(rate, Drive) else None
 
     # --- marks and relations ---------------------------------------------------------------------
 

@@ -9,8 +9,9 @@ from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.naming import driver_of_rate
 from graphkin.construction.core.parameter_words import is_derived, reckoned
-from graphkin.construction.core.program import Drive, Plane
+from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -100,13 +101,12 @@ def speed_letter(driver: Driver) -> str:
 def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
     """The bars of a driver's link from its fixed pivot to its pins."""
     frame = drawing.scene.frame.points
-    number = drawing.scene.drivers.index(driver)
     for _, step, _ in drawing.steps(Plane.VELOCITIES):
         kind = construction(step)
-        if isinstance(kind, TurnedVelocity) and kind.p in frame:
-            rate = drawing.trace.program.steps[kind.omega].of
-            if isinstance(rate, Drive) and rate.driver == number:
-                yield kind.p, kind.q
+        if not isinstance(kind, TurnedVelocity) or kind.p not in frame:
+            continue
+        if driver_of_rate(drawing, kind.omega) is driver:
+            yield kind.p, kind.q
 
 
 def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relation]:

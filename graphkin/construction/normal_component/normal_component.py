@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
-    Component,
     LaidOff,
     Measured,
     OwnSizes,
     Size,
     TriangleChoice,
+    TriangleComponent,
 )
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.naming import plan_amount
@@ -80,7 +80,7 @@ def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
 
 
 @dataclass(frozen=True, kw_only=True)
-class NormalComponent(Component):
+class NormalComponent(TriangleComponent):
     """a_ν = v²/l of a point ``q`` about ``p``, and the right triangle that gives it.
 
     From the places and images of both. The velocity set at the pin ends in ``tip``; there stands
@@ -224,6 +224,11 @@ class NormalComponent(Component):
             yield Size((v, v), v.size**2 / bar, bar)
         for omega in own.turnings_over(self.ends):
             yield Size((omega, omega), omega.size**2 * bar, bar)
+
+    def proportions(self, values: Mapping[int, Any], seconds: Any) -> Iterator[tuple[str, Any]]:
+        """v/l of its right triangle."""
+        p, q, tail, tip = (values[end] for end in self.ends)
+        yield self.speed, abs(tip - tail) * seconds / abs(q - p)
 
     def power_of(self, args: tuple[int, ...]) -> int:
         """It goes with the square of the rate of its link."""

@@ -65,10 +65,6 @@ class RollingNormal(Component):
         """The ends of the radius."""
         return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
 
-    def is_hidden(self, drawing: Drawing) -> bool:
-        """It has no triangle that could be too small."""
-        return False
-
     def is_computed(self, scales: Scales | TriangleChoice) -> bool:
         """No triangle gives it: the turning of the wheel is known."""
         return True
