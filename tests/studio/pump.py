@@ -43,7 +43,10 @@ def desk_in(place: Any) -> Session:
 
 @contextmanager
 def running(served: Served) -> Iterator[Served]:
-    """A studio that runs in a thread of its own until it is not needed any more."""
+    """A studio that runs in a thread of its own until it is not needed any more.
+
+    Its workers end with it, also where a test fails: none computes beside the tests that follow.
+    """
 
     def run() -> None:
         with suppress(OSError):  # its socket is closed under it
@@ -51,11 +54,15 @@ def running(served: Served) -> Iterator[Served]:
 
     thread = Thread(target=run, daemon=True)
     thread.start()
-    yield served
-    served.server.close()
-    served.server.asyncore.close_all(served.server._map, ignore_all=True)
-    thread.join(10)
+    try:
+        yield served
+    finally:
+        served.server.close()
+        served.server.asyncore.close_all(served.server._map, ignore_all=True)
+        served.server.task_dispatcher.shutdown(timeout=60)
+        thread.join(60)
     assert not thread.is_alive()
+    assert not served.server.task_dispatcher.threads
 
 
 def drawn(svg: str) -> list[str]:

@@ -97,11 +97,9 @@ def test_a_token_cut_or_changed_is_none(served):
 
 
 def test_every_studio_has_a_token_and_a_port_of_its_own(tmp_path):
-    first, second = serve(desk_in(tmp_path)), serve(desk_in(tmp_path))
-    assert first.port != second.port
-    assert urlsplit(first.address).path != urlsplit(second.address).path
-    for each in (first, second):
-        each.server.close()
+    with running(serve(desk_in(tmp_path))) as first, running(serve(desk_in(tmp_path))) as second:
+        assert first.port != second.port
+        assert urlsplit(first.address).path != urlsplit(second.address).path
 
 
 @pytest.mark.parametrize(
