@@ -174,14 +174,6 @@ def test_moving_it_leaves_nothing_behind(page_of, name):
     assert len(ids) == len(set(ids))
 
 
-def test_keys_are_told_above_the_fold(page_of):
-    for name in ("pump", "slotted-lever"):
-        page = page_of(name, viewport={"width": 1440, "height": 900}, **STILL)
-        box = page.locator("#help").bounding_box()
-        assert box["y"] + box["height"] <= 900
-        assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
-
-
 def moved(page: Any) -> float:
     """How far the slider goes in some pictures."""
     before = float(page.input_value("#at"))
@@ -229,24 +221,6 @@ def test_beyond_its_end_it_begins_anew_and_never_goes_against_its_speed(page_of,
     steps = sense * np.diff(at)
     assert np.sum(steps < 0) == 1
     assert steps[-1] > 0
-
-
-@pytest.mark.parametrize("height", [844, 640])
-@pytest.mark.parametrize("name", ["pump"])
-def test_a_phone_shows_all_fields_and_the_controls_at_once(page_of, name, height):
-    page = page_of(name, viewport={"width": 390, "height": height}, **STILL)
-    boxes = [figure.bounding_box() for figure in page.locator("figure").all()]
-    bar = page.locator("#bar").bounding_box()
-    assert len(boxes) == 3
-    assert all(box["y"] + box["height"] <= bar["y"] for box in boxes)
-    assert bar["y"] + bar["height"] <= height
-
-
-def test_a_quantity_that_is_told_takes_one_line(page_of):
-    page = page_of("oscillating-slide", viewport={"width": 1280, "height": 800}, **STILL)
-    rows = page.locator("#values div:not([hidden])").all()
-    heights = {row.bounding_box()["height"] for row in rows}
-    assert len(heights) == 1
 
 
 def test_keys_play_move_and_go_back(page_of):
@@ -299,14 +273,6 @@ def test_the_page_is_accessible(page_of, look, width):
     page = page_of("slotted-lever", color_scheme=look, viewport=shape, **STILL)
     assert not barred(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-
-
-def test_it_says_where_it_ends_and_why(page_of):
-    found, _ = shown("pump")
-    said = page_of("pump", **STILL).inner_text("#shown")
-    for end in (found.low, found.high, *found.reached):
-        assert words("en").significant(end, 4) + "°" in said
-    assert page_of("slotted-lever", **STILL).locator("#shown").count() == 0
 
 
 def test_without_a_script_it_is_a_plain_drawing(page_of):

@@ -189,18 +189,6 @@ def test_a_slider_moves_drawings_and_numbers(studio):
     assert page.inner_html("#velocity .drawing svg") == before
 
 
-def test_a_slider_that_is_let_go_comes_to_rest(studio):
-    page = studio()
-    box = page.locator("#sliders input[type=range]").bounding_box()
-    middle = box["y"] + box["height"] / 2
-    page.mouse.move(box["x"] + box["width"] * 0.25, middle)
-    page.mouse.down()
-    page.mouse.move(box["x"] + box["width"] * 0.75, middle)
-    until(page, "document.body.dataset.settled === 'false'")
-    answered(page, page.mouse.up)
-    assert int(page.input_value("#value-n")) > 20
-
-
 def test_the_drawn_vector_is_as_long_as_the_number_says(studio):
     page = studio()
     answered(page, lambda: (page.fill("#value-n", "20"), page.press("#value-n", "Enter")))
@@ -261,45 +249,6 @@ def test_the_construction_on_the_mechanism_is_chosen(studio):
     assert page.locator("#mechanism [data-name='I3']").count()
 
 
-def test_one_drawing_takes_the_room_of_all(studio):
-    page = studio()
-    small = page.locator("#velocity .drawing svg").bounding_box()
-    page.get_by_role("button", name="Enlarge: Velocity plan").click()
-    large = page.locator("#velocity .drawing svg").bounding_box()
-    assert large["width"] * large["height"] > 3 * small["width"] * small["height"]
-    assert not page.is_visible("#mechanism")
-    page.get_by_role("button", name="Enlarge: Velocity plan").click()
-    assert page.is_visible("#mechanism")
-
-
-def test_the_enlarged_drawing_lies_whole_in_a_small_window(studio):
-    page = studio(**SMALL)
-    for name in ("mechanism", "velocity", "acceleration"):
-        page.click(f"#{name} .enlarge")
-        frame, svg = (
-            page.locator(f"#{name} {of}").bounding_box() for of in (".drawing", ".drawing svg")
-        )
-        assert svg["y"] + svg["height"] <= frame["y"] + frame["height"] + 1 < 800
-        assert frame["height"] > 500
-        page.click(f"#{name} .enlarge")
-
-
-def test_on_a_phone_the_enlarged_drawing_fills_its_frame_under_the_slider(studio):
-    page = studio(**PHONE)
-    for name in ("mechanism", "velocity", "acceleration"):
-        drawing = page.locator(f"#{name} .drawing svg")
-        small = drawing.bounding_box()
-        page.click(f"#{name} .enlarge")
-        frame, large = page.locator(f"#{name} .drawing").bounding_box(), drawing.bounding_box()
-        assert large["height"] > 1.3 * small["height"]
-        assert large["width"] >= frame["width"] - 2
-        assert large["height"] >= frame["height"] - 2
-        slider = page.locator("#slider-n").bounding_box()
-        assert 0 <= slider["y"] < slider["y"] + slider["height"] <= frame["y"]
-        assert frame["y"] + frame["height"] <= 844
-        page.click(f"#{name} .enlarge")
-
-
 @pytest.mark.parametrize("shape", [SMALL, TABLET, PHONE])
 def test_the_slider_stays_in_sight_of_the_plans(studio, shape):
     page = studio(**shape)
@@ -309,54 +258,6 @@ def test_the_slider_stays_in_sight_of_the_plans(studio, shape):
     answered(page, lambda: page.press("#slider-n", "ArrowRight"))
     after = page.locator("#slider-n").bounding_box()
     assert after["y"] == pytest.approx(slider["y"], abs=2)
-
-
-@pytest.mark.parametrize("shape", [DESKTOP, PHONE])
-def test_what_is_said_has_a_line_of_its_own_that_is_kept_for_it(studio, shape):
-    page = studio(**shape)
-    width, top = shape["viewport"]["width"], page.locator("#editor").bounding_box()["y"]
-    write(page, "C-D = 20", "C-D = 21")
-    status, tools = (page.locator(of).bounding_box() for of in ("#status", "header .tools"))
-    assert page.inner_text("#status") == "not saved"
-    assert status["width"] > 0.9 * width
-    assert status["y"] >= tools["y"] + tools["height"]
-    assert page.locator("#editor").bounding_box()["y"] == top
-
-
-def test_saved_sheets_are_listed_in_one_line(studio):
-    page = studio(**SMALL)
-    top = page.locator("#editor").bounding_box()["y"]
-    page.click("#sheets")
-    page.click("#draw")
-    page.wait_for_selector("#saving", state="hidden", timeout=20_000)
-    assert page.inner_text("#status").count("mine-n7-") == 5
-    assert page.locator("#editor").bounding_box()["y"] == top
-
-
-@pytest.mark.parametrize("shape", [DESKTOP, PHONE])
-def test_a_few_mistakes_are_all_seen(studio, shape):
-    page = studio(**shape)
-    write(page, "C-D = 20", "C-D = true")
-    write(page, 'velocity = ["D"]', 'velocity = ["D", "Q"]')
-    write(page, 'B = "right of A-O2"', 'B = "right of A-Z"')
-    write(page, "slides = { on = 0,", "slides = { on = 77,")
-    assert page.locator("#problems li").count() == 4
-    assert page.evaluate("(p => p.scrollHeight <= p.clientHeight)(document.all.problems)")
-    last = page.locator("#problems li").last.bounding_box()
-    page_height = page.evaluate("document.documentElement.scrollHeight")
-    assert last["y"] + last["height"] <= page_height
-    assert page.locator("#editor").bounding_box()["height"] > 160
-
-
-def test_the_check_of_an_older_text_has_no_tick(studio):
-    page = studio()
-    checked = page.inner_text("#verdict")
-    assert checked.startswith("✓ Checked")
-    write(page, "A-B = 40", "A-B = forty")
-    old = page.inner_text("#verdict")
-    assert old == f"Of the last text that could be drawn: {checked.removeprefix('✓ ')}"
-    write(page, "A-B = forty", "A-B = 40")
-    assert page.inner_text("#verdict") == checked
 
 
 def test_a_scene_is_saved_where_it_was_opened_and_no_other_is_replaced_unasked(studio, place):
@@ -418,16 +319,6 @@ def test_why_nothing_was_saved_stays_when_the_drawing_is_new(studio, place):
     page.click("#save")
     said(page, "Saved: lever.toml")
     assert "value = 12" in (place / "lever.toml").read_text(encoding="utf-8")
-
-
-def test_nothing_older_is_spoken_of_where_nothing_has_been_drawn(chromium, served, place):
-    (place / "mine.toml").write_text(PUMP.replace("A-B = 40", "A-B = forty"), encoding="utf-8")
-    page = chromium.new_context(**DESKTOP).new_page()
-    page.goto(served.address + "?scene=mine.toml")
-    page.wait_for_selector("body[data-shown]")
-    assert page.inner_text("#count") == "1 mistake"
-    assert not page.is_visible("#old")
-    page.context.close()
 
 
 def moved(page: Any, value: str) -> None:
@@ -540,28 +431,6 @@ def test_every_word_of_the_page_changes_with_its_language(studio):
     assert begun.evaluate(names) == changed.evaluate(names)
 
 
-def test_after_new_and_open_the_keys_go_to_the_text(studio):
-    page = studio()
-    for _ in range(2):
-        page.focus("#new")
-        with page.expect_navigation():
-            page.keyboard.press("Enter")
-        until(page, "document.activeElement.id === 'text'")
-        at_rest(page)
-        assert page.input_value("#file") == "new.toml"
-    page.reload()
-    at_rest(page)
-    assert page.evaluate("document.activeElement.id") != "text"
-
-
-@pytest.mark.parametrize("shape", list(SHAPES)[::2])
-def test_letters_of_the_mechanism_can_be_read(studio, shape):
-    """Letters of 3 mm are 7 px high where there is room beside the text, 7.8 px in one column."""
-    page = studio(**SHAPES[shape])
-    scale = page.evaluate("document.querySelector('#mechanism .drawing svg').getScreenCTM().a")
-    assert scale > (2.55 if SHAPES[shape] is not DESKTOP else 2.2)
-
-
 def test_a_name_that_leads_elsewhere_is_refused(studio, place):
     page = studio()
     page.fill("#file", "../evil.toml")
@@ -569,25 +438,6 @@ def test_a_name_that_leads_elsewhere_is_refused(studio, place):
     page.wait_for_selector("#status.wrong")
     assert "ending in .toml, such as evil.toml" in page.inner_text("#status")
     assert not (place.parent / "evil.toml").exists()
-
-
-def test_what_had_failed_is_said_no_longer_once_something_else_is_done(studio):
-    page = studio()
-
-    def mend() -> None:
-        page.fill("#file", "good.toml")
-
-    def begin() -> None:
-        page.click("#open")
-        page.wait_for_selector("#opening[open]")
-
-    for work in (mend, begin):
-        page.fill("#file", "../evil.toml")
-        page.click("#save")
-        page.wait_for_selector("#status.wrong")
-        work()
-        assert page.inner_text("#status") == ""
-        assert page.get_attribute("#status", "class") == ""
 
 
 def test_sheets_are_saved(studio, place):
@@ -714,17 +564,3 @@ def test_axe_finds_nothing_against_the_page(studio, shape):
     page.keyboard.press("Escape")
     page.click("#sheets")
     assert not barred(page)
-
-
-@pytest.mark.parametrize("language", ["it"])
-def test_the_page_speaks_the_language_of_its_scene(chromium, place, language):
-    text = PUMP.replace('language = "ro"', f'language = "{language}"')
-    (place / "mine.toml").write_text(text, encoding="utf-8")
-    with running(serve(desk_in(place))) as found:
-        page = chromium.new_page()
-        page.goto(f"{found.address}?scene=mine.toml")
-        at_rest(page)
-        assert page.get_attribute("html", "lang") == language
-        assert page.inner_text("#save") in ("Salvează scena", "Salva la scena")
-        assert page.inner_text("#title") in ("Mecanism de pompă", "Meccanismo di pompa")
-        page.close()
