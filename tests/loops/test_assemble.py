@@ -15,37 +15,10 @@ from graphkin.loops.freedom import true_mobility
 from graphkin.loops.witness import by_loops, compare, examine
 from graphkin.scene.model import Closure
 from graphkin.text.errors import StructureError, WitnessError
+from tests.loops.differences import agree, central, degrees, unit
 from tests.scene_files import scene_text
 
 FOUR_BAR = scene_text("loops/four-bar")
-
-
-def unit(angle):
-    return mpmath.mpc(mpmath.cos(angle), mpmath.sin(angle))
-
-
-def central(place, values, speeds, accelerations):
-    """Velocity and acceleration of points by central differences in 50 digits."""
-    with mpmath.workdps(50):
-        h = mpmath.mpf(10) ** -15
-        laws = list(zip(values, speeds, accelerations, strict=True))
-        before, here, after = (
-            place(*(q + w * k * h + e * (k * h) ** 2 / 2 for q, w, e in laws)) for k in (-1, 0, 1)
-        )
-        return {
-            name: (
-                complex(z),
-                complex((after[name] - before[name]) / (2 * h)),
-                complex((after[name] - 2 * z + before[name]) / h**2),
-            )
-            for name, z in here.items()
-        }
-
-
-def agree(motion, expected, tolerance=1e-12):
-    for name, quantities in expected.items():
-        for found, exact in zip(motion.point(name), quantities, strict=True):
-            assert abs(found[0] - exact) <= tolerance * max(1, abs(exact)), name
 
 
 @pytest.mark.parametrize("name", ["pump", "pump-collinear"])
@@ -121,8 +94,8 @@ def test_a_rod_of_driven_length_between_two_moving_links(number, sign, read):
 
     scene = read(scene_text("loops/cylinder").replace("NUMBER", str(number)))
     motion = assemble(scene).motion
-    laws = [mpmath.mpf("3.5")], [mpmath.mpf("0.8")], [mpmath.mpf("-1.7")]
-    agree(motion, central(place, *laws))
+    laws = [(mpmath.mpf("3.5"), mpmath.mpf("0.8"), mpmath.mpf("-1.7"))]
+    agree(motion, central(place, laws))
     assert true_mobility(scene) == 1
     assert compare(scene, by_loops(scene)).agrees
 
@@ -144,7 +117,7 @@ def test_a_crank_driven_against_another_moving_link(read):
                 best = turned, {"B": mpmath.mpf(3) / 2 * c / base, "C": c}
         return best[1]
 
-    agree(motion, central(place, [-50 * mpmath.pi / 180], [2], [1]))
+    agree(motion, central(place, [(degrees(-50), 2, 1)]))
 
 
 def test_oldham_turns_alike_at_both_ends(read):
@@ -168,7 +141,7 @@ def test_trammel_draws_an_ellipse(read):
         a, b = mpmath.mpf("1.3"), mpmath.mpf("0.7")
         return {"M": mpmath.mpc(-a * mpmath.cos(q), b * mpmath.sin(q))}
 
-    agree(motion, central(place, [130 * mpmath.pi / 180], [3], [4]))
+    agree(motion, central(place, [(degrees(130), 3, 4)]))
 
 
 def test_what_no_position_tells_is_assembled_and_said(read):

@@ -12,6 +12,7 @@ from graphkin.loops.assemble import assemble
 from graphkin.loops.constraints import constraints
 from graphkin.loops.freedom import true_mobility
 from graphkin.text.errors import StructureError, WitnessError
+from tests.loops.differences import agree, central, degrees, unit
 from tests.scene_files import scene_text
 
 ROLLER = """
@@ -25,37 +26,6 @@ rolls = {{ on = 0, through = "O", angle = 30, side = "{side}", start = {{ 1 = 70
 [[drivers]]
 {driver}
 """
-
-
-def unit(angle):
-    return mpmath.mpc(mpmath.cos(angle), mpmath.sin(angle))
-
-
-def degrees(angle):
-    return angle * mpmath.pi / 180
-
-
-def central(place, laws):
-    """Place, velocity and acceleration of points by central differences, laws (q, q′, q″)."""
-    with mpmath.workdps(50):
-        h = mpmath.mpf(10) ** -15
-        before, here, after = (
-            place(*(q + w * k * h + e * (k * h) ** 2 / 2 for q, w, e in laws)) for k in (-1, 0, 1)
-        )
-        return {
-            name: (
-                complex(z),
-                complex((after[name] - before[name]) / (2 * h)),
-                complex((after[name] - 2 * z + before[name]) / h**2),
-            )
-            for name, z in here.items()
-        }
-
-
-def agree(motion, expected, tolerance=1e-12):
-    for name, quantities in expected.items():
-        for found, exact in zip(motion.point(name), quantities, strict=True):
-            assert abs(found[0] - exact) <= tolerance * max(1, abs(exact)), name
 
 
 def cycloid(side):
@@ -198,6 +168,18 @@ def test_compound_wheels_touch_by_the_pair_that_fits(read):
     assert omega["out"] == pytest.approx(30)
     turned = math.radians(200 * 10)
     assert abs(motion.point("T").place[0] - 1.2 - 0.05 * np.exp(1j * turned)) < 1e-12
+
+
+def test_a_stepped_wheel_rolls_on_the_one_at_the_height_at_which_a_guide_keeps_it(read):
+    """0.3 is written first, but the axle is kept 0.2 over the track."""
+    motion = assemble(read(scene_text("loops/stepped-wheel"))).motion
+    omega, epsilon = (
+        dict(zip(motion.index, row[0], strict=True)) for row in (motion.omega, motion.epsilon)
+    )
+    assert omega["2"] == pytest.approx(-2 / 0.2)
+    assert epsilon["2"] == pytest.approx(-1 / 0.2)
+    rim = 0.5 + 0.2j + 0.2 * np.exp(-1j * 0.5 / 0.2)
+    assert abs(motion.point("P").place[0] - rim) < 1e-12
 
 
 RACK = """
