@@ -12,9 +12,7 @@ import pytest
 
 from graphkin import __version__
 from graphkin.cli.console import BROKEN_PIPE
-from tests.cli.conftest import ROOT, Run, command, python
-
-HEAVY = ("shapely", "reportlab", "svgwrite", "matplotlib", "jinja2", "pikepdf", "filelock")
+from tests.cli.conftest import ROOT, Run, command
 
 
 def test_help_shows_examples_and_every_command(run: Run) -> None:
@@ -216,35 +214,6 @@ def test_a_reader_that_stops_early_is_no_traceback(args: tuple[str, ...]) -> Non
         )
     assert result.returncode == BROKEN_PIPE
     assert result.stderr == b""
-
-
-def imported_by(*args: str) -> set[str]:
-    """The packages that a command has imported by its end."""
-    code = (
-        "import sys, contextlib, io\n"
-        "from graphkin.cli.main import main\n"
-        f"sys.argv = ['graphkin', *{list(args)!r}]\n"
-        "with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):\n"
-        "    main()\n"
-        "print(*{name.partition('.')[0] for name in sys.modules})\n"
-    )
-    return set(python("-c", code).stdout.decode().split())
-
-
-@pytest.mark.parametrize("args", [("--help",), ("list",), ("solve", "--help")])
-def test_help_and_list_import_no_numpy(args: tuple[str, ...]) -> None:
-    found = imported_by(*args)
-    assert "click" in found
-    assert not found.intersection((*HEAVY, "numpy"))
-
-
-@pytest.mark.parametrize("args", [("solve", "pump"), ("check", "pump"), ("explain", "pump")])
-def test_numbers_need_no_drawing_library(args: tuple[str, ...]) -> None:
-    assert not imported_by(*args).intersection(HEAVY)
-
-
-def test_numbers_on_their_own_explain_without_numpy() -> None:
-    assert "numpy" not in imported_by("explain", "pump")
 
 
 HOSTILE = "\x1b]0;owned\x07\x1b[31m\u202e\x9b1m"

@@ -52,6 +52,7 @@ def loaded(*words: str) -> tuple[set[str], set[str]]:
 
 
 CASES = [
+    (("--help",), set(), set()),
     (("list",), set(), set()),
     (("explain", "pump"), set(), set()),
     (("explain", "{oscillating-slide}", "--json"), set(), set()),
