@@ -3,7 +3,8 @@
 A mutant is the program with one sign, operator, comparison, constant or pair of arguments wrong.
 Each is tried in a copy by the tests of its room and by those of what is kept of all outputs, until
 the first that fails. ``--only PATH…`` takes the mutants from some modules. What survives is printed
-with its line; a survivor wants a test, or is equivalent.
+with its line; a survivor wants a test, or is equivalent: ``survivors.txt`` keeps those of the last
+run with a word each.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 ENDLESS = 900
 """Seconds after which a mutant counts as found: it does not come to an end."""
+FLAGS = ("strict", "frozen", "slots")
+"""Keywords with which zip and dataclass only refuse what no caller does."""
 SWAPPED: dict[type[ast.AST], type[ast.AST]] = {
     ast.Add: ast.Sub,
     ast.Sub: ast.Add,
@@ -74,10 +77,13 @@ def otherwise(node: ast.AST) -> ast.expr | None:
     return None
 
 
-def annotations(tree: ast.AST) -> set[ast.AST]:
-    """What stands in annotations, which nothing runs."""
+def idle(tree: ast.AST) -> set[ast.AST]:
+    """What nothing runs, or what only refuses wrong programs: annotations, FLAGS of calls."""
     roots = [
         getattr(node, name, None) for node in ast.walk(tree) for name in ("annotation", "returns")
+    ]
+    roots += [
+        node.value for node in ast.walk(tree) if isinstance(node, ast.keyword) and node.arg in FLAGS
     ]
     return {inner for root in roots if root is not None for inner in ast.walk(root)}
 
@@ -86,7 +92,7 @@ def mutants(path: Path) -> Iterator[Mutant]:
     """Every mutant of a module whose mistake stands on one line."""
     source = path.read_text(encoding="utf-8")
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
-    still = annotations(tree)
+    still = idle(tree)
     for node in ast.walk(tree):
         made = None if node in still else otherwise(node)
         if made is None or node.lineno != node.end_lineno:
