@@ -15,6 +15,7 @@ from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.core.results import decided, gathered, product_of_sines, row_of, rows_of
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.solution import Solution, Verdict
+from graphkin.construction.higher_class.settling import run_settled
 from graphkin.construction.higher_class.trial_rates import trial_rates
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind
@@ -83,7 +84,7 @@ class Mechanism:
     @cached_property
     def trial_rates(self) -> Mapping[int, float]:
         """What the hand tries in the trial plans of groups of higher class, by the step."""
-        return trial_rates(self.program, self.scene.values)
+        return trial_rates(self.scene, self.program)
 
     def spoken(self, language: str | None) -> Mechanism:
         """The same with its links called as in a language; in the scene's own if None."""
@@ -123,8 +124,12 @@ class Mechanism:
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
         overrides |= self.trial_rates if by_hand else {}
         try:
-            with kind.working():
-                trace = run(program, needed, self.scene.values_in(kind), kind, overrides=overrides)
+            if kind is FLOAT:
+                trace = run_settled(self.scene, program, needed, overrides=overrides)
+            else:
+                with kind.working():
+                    values = self.scene.values_in(kind)
+                    trace = run(program, needed, values, kind, overrides=overrides)
         except StepFailed as failed:
             explained = service("does_not_close")(self.scene, program, needed, failed)
             raise explained from failed

@@ -127,7 +127,8 @@ class Balls:
 def nearest(value: Any) -> Any:
     """The doubles next to the middles of a value made of balls."""
     if isinstance(value, tuple):
-        return type(value)(*(nearest(part) for part in value))
+        parts = map(nearest, value)
+        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
     return in_doubles(value)
 
 

@@ -12,6 +12,7 @@ from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate
 from graphkin.construction.higher_class.closure_solver import (
     ClosingError,
     ClosureSolver,
+    MergingError,
     sign_table,
 )
 from graphkin.diagnosis.exact_intersection import Meeting, loci_of, meeting
@@ -34,6 +35,7 @@ DEAD = (
     "driver's speed determines no other: change the driver's position"
 )
 
+MERGE = "merge here, or lie so near to it that balls of 1024 bits do not tell"
 ALONE = "it closes at this dead point alone: change the lengths"
 
 
@@ -47,6 +49,8 @@ def does_not_close(
     step = failed.step
     if isinstance(failed.__cause__, ClosingError):
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
+    if isinstance(failed.__cause__, MergingError):
+        return ClosureError(merging(scene, step, failed.__cause__))
     if (open_ := undetermined(step, failed.args_found)) is not None:
         return ClosureError(open_)
     loci = loci_of(failed.args_found)
@@ -132,6 +136,18 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
     )
 
 
+def merging(scene: Scene, step: Step, error: MergingError) -> Problem:
+    """The problem of a closure whose number is not decided, as two of its group merge here."""
+    links = step.says["list"]
+    merge = f"closures {error.first} and {error.first + 1} of links {links} {MERGE}"
+    return Problem(
+        f"branches.{branch_of(scene, links)}",
+        f"{merge}, so that closure {error.asked} is not decided",
+        f"closure 1 to {error.first - 1}" if error.first > 1 else "a position where none merge",
+        "move the driver",
+    )
+
+
 def branch_of(scene: Scene, links: str) -> str:
     """The link under which the closure of some links is written."""
     names = links.split(", ")
@@ -162,6 +178,9 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
 
 def why(scene: Scene, program: Program, failed: StepFailed) -> str:
     """Words for what hinders a step: loci that miss each other, or parallel lines."""
+    if isinstance(failed.__cause__, MergingError):
+        first = failed.__cause__.first
+        return f"closures {first} and {first + 1} merge here as far as the ball tells"
     kind = failed.step.of
     own = kind.failing() if isinstance(kind, Determined) else ""
     return own or in_line(scene, program, failed.number)

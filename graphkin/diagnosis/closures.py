@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 from graphkin.construction.core.branches import has_two_ways
 from graphkin.construction.core.program import Part, Program, Step
-from graphkin.construction.core.run import StepFailed, Trace, run
+from graphkin.construction.core.run import StepFailed, Trace
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
-from graphkin.numbers.arithmetic import FLOAT
+from graphkin.construction.higher_class.settling import run_settled, ways
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
@@ -127,7 +127,7 @@ def numbered(scene: Scene, program: Program, number: int, point: str) -> tuple[G
     except StepFailed:
         return ()
     found = []
-    for k in range(1, closer.ways([known[arg] for arg in step.args]) + 1):
+    for k in range(1, ways(scene, program, number, [known[arg] for arg in step.args]) + 1):
         action = replace(step.action, value=replace(closer, number=k))
         other = replaced(program, number, replace(step, action=action))
         place = place_of(scene, other, point)
@@ -166,7 +166,7 @@ def place_of(scene: Scene, program: Program, point: str) -> complex | None:
 
 def run_positions(scene: Scene, program: Program, needed: tuple[int, ...]) -> Trace:
     """Run some steps of a program on the scene's own numbers."""
-    return run(program, needed, scene.values, FLOAT)
+    return run_settled(scene, program, needed)
 
 
 def words_of(scene: Scene, pin: str, dyad: Dyad, way: int) -> str:

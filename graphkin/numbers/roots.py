@@ -35,7 +35,13 @@ GOLDEN = 0.3819660112501051
 
 
 def roots(misfit: Misfit, grid: Array) -> tuple[Array, Array]:
-    """Every root of n functions, each on its own grid of places (n, M): (function, place) of each.
+    """Every root of n functions, each on its own grid of places (n, M): function, place of each."""
+    which, place, touching = roots_and_touches(misfit, grid)
+    return which[~touching], place[~touching]
+
+
+def roots_and_touches(misfit: Misfit, grid: Array) -> tuple[Array, Array, Array]:
+    """As roots, with the places where rounding may hide two roots: whether each is one of these.
 
     Between neighbours of the grid a change of sign is a root, unless it is a pole. Where the
     misfit turns back towards zero its least value is looked for, and where a function breaks off
@@ -50,11 +56,14 @@ def roots(misfit: Misfit, grid: Array) -> tuple[Array, Array]:
     element, at = np.nonzero((left * right < 0) | (left == 0))
     found = [(element, grid[element, at], grid[element, at + 1])]
     found += beside_breaks(misfit, grid, value)
-    found += beside_turns(misfit, grid, value)
+    turned = turns(misfit, grid, value)
+    found += beside_turns(*turned)
     which, low, high = (np.concatenate(parts) for parts in zip(*found, strict=True))
     place = closed_in(misfit, which, low, high)
     good = np.isfinite(place)
-    return which[good], place[good]
+    near, touch = touches(value, *turned)
+    touching = np.repeat([False, True], [good.sum(), near.size])
+    return np.append(which[good], near), np.append(place[good], touch), touching
 
 
 def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array, Array, Array]]:
@@ -78,21 +87,24 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
     return [(element[crossed], low[crossed], high[crossed])]
 
 
-def beside_turns(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array, Array, Array]]:
-    """Intervals with two roots where a function comes near zero between three places of a grid."""
-    element, low, best, high, least = turns(misfit, grid, value)
+def beside_turns(
+    element: Array, low: Array, best: Array, high: Array, least: Array
+) -> list[tuple[Array, Array, Array]]:
+    """Intervals with two roots, one on each side of where a function turns beyond zero."""
     crossed = least <= 0
     which, middle = element[crossed], best[crossed]
     return [(which, low[crossed], middle), (which, middle, high[crossed])]
 
 
-def touches(misfit: Misfit, grid: Array) -> tuple[Array, Array]:
-    """Where a function comes so near zero, without crossing it, that rounding hides two roots."""
+def touches(
+    value: Array, element: Array, low: Array, best: Array, high: Array, least: Array
+) -> tuple[Array, Array]:
+    """Where functions turn so near zero, without crossing it, that rounding may hide two roots.
+
+    ``value`` are those of the functions on their grids.
+    """
     import numpy as np
 
-    size, places = grid.shape
-    value = misfit(np.repeat(np.arange(size), places), grid.ravel()).reshape(grid.shape)
-    element, _, best, _, least = turns(misfit, grid, value)
     large = np.nanmax(abs(value), axis=1, initial=0)[element]
     near = (least > 0) & (least < HIDDEN * large)
     return element[near], best[near]

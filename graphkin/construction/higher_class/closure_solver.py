@@ -6,7 +6,7 @@ arrays of trial positions, brackets every fit and closes in on it. Its derivativ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,7 +16,7 @@ from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.construction.higher_class.trial_windows import Windows, narrowed
 from graphkin.numbers.arithmetic import FLOAT, phase
 from graphkin.numbers.kinds import kind_of
-from graphkin.numbers.roots import roots, touches
+from graphkin.numbers.roots import roots_and_touches
 
 DOUBLES = ("float", "batch")
 """The kinds in which closures are looked for; in the others they are refined."""
@@ -26,7 +26,7 @@ SAME = 1e-7
 """Radians within which two angles count as one when closures are put in order."""
 
 HIDDEN = 1e-6
-"""Sine of crossing below which what doubles take for one closure may be two."""
+"""Sine of crossing below which what doubles take for one closure may be two, or none."""
 
 
 class ClosingError(ValueError):
@@ -35,6 +35,14 @@ class ClosingError(ValueError):
     def __init__(self, ways: int, asked: int) -> None:
         self.ways, self.asked = ways, asked
         super().__init__(f"closes in {ways} ways, closure {asked} is asked")
+
+
+class MergingError(ValueError):
+    """A closure whose number rounding leaves open: before it, or with it, two closures merge."""
+
+    def __init__(self, first: int, asked: int) -> None:
+        self.first, self.asked = first, asked
+        super().__init__(f"closures {first} and {first + 1} merge, closure {asked} is asked")
 
 
 class Trying(Trial):
@@ -49,6 +57,9 @@ class Trying(Trial):
 
         The traces of a sheet, and those by which its scale is chosen, ask the same many times.
         """
+        if (closings := self.settled.get(known)) is not None:
+            settled: tuple[Any, ...] = self.chosen(closings, number)
+            return settled
         found = self.kept.get((known, number))
         if found is None:
             found = self.closed(known, number)
@@ -62,10 +73,23 @@ class Trying(Trial):
         """The closures that were found last, by what was known and their number."""
         return {}
 
+    @cached_property
+    def settled(self) -> dict[tuple[Any, ...], list[tuple[Any, ...]] | None]:
+        """What closes in every closure in order, by what was known, where rounding leaves that open
+        and balls were asked; None where they leave it open too."""
+        return {}
+
+    def chosen(self, closings: Sequence[Any], number: int) -> Any:
+        """The closure of a number of all closures. Raises ClosingError where there is none."""
+        if number > len(closings):
+            raise ClosingError(len(closings), number)
+        return closings[number - 1]
+
     def closed(self, known: Sequence[Any], number: int) -> tuple[Any, ...]:
         """Trial value, signs and the sine of crossing in one closure: scalars or arrays.
 
-        A scalar without that closure raises ClosingError, an element of an array gives NaN.
+        A scalar without that closure raises ClosingError, and MergingError where rounding leaves
+        open which closure has the number; an element of an array gives NaN.
         """
         import numpy as np
 
@@ -79,31 +103,22 @@ class Trying(Trial):
             self.closures([array[start : start + chunk] for array in arrays])
             for start in range(0, size, chunk)
         ]
-        rows = [row for part in parts for row in part.picked(number)]
+        rows = [row for part in parts for row in part.sure(number)]
         if single:
             if np.isnan(rows[0][1]):
+                if merging := parts[0].merging_at(number):
+                    raise merging
                 raise ClosingError(parts[0].ways(), number)
             return self.polished(known, rows[0])
         table = np.array(rows)
         tried = np.exp(1j * table[:, 1]) if self.turns else table[:, 1]
         return (tried, *table[:, 2:].T)
 
-    def beside(self, known: Sequence[Any], number: int) -> list[float]:
-        """The trial values of the other closures with the signs of one, known values as scalars.
-
-        Raises ValueError where doubles may have missed two, so that numbers are not sure.
-        """
+    def closures_of(self, known: Sequence[Any]) -> Closures:
+        """Every closure on known scalars, in the order of their numbers."""
         import numpy as np
 
-        arrays = [np.atleast_1d(value) for value in known]
-        table = self.closures(arrays).table
-        if (table[:, -1] < HIDDEN).any() or len(self.everywhere(arrays, touches)[0]):
-            raise ValueError("rounding hides how many closures there are")
-        rows = table[:, 1:-1]
-        mine = rows[number - 1]
-        alike = (rows[:, 1:] == mine[1:]).all(axis=1)
-        alike[number - 1] = False
-        return [float(np.angle(np.exp(1j * x))) if self.turns else float(x) for x in rows[alike, 0]]
+        return self.closures([np.atleast_1d(value) for value in known])
 
     def polished(self, known: Sequence[Any], row: Sequence[float]) -> tuple[Any, ...]:
         """A closure in floats, with a last step along the secant."""
@@ -113,21 +128,13 @@ class Trying(Trial):
 
     def closures(self, known: Sequence[Any]) -> Closures:
         """Every closure of every element of known values, in the order of their numbers."""
-        size = len(known[0]) if known else 1
-        return self.ordered(known, size, *self.everywhere(known, roots))
-
-    def everywhere(
-        self, known: Sequence[Any], sought: Callable[[Any, Any], tuple[Any, Any]]
-    ) -> tuple[Any, Any, Any]:
-        """What is sought wherever the link can be tried: elements, trial values, signs."""
         import numpy as np
 
         size = len(known[0]) if known else 1
         reach = None if self.turns else self.reaches(known, size)
         windows = Windows(np.arange(size), self.shares(known, size))
-        found = list(self.fits(known, reach, (), windows, sought))
-        owner, tried, chosen = (np.concatenate(column) for column in zip(*found, strict=True))
-        return owner, tried, chosen
+        found = zip(*self.fits(known, reach, (), windows), strict=True)
+        return self.ordered(known, size, *(np.concatenate(column) for column in found))
 
     def fits(
         self,
@@ -135,12 +142,11 @@ class Trying(Trial):
         reach: Any,
         signs: tuple[int, ...],
         windows: Windows,
-        sought: Callable[[Any, Any], tuple[Any, Any]] = roots,
-    ) -> Iterator[tuple[Any, Any, Any]]:
-        """Every fit for sets of signs that begin so: its element, its trial value, its signs.
+    ) -> Iterator[tuple[Any, Any, Any, Any]]:
+        """Every fit for sets of signs that begin so: its element, its trial value, its signs, and
+        whether it only may be one, as the misfit comes near zero without crossing it.
 
-        ``windows`` are where the dyads of the signs that are set can be drawn; ``sought`` may look
-        for other places than the roots of the misfit.
+        ``windows`` are where the dyads of the signs that are set can be drawn.
         """
         import numpy as np
 
@@ -152,17 +158,19 @@ class Trying(Trial):
         k = len(signs)
         if k == len(self.signs):
             owner, places = windows
-            row, share = sought(lambda row, at: self.misfits(*trial(owner[row], at)), places)
+            row, share, touching = roots_and_touches(
+                lambda row, at: self.misfits(*trial(owner[row], at)), places
+            )
             _, tried, rows = trial(owner[row], share)
-            yield owner[row], tried, rows
+            yield owner[row], tried, rows, touching
             return
         if self.choices[k] is not None:
             windows = narrowed(lambda owner, at: self.drawable(k, *trial(owner, at)), windows)
         for sign in (1, -1):
-            yield from self.fits(known, reach, (*signs, sign), windows, sought)
+            yield from self.fits(known, reach, (*signs, sign), windows)
 
     def ordered(
-        self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any
+        self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any, touching: Any
     ) -> Closures:
         """The closures in the order of their numbers: by the angles of the group's links."""
         import numpy as np
@@ -181,7 +189,7 @@ class Trying(Trial):
         keep[1:] = (abs(np.diff(keys, axis=1)) > 1.5).any(axis=0) | (np.diff(keys[0]) != 0)
         order = order[keep]
         table = np.column_stack([owner, tried, signs, sine])[order]
-        return Closures(size, table)
+        return Closures(size, table[~touching[order]], table, touching[order])
 
     def sines(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
         """Sine of the angle at which the locus crosses what was cut, by a small step each way.
@@ -240,17 +248,26 @@ class ClosureSolver:
 
     def ways(self, known: Sequence[Any]) -> int:
         """In how many ways the group closes on known values."""
-        import numpy as np
-
-        return self.trying.closures([np.atleast_1d(value) for value in known]).ways()
+        return self.trying.closures_of(known).ways()
 
 
 @dataclass(frozen=True, slots=True)
 class Closures:
-    """All closures of some elements: rows of element, trial value, signs and sine of crossing."""
+    """All closures of some elements: rows of element, trial value, signs and sine of crossing.
+
+    ``whole`` has the rows of what may be closures too (``touching``): the misfit comes there so
+    near zero that rounding hides whether it crosses it.
+    """
 
     size: int
     table: Any
+    whole: Any
+    touching: Any
+
+    @property
+    def merging(self) -> Any:
+        """Which rows of the whole may be two closures or none: rounding does not tell."""
+        return self.touching | (self.whole[:, -1] < HIDDEN)
 
     def ways(self) -> int:
         """In how many ways the first element closes."""
@@ -267,6 +284,27 @@ class Closures:
         there = count >= number
         rows[there] = self.table[first[there] + number - 1]
         return list(rows)
+
+    def sure(self, number: int) -> list[Any]:
+        """As picked; NaN where rounding leaves open which closure has that number."""
+        rows = self.picked(number)
+        merging = self.merging
+        for owner in dict.fromkeys(self.whole[merging, 0].astype(int).tolist()):
+            if number > self.before(owner):
+                rows[owner] = rows[owner] * float("nan")
+        return rows
+
+    def before(self, owner: int) -> int:
+        """How many closures of an element come before the first that rounding leaves open."""
+        mine = self.merging[self.whole[:, 0] == owner]
+        return int(mine.argmax()) if mine.any() else len(mine)
+
+    def merging_at(self, number: int) -> MergingError | None:
+        """What to raise where it is open which closure of the first element has a number."""
+        before = self.before(0)
+        if before < number and self.merging[self.whole[:, 0] == 0].any():
+            return MergingError(before + 1, number)
+        return None
 
 
 def sign_table(count: int) -> list[tuple[int, ...]]:

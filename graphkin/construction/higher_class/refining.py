@@ -9,76 +9,73 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from graphkin.construction.core.program import Program
-from graphkin.construction.core.run import StepFailed, run
+from graphkin.construction.higher_class.merging import Closing, closings_of, merged
+from graphkin.construction.higher_class.trial_chain import TrialChain, by_secant, proved
 from graphkin.numbers.arithmetic import Kind, is_ball, phase, turn_by
 
-LEAST = 4 * 1024
-"""The power of a half that the interval of a proof has at least for its width."""
-ROUNDS = 40
-"""Most steps along the secant."""
-APART = 2.0**-30
-"""How far the second trial lies from the closure in doubles, in radians or parts of its size."""
 SECANTS = 2
 """Steps along the secant that lead from a double to a longdouble."""
+APART = 2.0**-30
+"""How far the second trial lies from the closure in doubles, in radians or parts of its size."""
 CONFUSED = 0.01
 """How near another closure is that one may be taken for, in radians or parts of its size."""
-WIDENED = 100
-"""How many times the interval of a proof is widened before it is given up."""
-WIDER = 1.25
-"""How much wider each time."""
-
-
-class TrialChain:
-    """The trial chain of a group on one scene: its misfit at a trial value, in a kind."""
-
-    def __init__(self, trying: Any, known: Sequence[Any], signs: Sequence[float], kind: Kind):
-        wanted = [n for n in (trying.misfit, trying.facing) if n is not None]
-        self.trying, self.kind, self.signs = trying, kind, signs
-        self.known = dict(zip(trying.inputs, known, strict=True))
-        targets = {("step", str(n)): n for n in wanted}
-        self.program = Program(trying.program.steps, targets)
-        self.needed = self.program.needed(targets)
-
-    def misfit(self, tried: Any, known: dict[int, Any] | None = None) -> Any:
-        """By how much the last link misses; ValueError where the chain cannot be drawn."""
-        trying = self.trying
-        overrides = dict(self.known if known is None else known)
-        overrides[trying.tried] = turn_by(tried) if trying.turns else tried
-        overrides |= dict(zip(trying.signs, self.signs, strict=True))
-        try:
-            trace = run(self.program, self.needed, trying.values, self.kind, overrides=overrides)
-        except StepFailed as failed:
-            raise ValueError("the chain of the trial cannot be drawn") from failed
-        if trying.facing is not None and not trace.values[trying.facing] > 0:
-            raise ValueError("the last link does not surely face the right way")
-        return trace.values[trying.misfit]
 
 
 def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tuple[Any, ...]:
     """Trial value, signs and the sine of crossing in one closure, in the kind of what is known.
 
-    Raises ClosingError where doubles find no such closure, ValueError where a ball does not tell
-    that the group closes.
+    Raises ClosingError where there is no such closure, ValueError where a ball does not tell that
+    the group closes, and MergingError where it does not tell which closure has the number.
     """
     doubles = [in_doubles(value) for value in known]
-    found, *signs, sine = trying.closed(doubles, number)
-    tried = phase(found) if trying.turns else found
-    chain = TrialChain(trying, known, signs, kind)
-    value = refined(chain, kind.number(tried))
     if kind.name == "ball":
-        refuse_confused(chain, value, tried, trying.beside(doubles, number))
-    rest = (kind.number(each) for each in (*signs, sine))
-    return (turn_by(value) if trying.turns else value, *rest)
+        return closed_in_balls(trying, known, doubles, number, kind)
+    found, *signs, sine = trying.closed(doubles, number)
+    chain = TrialChain(trying, known, signs, kind)
+    return closing(
+        chain, refined(chain, kind.number(phase(found) if trying.turns else found)), sine
+    )
 
 
-def refuse_confused(chain: TrialChain, value: Any, tried: float, others: Sequence[float]) -> None:
+def closed_in_balls(
+    trying: Any, known: Sequence[Any], doubles: Sequence[Any], number: int, kind: Kind
+) -> tuple[Any, ...]:
+    """As closed_in, in balls: where rounding leaves open which closures there are balls decide."""
+    closures = trying.closures_of(doubles)
+    closings = closings_of(closures)
+    if merging := closures.merging_at(number):
+        try:
+            closings = merged(trying, known, closures, kind)
+        except ValueError as undecided:
+            raise merging from undecided
+    one = trying.chosen(closings, number)
+    chain = TrialChain(trying, known, one.signs, kind)
+    if is_ball(one.tried):
+        return closing(chain, one.tried, one.sine)
+    value = refined(chain, kind.number(one.tried))
+    refuse_confused(chain, value, one, closings)
+    return closing(chain, value, one.sine)
+
+
+def closing(chain: TrialChain, value: Any, sine: Any) -> tuple[Any, ...]:
+    """What closes a group, in the kind of a chain: the trial value, signs, sine of crossing."""
+    rest = (each if is_ball(each) else chain.kind.number(each) for each in (*chain.signs, sine))
+    return (turn_by(value) if chain.trying.turns else value, *rest)
+
+
+def refuse_confused(
+    chain: TrialChain, value: Any, one: Closing, closings: Sequence[Closing]
+) -> None:
     """Closures with the signs of one are surely others, and on the side where doubles find them.
 
     Only those that lie so near that a secant might lead from one to the other are looked at.
     """
-    for other in others:
-        if abs(other - tried) < CONFUSED * (1 if chain.trying.turns else abs(tried) or 1):
+    turns, tried = chain.trying.turns, one.tried
+    for each in closings:
+        if each is one or each.signs != one.signs or is_ball(each.tried):
+            continue
+        other = each.tried
+        if abs(other - tried) < CONFUSED * (1 if turns else abs(tried) or 1):
             away = refined(chain, chain.kind.number(other)) - value
             if not (away > 0 if other > tried else away < 0):
                 raise ValueError("the balls do not tell two closures apart")
@@ -106,11 +103,10 @@ def refined(chain: TrialChain, start: Any) -> Any:
     turns = chain.trying.turns
     if hasattr(start, "shape") and start.shape:
         return start if chain.kind.name == "float32" else by_secants(chain.misfit, start, turns)
+    step = APART if turns else APART * (abs(start) or 1)
     if chain.kind.name != "ball":
-        return by_secant(chain.misfit, start, turns)
-    middles = {number: middle(value) for number, value in chain.known.items()}
-    near = by_secant(lambda tried: middle(chain.misfit(tried, middles)), start, turns)
-    return proved(chain, near, turns)
+        return by_secant(chain.misfit, start, step)
+    return proved(chain, by_secant(chain.middle_misfit, start, step), step)
 
 
 def by_secants(misfit: Any, start: Any, turns: bool) -> Any:
@@ -124,49 +120,3 @@ def by_secants(misfit: Any, start: Any, turns: bool) -> Any:
         trial = np.where(flat, new, new - after * (new - old) / np.where(flat, 1, after - before))
         old, new, before, after = new, trial, after, misfit(trial)
     return new
-
-
-def by_secant(misfit: Any, start: Any, turns: bool) -> Any:
-    """Where a misfit vanishes, near a start: until it no longer comes nearer to nought."""
-    step = APART if turns else APART * (abs(start) or 1)
-    old, new = start, start + step
-    before, after = misfit(old), misfit(new)
-    if abs(before) < abs(after):
-        old, new, before, after = new, old, after, before
-    for _ in range(ROUNDS):
-        if after in (0, before):
-            return new
-        trial = middle(new - after * (new - old) / (after - before))
-        value = misfit(trial)
-        if not abs(value) < abs(after):
-            return new
-        old, new, before, after = new, trial, after, value
-    return new
-
-
-def proved(chain: TrialChain, near: Any, turns: bool) -> Any:
-    """The ball about a value at whose ends the misfit surely has two signs, and none is missing.
-
-    Between them the misfit is a continuous function, for it is finite on the whole ball.
-    """
-    from flint import arb
-
-    step = APART if turns else APART * (abs(near) or 1)
-    slope = (chain.misfit(near + step) - chain.misfit(near - step)) / (2 * step)
-    width = abs(chain.misfit(near)).upper() / abs(slope).lower()
-    if not width.is_finite():
-        raise ValueError("the ball does not tell how the locus crosses")
-    for _ in range(WIDENED):
-        ball = arb(near, width.upper())
-        ends = chain.misfit(near - width), chain.misfit(near + width)
-        if (ends[0] < 0 and ends[1] > 0) or (ends[0] > 0 and ends[1] < 0):
-            if bool(chain.misfit(ball).is_finite()):
-                return ball
-            break
-        width = WIDER * width + arb(2) ** -LEAST
-    raise ValueError("the ball does not tell whether the group closes")
-
-
-def middle(value: Any) -> Any:
-    """The middle of a ball; any other number as it is."""
-    return value.mid() if is_ball(value) else value

@@ -13,8 +13,8 @@ from math import floor, log10
 from typing import Any
 
 from graphkin.construction.core.program import Plane, Program, Step
-from graphkin.construction.core.run import Values, run
-from graphkin.numbers.arithmetic import FLOAT
+from graphkin.construction.higher_class.settling import run_settled
+from graphkin.scene.model import Scene
 
 ROUND = {1.0: 0.0, 1.5: 0.1, 2.0: 0.0, 3.0: 0.05, 4.0: 0.05, 5.0: 0.0, 6.0: 0.05, 8.0: 0.1}
 """First digits of the numbers that are tried, and what each is worse than the roundest."""
@@ -63,7 +63,7 @@ class Spread:
         return 3 * sum(max(amount, 0.0) for amount in (large - LARGER, near, outside))
 
 
-def trial_rates(program: Program, values: Values) -> dict[int, float]:
+def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
     """The two rates for each pair of trial plans, by the steps that hold them.
 
     Raises StepFailed where the mechanism does not close.
@@ -72,7 +72,7 @@ def trial_rates(program: Program, values: Values) -> dict[int, float]:
     divided = [t for t, n in program.targets.items() if is_called(steps[n], "between")]
     if not divided:
         return {}
-    found = run(program, program.needed(divided), values, FLOAT).values
+    found = run_settled(scene, program, program.needed(divided)).values
     rates: dict[int, float] = {}
     for number in found:
         if is_called(steps[number], "share"):
