@@ -9,8 +9,22 @@ from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrow
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import Action, set_on, set_on_twice
+from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.coincident_points import carried
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Vector
+
+
+@action("set-on")
+def set_on(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
+    """A velocity of the plan set on the mechanism at its point."""
+    return Vector(point, point + (image - o) * seconds)
+
+
+@action("set-on-twice")
+def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
+    """An acceleration of the plan set on the mechanism at its point."""
+    return Vector(point, point + (image - o) * (seconds * seconds))
 
 
 class AskedQuantity(NamedTuple):

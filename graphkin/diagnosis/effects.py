@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.timing import Timing, timed
+from graphkin.construction.registry import COMPONENTS
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import Contact, contacts, meshes, turns
+from graphkin.structure.pairs import Contact, contacts, meshes
 
 BY_HAND = "by-hand marks"
 PENCIL = "pencil"
@@ -181,17 +182,13 @@ def cause_of(scene: Scene, effect: Effect) -> str:
             return f"in mesh are {', '.join(meshing(scene))}"
         case Effect.DRIVER:
             return f"{drivers_words(accelerated_drivers(scene))} an acceleration"
-        case Effect.CORIOLIS:
-            return f"{guides_words(moving_guides(scene))} with its link"
-        case Effect.NORMAL:
-            return "points that move about others need a normal component"
         case Effect.TANGENTIAL:
             return "links that no driver turns at a given rate speed up or slow down"
         case Effect.SHAPE:
             return "numbers that the scene states, and the shapes of its links"
         case Effect.CENTRODE:
             return "the centres of a whole motion, which only the sheet and the cycle follow"
-    return ""
+    return next((kind.cause(scene) for kind in COMPONENTS if kind.effect is effect), "")
 
 
 def absence_of(scene: Scene, effect: Effect) -> str:
@@ -206,15 +203,13 @@ def absence_of(scene: Scene, effect: Effect) -> str:
             return "no wheels are in mesh"
         case Effect.DRIVER if not accelerated_drivers(scene):
             return "every driver has a constant speed"
-        case Effect.CORIOLIS if not moving_guides(scene):
-            return no_moving_guide(scene)
-        case Effect.CENTRE if not (ask.centres or ask.pairs or ask.inflection):
+        case Effect.CENTRE if not ask.any_centres:
             return "[ask] names no centres"
         case Effect.CENTRODE if not ask.centrodes:
             return "[ask] names no centrodes"
-        case Effect.POLE if not (ask.poles or ask.inflection):
+        case Effect.POLE if not ask.any_poles:
             return "[ask] names no poles"
-    return ""
+    return next((kind.absence(scene) for kind in COMPONENTS if kind.effect is effect), "")
 
 
 def drivers_words(numbers: list[int]) -> str:
@@ -222,13 +217,6 @@ def drivers_words(numbers: list[int]) -> str:
     return f"driver{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))} " + (
         "have" if len(numbers) > 1 else "has"
     )
-
-
-def guides_words(blocks: list[str]) -> str:
-    """The guide of 2 turns, or the guides of 2, 3 turn."""
-    if len(blocks) > 1:
-        return f"the guides of {', '.join(blocks)} turn, each"
-    return f"the guide of {''.join(blocks)} turns"
 
 
 def timed_drivers(scene: Scene) -> list[int]:
@@ -255,22 +243,3 @@ def pair_words(contact: Contact) -> str:
     """The two links of a contact in words."""
     wheel, track = contact.links
     return f"{wheel} on {'the frame' if track == FRAME else track}"
-
-
-def moving_guides(scene: Scene) -> list[str]:
-    """Blocks whose guide is on a link that turns."""
-    return [
-        link.name
-        for link in scene.links.values()
-        if any(slide.on != FRAME and turns(scene, slide.on) for slide in link.slides)
-    ]
-
-
-def no_moving_guide(scene: Scene) -> str:
-    """Why nothing slides on a link that turns."""
-    fixed = [link.name for link in scene.links.values() if link.slides]
-    if not fixed:
-        return "no link slides"
-    if len(fixed) > 1:
-        return f"the guides of {', '.join(fixed)} do not turn"
-    return f"the guide of {fixed[0]} does not turn"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from graphkin.construction.centres.instant_centre import set_before
-from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component, component_of, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -18,10 +17,8 @@ from graphkin.construction.higher_class.closing_words import closing_sentence, i
 from graphkin.construction.higher_class.trial_words import (
     share_sentence,
     trial_sentence,
-    with_trials_together,
 )
-from graphkin.construction.links.placed_point import with_starts_together
-from graphkin.construction.normal_component.component_words import with_normals_together
+from graphkin.construction.registry import TOGETHER
 from graphkin.construction.step_sentences import point_sentence
 from graphkin.documents.indices import with_indices
 from graphkin.drawing.symbol_markup import symbol
@@ -46,9 +43,9 @@ def sentences(drawing: Drawing) -> list[Sentence]:
         if curve.kind not in ("fixed-centrode", "locus")
     ]
     last = list(read_off(drawing))
-    found = with_starts_together(drawing, with_trials_together(drawing, found))
-    found = with_centres_together(drawing, found)
-    return with_indices(drawing, [*with_normals_together(drawing, found), *last])
+    for together in TOGETHER:
+        found = together(drawing, found)
+    return with_indices(drawing, [*found, *last])
 
 
 def read_off(drawing: Drawing) -> Iterator[Sentence]:

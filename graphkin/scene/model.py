@@ -260,6 +260,16 @@ class Ask(NamedTuple):
     inflection: tuple[str, ...] = ()
     curves: tuple[str, ...] = ()
 
+    @property
+    def any_centres(self) -> bool:
+        """Whether instantaneous centres are drawn: for their own sake, or for circles."""
+        return bool(self.centres or self.pairs or self.inflection)
+
+    @property
+    def any_poles(self) -> bool:
+        """Whether acceleration poles are drawn: for their own sake, or for circles."""
+        return bool(self.poles or self.inflection)
+
 
 class Sheet(NamedTuple):
     """What the title block and the page say beyond the drawing.

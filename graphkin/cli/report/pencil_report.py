@@ -24,12 +24,11 @@ NONE = "–"
 DRAWN_IN = {
     Part.POSITION: "mechanism",
     Part.VELOCITY: "velocity plan",
-    Part.NORMAL: "right triangle",
     Part.ACCELERATION: "acceleration plan",
     Part.CENTRE: "centre",
     Part.POLE: "acceleration pole",
 }
-"""Where a crossing is drawn."""
+"""Where a crossing is drawn that its construction does not say it of."""
 LINES = {
     "line-through": "the line of the trials",
 }
@@ -69,7 +68,7 @@ def crossing_record(found: Forecast, crossing: Crossing) -> dict[str, Any]:
     """A crossing: its letter, its drawing, its lines, its angle, and what a millimetre becomes."""
     return {
         "point": crossing.name,
-        "in": DRAWN_IN[crossing.part],
+        "in": drawing_of(found, crossing),
         "lines": lines_words(found.original.program, crossing.number),
         "angle": degrees(crossing.angle),
         "factor": real(crossing.factor),
@@ -130,7 +129,7 @@ def crossings_table(found: Forecast, crossed: tuple[Crossing, ...]) -> list[str]
         list(
             zip(
                 (crossing.name or NONE for crossing in crossed),
-                (DRAWN_IN[crossing.part] for crossing in crossed),
+                (drawing_of(found, crossing) for crossing in crossed),
                 (lines_words(program, crossing.number) or NONE for crossing in crossed),
                 at_the_point([f"{degrees(crossing.angle):.1f}" for crossing in crossed]),
                 at_the_point([f"{crossing.factor:.1f}" for crossing in crossed]),
@@ -138,6 +137,12 @@ def crossings_table(found: Forecast, crossed: tuple[Crossing, ...]) -> list[str]
             )
         ),
     )
+
+
+def drawing_of(found: Forecast, crossing: Crossing) -> str:
+    """Where a crossing is drawn."""
+    kind = construction(found.original.program.steps[crossing.number])
+    return (kind.drawn_in if kind else "") or DRAWN_IN[crossing.part]
 
 
 def rough(values: Sequence[float | None], endless: str = NONE) -> list[str]:
@@ -158,7 +163,7 @@ def two_digits(value: float) -> str:
 def worst_words(found: Forecast, worst: Crossing) -> str:
     """The flattest crossing in a sentence."""
     lines = lines_words(found.original.program, worst.number)
-    where = f"{worst.name or 'a point'} ({DRAWN_IN[worst.part]})"
+    where = f"{worst.name or 'a point'} ({drawing_of(found, worst)})"
     who = f"{lines} cross" if lines else "the lines cross"
     return (
         f"worst    {where}: {who} at {degrees(worst.angle):.1f}°, "

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from graphkin.construction.acceleration.tangential_direction import tangential_direction
+from graphkin.construction.acceleration.tangential_direction import (
+    known_and_free,
+    tangential_direction,
+)
 from graphkin.construction.acceleration.turned_acceleration import accelerated, turned_image
 from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, slide_arrow
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
@@ -202,10 +205,8 @@ def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str,
     corners: dict[str, int] = {}
     with pen.hands_way():
         for pivot in (base.start, base.end):
-            vector = normal_component(pen, pivot, point)
-            with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-                corners[pivot] = lay_off_normal(pen, pivot, point, vector)
-                lines.append(tangential_direction(pen, pivot, point, corners[pivot]))
+            corners[pivot], line = known_and_free(pen, pivot, point)
+            lines.append(line)
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             return crossed_image(pen, *lines), corners
 

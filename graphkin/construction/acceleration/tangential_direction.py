@@ -9,8 +9,12 @@ from typing import TYPE_CHECKING, ClassVar
 from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen, about, letter, owned
-from graphkin.construction.core.vocabulary import square_to
-from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.normal_component.normal_component import (
+    lay_off_normal,
+    normal_component,
+)
+from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
 
 if TYPE_CHECKING:
@@ -31,6 +35,14 @@ class TangentialDirection(PerpendicularThrough):
             start = symbol(drawing.trace.program.steps[laid.start].name)
             return drawing.words("step.square-to", s=start, **fields)
         return drawing.words("step.square-to-end", **fields)
+
+
+def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
+    """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
+    vector = normal_component(pen, pivot, pin)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = lay_off_normal(pen, pivot, pin, vector)
+        return corner, tangential_direction(pen, pivot, pin, corner)
 
 
 def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:

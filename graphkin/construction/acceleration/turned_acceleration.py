@@ -14,12 +14,7 @@ from graphkin.construction.core.naming import has_no_length, is_driven, rate_sym
 from graphkin.construction.core.pen import Pen, about, letter, owned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vocabulary import (
-    centripetal,
-    difference,
-    driven_tangential,
-    sum_of,
-)
+from graphkin.construction.core.vocabulary import action, difference, sum_of
 from graphkin.construction.rolling.wheel_actions import speed_rolled
 from graphkin.construction.velocity.laid_off_by_rate import (
     LaidOffAboutPivot,
@@ -28,6 +23,19 @@ from graphkin.construction.velocity.laid_off_by_rate import (
     rate_words,
 )
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real
+
+
+@action("centripetal")
+def centripetal(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
+    """End of the normal component of a driven bar: omega squared times the bar, pin to pivot."""
+    return start + omega * omega * (pivot - pin)
+
+
+@action("driven-tangential")
+def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> Point:
+    """End of the tangential component of a driven bar: epsilon times the bar, turned a quarter."""
+    return start + 1j * (pin - pivot) * epsilon
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.plan_vector import sign_of
@@ -16,6 +17,7 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.core.too_short import TINY, is_short
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
+from graphkin.scene.model import Scene
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -64,6 +66,7 @@ class Component(Construction, ABC):
     look: ClassVar[str]
     laid_off_key: ClassVar[str]
     laid_off_reason: ClassVar[str]
+    effect: ClassVar[Effect | None] = None
     follows: ClassVar[bool] = False
     gives_way: ClassVar[bool] = False
 
@@ -84,6 +87,16 @@ class Component(Construction, ABC):
     @abstractmethod
     def is_computed(self, scales: Scales | TriangleChoice) -> bool:
         """Whether sheets give it by number: no triangle holds, or has room, at these scales."""
+
+    @classmethod
+    def cause(cls, scene: Scene) -> str:
+        """What in a scene brings its effect in; nothing where only what is asked does."""
+        return ""
+
+    @classmethod
+    def absence(cls, scene: Scene) -> str:
+        """What in a scene keeps its effect out; nothing where only what is asked does."""
+        return ""
 
     # --- in words and figures --------------------------------------------------------------------
 

@@ -20,7 +20,8 @@ class Construction(Roles):
     ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,
     ``laid_off`` the roles of points that are laid off from the first value of their step,
     ``unmarked`` those of points that a pencil need not mark, ``directions`` those of unit vectors,
-    ``slips`` by what a student's slip multiplies its result.
+    ``slips`` by what a student's slip multiplies its result, ``drawn_in`` what a report calls the
+    drawing of its crossings where that is not the plan's.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
@@ -29,6 +30,7 @@ class Construction(Roles):
     unmarked: ClassVar[frozenset[str]] = frozenset()
     directions: ClassVar[frozenset[str]] = frozenset()
     slips: ClassVar[Mapping[str, complex]] = {}
+    drawn_in: ClassVar[str] = ""
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason behind the step of a role; nothing where it needs none."""

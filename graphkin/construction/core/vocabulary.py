@@ -14,7 +14,6 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import (
     Line,
     Vector,
-    cross,
     crossing_sine,
     dot,
     line_meets_line,
@@ -99,34 +98,10 @@ def pole() -> Point:
     return 0j
 
 
-@action("alike")
-def alike(image: Point) -> Point:
-    """The image of a point that moves as another does: a block does not turn."""
-    return image
-
-
-@action("turned-velocity")
-def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
-    """Image of a pin turning about a pivot: omega times the bar, turned a quarter (Galileo)."""
-    return start + 1j * (pin - pivot) * omega
-
-
-@action("square-to")
-def square_to(start: Point, p: Point, q: Point) -> Line:
-    """Through a point the perpendicular to a bar."""
-    return Line(start, 1j * (q - p))
-
-
 @action("along-bar")
 def along_bar(start: Point, p: Point, q: Point) -> Line:
     """Through a point the parallel to a bar."""
     return Line(start, q - p)
-
-
-@action("parallel-to")
-def parallel_to(start: Point, line: Line) -> Line:
-    """Through a point the parallel to a line, such as a guide."""
-    return Line(start, line.along)
 
 
 @action("meet", margin=crossing_sine)
@@ -147,66 +122,13 @@ def difference(a: Real, b: Real) -> Real:
     return a - b
 
 
-@action("omega")
-def omega(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
-    """Angular velocity of a link from the relative velocity of two of its points."""
-    bar = q - p
-    return cross(bar, image_q - image_p) / dot(bar, bar)
-
-
-@action("centripetal")
-def centripetal(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
-    """End of the normal component of a driven bar: omega squared times the bar, pin to pivot."""
-    return start + omega * omega * (pivot - pin)
-
-
-@action("driven-tangential")
-def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> Point:
-    """End of the tangential component of a driven bar: epsilon times the bar, turned a quarter."""
-    return start + 1j * (pin - pivot) * epsilon
-
-
 @action("lay-off")
 def lay_off(start: Point, vector: Point) -> Point:
     """The end of a vector laid off from a point."""
     return start + vector
 
 
-@action("epsilon")
-def epsilon(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
-    """Angular acceleration from the tangential part of a relative acceleration, with its sense."""
-    bar = q - p
-    return cross(bar, image_q - image_p) / dot(bar, bar)
-
-
 @action("join")
 def join(tail: Point, tip: Point) -> Vector:
     """The arrow from one point of a plan to another."""
     return Vector(tail, tip)
-
-
-@action("set-on")
-def set_on(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
-    """A velocity of the plan set on the mechanism at its point."""
-    return Vector(point, point + (image - o) * seconds)
-
-
-@action("set-on-twice")
-def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
-    """An acceleration of the plan set on the mechanism at its point."""
-    return Vector(point, point + (image - o) * (seconds * seconds))
-
-
-# --- the right triangle on the mechanism (lab, figure 4) -----------------------------------------
-
-
-@action("set-velocity")
-def set_velocity(pin: Point, image_pivot: Point, image_pin: Point, seconds: Real) -> Point:
-    """The relative velocity set at the pin of the bar; ``seconds`` is kL/kv, the plan's scale."""
-    return pin + (image_pin - image_pivot) * seconds
-
-
-@action("square-at")
-def square_at(corner: Point, pivot: Point) -> Line:
-    """At the tip of the velocity the perpendicular to the line that joins it with the pivot."""
-    return Line(corner, 1j * (corner - pivot))

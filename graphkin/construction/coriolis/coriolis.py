@@ -33,15 +33,15 @@ from graphkin.construction.core.vocabulary import (
     action,
     join,
     meet,
-    set_velocity,
-    square_at,
 )
 from graphkin.construction.guides.coincident_points import omega_of
+from graphkin.construction.normal_component.normal_component import set_velocity, square_at
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
 from graphkin.scene.known_names import all_points
-from graphkin.scene.model import Scene
+from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.pairs import turns
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -113,6 +113,8 @@ class CoriolisComponent(TriangleComponent):
     )
     sign: ClassVar[str] = "c"
     look: ClassVar[str] = "coriolis"
+    effect: ClassVar[Effect] = Effect.CORIOLIS
+    drawn_in: ClassVar[str] = "right triangle"
     laid_off_key: ClassVar[str] = "coriolis"
     laid_off_reason: ClassVar[str] = "why.coriolis"
     follows: ClassVar[bool] = True
@@ -145,6 +147,16 @@ class CoriolisComponent(TriangleComponent):
     def symbols(self) -> Mapping[str, str]:
         """The guide, and the point that slides on it."""
         return {"k": self.guide, "q": symbol(self.point)}
+
+    @classmethod
+    def cause(cls, scene: Scene) -> str:
+        """The guides that turn."""
+        return f"{guides_words(moving_guides(scene))} with its link"
+
+    @classmethod
+    def absence(cls, scene: Scene) -> str:
+        """That no guide does."""
+        return "" if moving_guides(scene) else no_moving_guide(scene)
 
     # --- drawing it ------------------------------------------------------------------------------
 
@@ -316,6 +328,35 @@ def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
         kind = construction(step)
         if isinstance(kind, CoriolisComponent) and kind.lean == number:
             yield kind
+
+
+# --- why it is needed ----------------------------------------------------------------------------
+
+
+def guides_words(blocks: list[str]) -> str:
+    """The guide of 2 turns, or the guides of 2, 3 turn."""
+    if len(blocks) > 1:
+        return f"the guides of {', '.join(blocks)} turn, each"
+    return f"the guide of {''.join(blocks)} turns"
+
+
+def moving_guides(scene: Scene) -> list[str]:
+    """Blocks whose guide is on a link that turns."""
+    return [
+        link.name
+        for link in scene.links.values()
+        if any(slide.on != FRAME and turns(scene, slide.on) for slide in link.slides)
+    ]
+
+
+def no_moving_guide(scene: Scene) -> str:
+    """Why nothing slides on a link that turns."""
+    fixed = [link.name for link in scene.links.values() if link.slides]
+    if not fixed:
+        return "no link slides"
+    if len(fixed) > 1:
+        return f"the guides of {', '.join(fixed)} do not turn"
+    return f"the guide of {fixed[0]} does not turn"
 
 
 # --- planning it ---------------------------------------------------------------------------------

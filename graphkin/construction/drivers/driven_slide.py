@@ -12,16 +12,24 @@ from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.naming import driver_of_rate, has_no_length, vector_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation, answer
-from graphkin.construction.guides.guide_actions import driven_slide
+from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.along_guide import AlongGuide
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate, falls, length_drawn
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Line
 
 LETTERS = {"omega": "ω", "v": "v", "epsilon": "ε", "a": "a"}
 """The letters of the given rates of drivers by their names."""
 SPEEDS = {"epsilon": "ω", "a": "v"}
 """The letter of the speed of which each acceleration is the rate."""
+
+
+@action("driven-slide")
+def driven_slide(start: Point, line: Line, speed: Real, way: int) -> Point:
+    """From a point of a plan the given speed, or acceleration, along a guide or back."""
+    return start + line.along * (way * speed / abs(line.along))
 
 
 @dataclass(frozen=True, kw_only=True)

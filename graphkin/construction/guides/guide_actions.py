@@ -99,12 +99,3 @@ def axis_stretched(from_pin: Point, to_pin: Point, way: Point) -> Point:
     """Direction of a guide from two pins and the way between them in the guide's axes."""
     turn = (to_pin - from_pin) / way
     return turn / abs(turn)
-
-
-# --- a driven slide ------------------------------------------------------------------------------
-
-
-@action("driven-slide")
-def driven_slide(start: Point, line: Line, speed: Real, way: int) -> Point:
-    """From a point of a plan the given speed, or acceleration, along a guide or back."""
-    return start + line.along * (way * speed / abs(line.along))

@@ -32,12 +32,11 @@ from graphkin.construction.core.vocabulary import (
     action,
     lay_off,
     meet,
-    set_velocity,
-    square_at,
 )
 from graphkin.drawing.symbol_markup import bar, symbol
-from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
+from graphkin.scene.model import Scene
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -56,6 +55,18 @@ def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Po
     length = abs(bar)
     speed = abs(image_pin - image_pivot)
     return bar * (speed * (speed / length) / length)
+
+
+@action("set-velocity")
+def set_velocity(pin: Point, image_pivot: Point, image_pin: Point, seconds: Real) -> Point:
+    """The relative velocity set at the pin of the bar; ``seconds`` is kL/kv, the plan's scale."""
+    return pin + (image_pin - image_pivot) * seconds
+
+
+@action("square-at")
+def square_at(corner: Point, pivot: Point) -> Line:
+    """At the tip of the velocity the perpendicular to the line that joins it with the pivot."""
+    return Line(corner, 1j * (corner - pivot))
 
 
 @action("bar-line")
@@ -91,6 +102,8 @@ class NormalComponent(TriangleComponent):
     gives: ClassVar[tuple[str, ...]] = ("tip", "edge", "line", "cut", "end", "read", "vector")
     sign: ClassVar[str] = "ν"
     look: ClassVar[str] = "normal"
+    effect: ClassVar[Effect] = Effect.NORMAL
+    drawn_in: ClassVar[str] = "right triangle"
     laid_off_key: ClassVar[str] = ""
     laid_off_reason: ClassVar[str] = "why.normal"
     reasons: ClassVar[Mapping[str, str]] = {"end": "why.height"}
@@ -128,6 +141,11 @@ class NormalComponent(TriangleComponent):
             "bar": bar(self.p, self.q),
             "letter": symbol(self.q.lower()),
         }
+
+    @classmethod
+    def cause(cls, scene: Scene) -> str:
+        """That points move about others."""
+        return "points that move about others need a normal component"
 
     # --- drawing it ------------------------------------------------------------------------------
 

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphkin.construction.acceleration.tangential_direction import tangential_direction
-from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
+from graphkin.construction.acceleration.tangential_direction import known_and_free
+from graphkin.construction.acceleration.turned_acceleration import (
+    TurnedAcceleration,
+    centripetal,
+    driven_tangential,
+)
 from graphkin.construction.core.arrows import (
     acceleration_arrow,
     component_arrow,
@@ -23,14 +27,10 @@ from graphkin.construction.core.pen import (
     second_image,
 )
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import centripetal, driven_tangential, in_proportion
+from graphkin.construction.core.vocabulary import in_proportion
 from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.normal_component.normal_component import (
-    lay_off_normal,
-    normal_component,
-)
 from graphkin.construction.rolling.common_normal import common_normal
 from graphkin.construction.rolling.rolling import radius_of
 from graphkin.construction.rolling.rolling_normal import rolled_image
@@ -146,10 +146,8 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     own = under(name, link)
     centre = pen.bases[link].start
     other = carried(pen, known, name, "acceleration")
-    vector = normal_component(pen, centre, own)
+    corner, line = known_and_free(pen, centre, own)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = lay_off_normal(pen, centre, own, vector)
-        line = tangential_direction(pen, centre, own, corner)
         along = common_normal(pen, other, (centre, own))
         found = crossed_image(pen, line, along, name=second_image(own), of=own)
         component_arrow(pen, corner, found, "τ", own, centre)
@@ -192,10 +190,8 @@ def second_train(pen: Pen, group: Train) -> None:
         carried(pen, partner(each, link), contact_name(each), "acceleration")
         for each in group.contacts
     ]
-    vector = normal_component(pen, pivot, centre)
+    corner, line = known_and_free(pen, pivot, centre)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = lay_off_normal(pen, pivot, centre, vector)
-        line = tangential_direction(pen, pivot, centre, corner)
         letters = letter(names[0]), letter(names[1]), centre
         across = image_of_link(pen, on_line_of(pen, names, others, centre), letters)
         along = common_normal(pen, across, (pivot, centre))

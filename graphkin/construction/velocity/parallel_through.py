@@ -12,13 +12,21 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vocabulary import parallel_to
+from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.along_guide import AlongGuide
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Line
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("parallel-to")
+def parallel_to(start: Point, line: Line) -> Line:
+    """Through a point the parallel to a line, such as a guide."""
+    return Line(start, line.along)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,12 +10,20 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import ContactName
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vocabulary import square_to
+from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.about_pivot import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Line
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("square-to")
+def square_to(start: Point, p: Point, q: Point) -> Line:
+    """Through a point the perpendicular to a bar."""
+    return Line(start, 1j * (q - p))
 
 
 @dataclass(frozen=True, kw_only=True)

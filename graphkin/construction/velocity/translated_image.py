@@ -10,11 +10,18 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vocabulary import alike
+from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("alike")
+def alike(image: Point) -> Point:
+    """The image of a point that moves as another does: a block does not turn."""
+    return image
 
 
 @dataclass(frozen=True, kw_only=True)

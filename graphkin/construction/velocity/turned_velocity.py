@@ -11,7 +11,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_no_length, is_driven, rate_symbol, vector_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vocabulary import turned_velocity
+from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.laid_off_by_rate import (
     LaidOffAboutPivot,
     falls,
@@ -19,6 +19,13 @@ from graphkin.construction.velocity.laid_off_by_rate import (
     rate_words,
 )
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real
+
+
+@action("turned-velocity")
+def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
+    """Image of a pin turning about a pivot: omega times the bar, turned a quarter (Galileo)."""
+    return start + 1j * (pin - pivot) * omega
 
 
 @dataclass(frozen=True, kw_only=True)
