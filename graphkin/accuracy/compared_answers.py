@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.accuracy.compared_positions import ComparedPositions
-from graphkin.construction.core.program import ContactName, Program, Target
+from graphkin.construction.core.program import Program, Target, is_in_scene
 from graphkin.construction.core.quantities import KINDS, SLIDING
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.motion.course import Reals
@@ -67,7 +67,7 @@ def of_all(known: Mapping[Target, int], quantities: Sequence[str]) -> list[str]:
     return [
         name
         for name in names
-        if not isinstance(name, ContactName)
+        if is_in_scene(name)
         and "@" not in name
         and all((quantity, name) in known for quantity in quantities)
     ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.expression import TIME
@@ -11,8 +11,24 @@ from graphkin.scene.model import At, Driver, Scene
 from graphkin.scene.quantity import Quantity
 
 What = Literal["turn", "slide", "roll", "time"]
-UNITS = {"turn": "deg", "slide": "m", "roll": "m", "time": "s"}
-"""Unit of what is swept."""
+
+
+class Coordinate(NamedTuple):
+    """What is swept: its name as a column, its letter and unit, and what the driven link does."""
+
+    name: str
+    letter: str
+    unit: str
+    moves: str = ""
+
+
+COORDINATES: dict[What, Coordinate] = {
+    "turn": Coordinate("phi", "φ", "deg", "turns"),
+    "slide": Coordinate("s", "s", "m", "slides"),
+    "roll": Coordinate("s", "s", "m", "rolls"),
+    "time": Coordinate("t", "t", "s"),
+}
+"""The coordinates that a cycle may sweep."""
 TURN = 360.0
 GRID = 7200
 """Positions of a whole sweep at which its events are looked for: in a turn every 0.05 degrees."""

@@ -11,15 +11,13 @@ from dataclasses import dataclass, replace
 from math import pi
 from typing import Any
 
-from graphkin.motion.driving import GRID, TURN, UNITS, What, stated, timed
+from graphkin.motion.driving import COORDINATES, GRID, TURN, Coordinate, What, stated, timed
 from graphkin.motion.turns_counted import named_angles
 from graphkin.motion.window import usual, window
 from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import Branch, Driver, Scene
 from graphkin.scene.quantity import LENGTHS, Quantity
 from graphkin.text.errors import Problem, SceneError
-
-SYMBOLS = {"turn": "phi", "slide": "s", "roll": "s", "time": "t"}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,14 +41,24 @@ class Sweep:
     usual: float
 
     @property
+    def coordinate(self) -> Coordinate:
+        """What u is."""
+        return COORDINATES[self.what]
+
+    @property
+    def is_length(self) -> bool:
+        """Whether u is a length."""
+        return self.unit == "m"
+
+    @property
     def unit(self) -> str:
         """Unit of u: deg, m or s."""
-        return UNITS[self.what]
+        return self.coordinate.unit
 
     @property
     def symbol(self) -> str:
         """Letter of u: phi, s or t."""
-        return SYMBOLS[self.what]
+        return self.coordinate.name
 
     @property
     def driver(self) -> Driver | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite, pi, radians, sqrt
 from typing import Any
 
-from graphkin.motion.driving import GRID, TURN, UNITS, What, reach_of, stated, timed
+from graphkin.motion.driving import COORDINATES, GRID, TURN, What, reach_of, stated, timed
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Link, Scene
 from graphkin.text.errors import Problem, SceneError
@@ -48,7 +48,7 @@ def window(
         first = start - back if low is None else low
         last = start + ahead if high is None else high
     if not first < last:
-        found = f"{first:.10g} to {last:.10g} {UNITS[what]}"
+        found = f"{first:.10g} to {last:.10g} {COORDINATES[what].unit}"
         raise SceneError(Problem("--from, --to", found, "a window that grows"))
     return first, last, False
 

@@ -8,8 +8,8 @@ from math import pi
 from typing import Any
 
 from graphkin.construction.core.program import Program
-from graphkin.motion.driving import TURN, What, stated
-from graphkin.motion.sweep import SYMBOLS, chosen, law_of_time, sweep_of
+from graphkin.motion.driving import COORDINATES, TURN, What, stated
+from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
@@ -49,7 +49,7 @@ class PageDriver:
     @property
     def name(self) -> str:
         """The letter of what moves, as markup."""
-        return "*φ*" if self.what == "turn" else f"*{SYMBOLS[self.what]}*"
+        return f"*{COORDINATES[self.what].letter}*"
 
     def overrides(self, program: Program, x: TracedNumber) -> dict[int, Any]:
         """The values of the drivers' own steps for a traced position or time."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.cli.report.piece_words import pieces_words
 from graphkin.cli.report.solution_record import plain, settings_words
-from graphkin.cli.report.sweep_words import LETTER, at_words, length_words, short
+from graphkin.cli.report.sweep_words import at_words, length_words, short
 from graphkin.text.plain_table import labelled, listed
 
 if TYPE_CHECKING:
@@ -72,10 +72,9 @@ def sweep_words(cycle: Cycle) -> Iterator[str]:
         return
     driver = sweep.driver
     assert driver is not None
-    what = {"turn": "turns", "slide": "slides", "roll": "rolls"}[sweep.what]
     unit = "rad" if sweep.what == "turn" else "m"
     yield (
-        f"link {driver.link} {what}; at each position its speed is "
+        f"link {driver.link} {sweep.coordinate.moves}; at each position its speed is "
         f"{short(float(driver.speed.si(cycle.scene.values)))} {unit}/s, its acceleration "
         f"{short(float(driver.acceleration.si(cycle.scene.values)))} {unit}/s²"
     )
@@ -93,9 +92,9 @@ def range_words(cycle: Cycle) -> list[str]:
     for pieces in cycle.path.ranges:
         low, high = pieces[0].low, pieces[-1].high
         ends = [at_words(sweep, end.at, name=False) for end in (low, high)]
-        line = f"{LETTER[sweep.what]} from {ends[0]} to {ends[1]}"
+        line = f"{sweep.coordinate.letter} from {ends[0]} to {ends[1]}"
         line += f" ({short(high.at - low.at)}° in all)" if sweep.what == "turn" else ""
-        if sweep.what in ("slide", "roll"):
+        if sweep.is_length:
             line += beyond_words(sweep, low, high)
         lines.append(line)
     return lines

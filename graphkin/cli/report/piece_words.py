@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
-from graphkin.cli.report.sweep_words import LETTER, at_words
+from graphkin.cli.report.sweep_words import at_words
 from graphkin.scene.model import Closure
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def is_short(cycle: Cycle, low: float, high: float) -> bool:
 def span_words(cycle: Cycle, low: float, high: float) -> str:
     """A part of the sweep."""
     ends = (at_words(cycle.sweep, end, name=False) for end in (low, high))
-    return f"{LETTER[cycle.sweep.what]} from {' to '.join(ends)}"
+    return f"{cycle.sweep.coordinate.letter} from {' to '.join(ends)}"
 
 
 def branch_words(name: str, branch: Branch) -> str:

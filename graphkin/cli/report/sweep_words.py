@@ -11,12 +11,11 @@ if TYPE_CHECKING:
 
 NOTHING = 1e-12
 """A length, in the scene's unit, that is rounding."""
-LETTER = {"turn": "φ", "slide": "s", "roll": "s", "time": "t"}
 
 
 def at_words(sweep: Sweep, at: float, name: bool = True) -> str:
     """A place of the sweep, such as φ = 28.955°."""
-    head = f"{LETTER[sweep.what]} = " if name else ""
+    head = f"{sweep.coordinate.letter} = " if name else ""
     if sweep.what == "turn":
         return f"{head}{at:.3f}°".replace("-0.000°", "0.000°")
     if sweep.what == "time":

@@ -120,6 +120,11 @@ class ContactName(str):
     __slots__ = ()
 
 
+def is_in_scene(point: str) -> bool:
+    """Whether a scene names a point: it may ask for it, and a solution has it."""
+    return not isinstance(point, ContactName)
+
+
 Target = tuple[str, str]
 """What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any
 
-from graphkin.construction.core.program import ContactName, Part
+from graphkin.construction.core.program import Part, is_in_scene
 from graphkin.construction.core.quantities import QUANTITIES, Whose
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
@@ -46,7 +46,7 @@ def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
             if (value := trace.value(target, name)) is not None
         }
         for name in names
-        if not isinstance(name, ContactName)
+        if is_in_scene(name)
     }
     return {name: own for name, own in found.items() if own}
 

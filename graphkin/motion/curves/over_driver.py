@@ -198,7 +198,7 @@ def stacked(
 
 def axis_factor(found: Sampled) -> float:
     """What turns u into what its axis shows."""
-    return found.per_length if found.cycle.sweep.what in ("slide", "roll") else 1.0
+    return found.per_length if found.cycle.sweep.is_length else 1.0
 
 
 def driver_axis(found: Sampled, ax: Axes) -> None:
