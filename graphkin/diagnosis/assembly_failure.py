@@ -51,8 +51,8 @@ def does_not_close(
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
     if isinstance(failed.__cause__, MergingError):
         return ClosureError(merging(scene, step, failed.__cause__))
-    if (open_ := undetermined(step, failed.args_found)) is not None:
-        return ClosureError(open_)
+    if (anywhere := undetermined(step, failed.args_found)) is not None:
+        return ClosureError(anywhere)
     loci = loci_of(failed.args_found)
     early = step.part in (Part.SHAPE, Part.POSITION)
     if not early:
@@ -254,8 +254,8 @@ def refuse_blind(scene: Scene, trace: Trace) -> None:
         step = program.steps[number]
         if step.hand or step.part not in MOVING or margin >= BLIND:
             continue
-        if (open_ := undetermined(step, [trace.values[arg] for arg in step.args])) is not None:
-            raise ClosureError(open_)
+        if (anywhere := undetermined(step, [trace.values[arg] for arg in step.args])) is not None:
+            raise ClosureError(anywhere)
         words = f"{in_line(scene, program, number)} as far as doubles tell, a dead point"
         raise ClosureError(not_found(program, number, words, DEAD))
 
