@@ -45,6 +45,11 @@ class GuideLine(Construction):
     line: int
 
     @property
+    def points(self) -> tuple[str, ...]:
+        """The point that it passes through."""
+        return (self.start,) if self.start else ()
+
+    @property
     def lies_along(self) -> str:
         """The guide itself."""
         return f"the guide of {self.block}"
