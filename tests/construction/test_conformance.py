@@ -1,0 +1,187 @@
+"""Every kind of construction has all of it: a scene, value, drawn way, and no face that is idle.
+
+A kind is found by its class and has to be drawn by one of the scenes; a face of a kind that can be
+taken away without anything changing is one that nobody looks at.
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import pkgutil
+from collections.abc import Iterator
+from functools import cache
+
+import pytest
+
+import graphkin.construction
+from graphkin.accuracy.pencil.forecast import forecast
+from graphkin.accuracy.pencil.original import original
+from graphkin.accuracy.pencil.pencil_marks import Pencil
+from graphkin.cli.report.crossing_words import place_words
+from graphkin.cli.report.pencil_report import pencil_lines, step_words
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.documents.relations import relations
+from graphkin.documents.scaling import shown
+from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet import sheet
+from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.mechanism import Mechanism, load
+from graphkin.numbers.kinds import ball_kind
+from graphkin.text import words
+from graphkin.web.reasons import reasons
+from tests.chosen import FOLDER, SCENES
+from tests.documents.test_words import RARE, rare
+
+LABS = ("pump", "slotted-lever")
+LANGUAGES = ("en", "it", "ro")
+MARKING = {"slips", "sizes", "power_of", "as_measured", "proportions"}
+"""Faces that only labs and marking look at: tests/classroom holds them."""
+FAILING = {"at_end", "failing", "found_link", "in_line", "lies_along", "points", "undetermined"}
+"""Faces that only the words for what cannot be drawn look at: tests/diagnosis holds them."""
+PLANNING = {"absence", "cause", "draw", "lines_at"}
+"""Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
+UNREACHED = {
+    "AccelerationPole.mark_far",
+    "CoriolisComponent.is_drawn",
+    "GuideCentre.marks",
+    "KleinComponent.is_computed",
+    "KleinComponent.room",
+    "LaidOff.said_before",
+    "RelativeCentre.needs_ray",
+    "RollingNormal.is_computed",
+    "TurnedAcceleration.index_at",
+    "TurnedVelocity.said_before",
+    "VelocityNormal.places",
+}
+"""Faces that none of the scenes here needs where it stands; each wants a scene, or to go."""
+
+
+@cache
+def mechanism(name: str) -> Mechanism:
+    """A lab, an example, or a scene of the tests."""
+    if name in RARE:
+        return rare(name)
+    return load(name if name in LABS else FOLDER / f"{name}.toml")
+
+
+@cache
+def materials(name: str) -> tuple[list[Drawing], ...]:
+    """The sheets of a scene in each language."""
+    one = mechanism(name)
+    verdict = proved(one, shown(one))
+    return tuple(drawings_of(one, verdict, words(language)) for language in LANGUAGES)
+
+
+@cache
+def drawn(name: str) -> tuple[int, ...]:
+    """The steps that the sheets of a scene draw."""
+    numbers = (number for each in materials(name)[0] for number in each.trace.values)
+    return tuple(dict.fromkeys(numbers))
+
+
+@cache
+def homes() -> dict[type, list[str]]:
+    """The scenes whose sheets draw each kind; of one that is never drawn those that compute it."""
+    found: dict[type, list[str]] = {}
+    written: dict[type, list[str]] = {}
+    for name in (*LABS, *SCENES, *RARE):
+        steps = mechanism(name).program.steps
+        for kind in {type(steps[number].of) for number in drawn(name)}:
+            found.setdefault(kind, []).append(name)
+        for kind in {type(step.of) for step in steps}:
+            written.setdefault(kind, []).append(name)
+    return written | found
+
+
+def below(kind: type[Construction]) -> Iterator[type[Construction]]:
+    """The classes under a class that can be made."""
+    for each in kind.__subclasses__():
+        if not inspect.isabstract(each):
+            yield each
+        yield from below(each)
+
+
+def kinds() -> list[type[Construction]]:
+    """The kinds of constructions: the classes of which none is narrower, or that are drawn."""
+    for module in pkgutil.walk_packages(graphkin.construction.__path__, "graphkin.construction."):
+        importlib.import_module(module.name)
+    found = {kind for kind in below(Construction) if kind.gives}
+    made = (kind for kind in found if kind in homes() or not kind.__subclasses__())
+    return sorted(made, key=lambda kind: kind.__name__)
+
+
+KINDS = kinds()
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+def test_a_scene_draws_it_and_its_roles_are_its_own_steps(kind):
+    assert kind in homes(), "no scene draws it"
+    steps = mechanism(homes()[kind][0]).program.steps
+    records = {id(step.of): step.of for step in steps if type(step.of) is kind}
+    for record in records.values():
+        own = dict(record.given())
+        assert own
+        for role, number in own.items():
+            assert (steps[number].of, steps[number].role) == (record, role)
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+def test_its_value_is_the_drawn_way_in_balls(kind):
+    """The two ways of every step that has two overlap, in balls of 200 bits."""
+    for name in homes()[kind][:3]:
+        one = mechanism(name)
+        trace = one.trace(one.asked(), by_hand=True, kind=ball_kind(200))
+        for number, value in trace.values.items():
+            step = trace.program.steps[number]
+            own = type(step.of) is kind and step.by_hand in trace.values
+            if own and hasattr(value, "overlaps"):
+                assert value.overlaps(trace.values[step.by_hand]), step
+
+
+def everything(name: str) -> dict[str, object]:
+    """What comes of a scene: marks, sentences, reasons, relations, and what a report says."""
+    each = materials(name)
+    drawings = [drawing for some in each for drawing in some]
+    program = mechanism(name).program
+    exact = original(mechanism(name), each[0][0].scales)
+    return {
+        "marks": [sheet(drawing, "key", "1/2").marks for drawing in each[0]],
+        "sentences": [sentences(drawing) for drawing in drawings],
+        "reasons": [reasons(drawing, list(drawing.trace.values), {}) for drawing in drawings],
+        "relations": [relations(some) for some in each],
+        "report": [(step_words(program, n), place_words(program, n)) for n in drawn(name)],
+        "pencil": list(pencil_lines(forecast(exact, Pencil(0.25)))),
+    }
+
+
+@cache
+def unchanged(name: str) -> dict[str, object]:
+    """The same, with every face."""
+    return everything(name)
+
+
+FACES = [
+    pytest.param(kind, face, id=f"{kind.__name__}.{face}")
+    for kind in KINDS
+    for face in sorted(set(vars(kind)) - set(kind.__annotations__) - MARKING - FAILING - PLANNING)
+    if f"{kind.__name__}.{face}" not in UNREACHED
+    if not face.startswith("_") and any(hasattr(base, face) for base in kind.__mro__[1:])
+]
+
+
+@pytest.mark.parametrize(("kind", "face"), FACES)
+def test_no_face_is_idle(kind, face, monkeypatch):
+    """Without it some page, table or report of a scene is another, or is not made at all."""
+    for name in homes()[kind]:
+        kept = unchanged(name)
+        with monkeypatch.context() as patch:
+            patch.delattr(kind, face)
+            try:
+                changed = everything(name) != kept
+            except Exception:
+                changed = True
+        if changed:
+            return
+    pytest.fail("nothing changes without it")
