@@ -15,6 +15,7 @@ from graphkin.construction.higher_class.closure_solver import (
     MergingError,
     sign_table,
 )
+from graphkin.construction.higher_class.settling import BITS
 from graphkin.diagnosis.exact_intersection import Meeting, loci_of, meeting
 from graphkin.diagnosis.ranges import closes_where, closings, where_it_closes
 from graphkin.diagnosis.singularity_words import closed_by, in_line
@@ -35,7 +36,7 @@ DEAD = (
     "driver's speed determines no other: change the driver's position"
 )
 
-MERGE = "merge here, or lie so near to it that balls of 1024 bits do not tell"
+MERGE = f"merge here, or so near that balls of {BITS[-1]} bits do not tell"
 ALONE = "it closes at this dead point alone: change the lengths"
 
 
