@@ -99,13 +99,6 @@ def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
     return f"*{letter}*"
 
 
-def index_of(drawing: Drawing, says: Mapping[str, str]) -> str:
-    """Index of a motion about a pin: B about a fixed pivot, BA about a moving one."""
-    if "i" in says:
-        return says["i"]
-    return says["q"] + ("" if says["p"] in drawing.scene.frame.points else says["p"])
-
-
 def is_driven(drawing: Drawing, number: int) -> bool:
     """True for a rate that the scene gives."""
     return isinstance(drawing.trace.program.steps[number].of, Drive)
