@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.slide_symbols import frame_guides, places_of
-from graphkin.construction.links.plates import corners_of, farthest
-from graphkin.construction.rolling.wheel_symbols import is_all_wheel, straight_tracks
+from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
+from graphkin.construction.rolling.wheel_symbols import straight_tracks
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Mark
 from graphkin.scene.model import FRAME, Driver, Link

@@ -15,14 +15,13 @@ from graphkin.construction.guides.slide_symbols import (
     rails_of,
     swivelling,
 )
-from graphkin.construction.links.plates import corners_of, farthest
+from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
 from graphkin.construction.links.profile_symbols import draw_edges
 from graphkin.construction.rolling.wheel_symbols import (
     draw_contacts,
     draw_fixed_wheels,
     draw_tracks,
     draw_wheels,
-    is_all_wheel,
     number_beside,
 )
 from graphkin.drawing.field import XY, Field, clipped

@@ -6,7 +6,6 @@ from cmath import phase
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.slide_symbols import places_of
-from graphkin.construction.rolling.wheel_symbols import is_all_wheel
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import Link
 
@@ -34,6 +33,16 @@ def corners_of(drawing: Drawing, link: Link) -> list[complex] | None:
     around = hull(places)
     start = min(range(len(around)), key=lambda i: phase(around[i] - sum(around) / len(around)))
     return around[start:] + around[:start]
+
+
+def is_all_wheel(drawing: Drawing, link: str) -> bool:
+    """True for a link whose points all lie on one of its wheels: it needs no bar or plate."""
+    places = places_of(drawing, link)
+    return any(
+        all(abs(place - disc.centre) <= disc.radius * (1 + 1e-6) for place in places)
+        for disc in drawing.standing.discs
+        if disc.link == link and not disc.wheel.inside
+    )
 
 
 def hull(places: list[complex]) -> list[complex]:

@@ -9,6 +9,7 @@ from math import hypot, pi
 from graphkin.construction.core.bodies import Disc, Touch
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.slide_symbols import ALIKE, REACH, places_of, seat, within
+from graphkin.construction.links.plates import is_all_wheel
 from graphkin.construction.rolling.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
@@ -109,16 +110,6 @@ def spokes(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
     if is_all_wheel(drawing, disc.link) or len(ends) == 1:
         for end in ends:
             yield LineMark(*field(disc.centre), *field(end), "spoke", disc.link)
-
-
-def is_all_wheel(drawing: Drawing, link: str) -> bool:
-    """True for a link whose points all lie on one of its wheels: it needs no bar or plate."""
-    places = places_of(drawing, link)
-    return any(
-        all(abs(place - disc.centre) <= disc.radius * (1 + 1e-6) for place in places)
-        for disc in drawing.standing.discs
-        if disc.link == link and not disc.wheel.inside
-    )
 
 
 def track(drawing: Drawing, field: Field, touch: Touch) -> Iterator[Mark]:
