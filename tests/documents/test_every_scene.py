@@ -130,11 +130,3 @@ def test_a_trial_is_drawn_thin_and_grey_and_no_vector_belongs_to_it():
     assert marks
     assert {kind_of(mark) for mark in marks} == {"trial", "point"}
     assert style_of("trial").width < style_of("acceleration").width / 2
-
-
-def test_a_bar_that_no_step_lays_off_is_told_as_idle():
-    (velocity, *_) = drawings("mobility-parallel-cranks")
-    told = [said.markup for said in sentences(velocity) if said.name.startswith("idle")]
-    assert told == ["join *E**F*: link 3 is idle and fits by itself"]
-    (cut, *_) = drawings("stephenson-3-crank")
-    assert not [said for said in sentences(cut) if said.name.startswith("idle")]

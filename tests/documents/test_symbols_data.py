@@ -6,14 +6,12 @@ import pytest
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.documents.scaling import shown
-from graphkin.documents.sheet_documents import drawings_of, language_of, proved
+from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from tests.documents.made_up import HEAD, made_up
-from tests.documents.sheet_tools import drawings, mechanism_named
 from tests.scene_files import scene_text
 
 SCENES = {
@@ -46,11 +44,6 @@ def said(name: str, language: str = "en") -> list[str]:
     return [plain(piece) for piece in given(spoken)]
 
 
-def told(name: str) -> list[str]:
-    """The data of an example scene as plain text."""
-    return [plain(piece) for piece in given(drawings(name)[0])]
-
-
 def test_a_guide_on_a_moving_link_is_told_in_the_axes_of_that_link():
     found = said("slides on moving links")
     beside = "A slides parallel to QB, 5 mm to the right of it"
@@ -59,26 +52,6 @@ def test_a_guide_on_a_moving_link_is_told_in_the_axes_of_that_link():
     assert slot in found
     beside = "pin D slides in a slot parallel to QB, 8 mm to the left of it (positive from Q to B)"
     assert beside in found
-
-
-def test_a_guide_on_a_link_that_does_not_turn_is_told_in_the_axes_of_the_frame():
-    """The follower's axis points up, so its face lies at nought degrees, below its pin."""
-    found = told("mobility-cam")
-    face = "E slides along the line of link 3 through the point (0; −70) mm from F at 0°"
-    assert f"{face} to the x axis (positive from that point to the right)" in found
-    assert "B slides along the line of link 1 through A (positive from A to the right)" in told(
-        "rod-and-wheel"
-    )
-
-
-def test_a_guide_at_a_distance_says_parallel_to_what():
-    line = "the line through O at 0° to the x axis"
-    assert f"B slides parallel to {line}, 30 mm above it, to the right of A" in told("slider-crank")
-
-
-def test_a_closure_is_told_by_the_angle_that_it_is_counted_by():
-    closes = "of the ways in which links 2, 3, 4, 5 close take number 2"
-    assert f"{closes}, counted by the angle of PQ from 0° to 360°" in told("rapid-return")
 
 
 def test_a_closure_is_counted_by_a_link_that_no_driver_holds():
@@ -137,11 +110,3 @@ def test_a_mechanism_without_wheels_does_not_speak_of_slip():
 def test_the_data_can_be_said_in_every_language(name, language):
     found = said(name, language)
     assert len(found) == len(said(name)) and not [piece for piece in found if "{" in piece]
-
-
-def test_a_negative_speed_is_told_by_its_magnitude_and_sense():
-    mechanism = mechanism_named("gears-planet")
-    verdict = proved(mechanism, shown(mechanism))
-    (drawing, *_) = drawings_of(mechanism, verdict, language_of(mechanism, "en"))
-    found = [plain(piece) for piece in given(drawing)]
-    assert "n1 = 50 rev/min = constant, turning clockwise" in found

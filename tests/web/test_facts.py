@@ -45,13 +45,6 @@ def test_a_task_says_at_which_scale_to_draw_on_paper(name, language):
         assert f"{chosen.words} (kL = {spoken.decimal(digits(chosen.kL))})" in said
 
 
-def test_where_the_crank_says_the_scale_the_rule_is_told_and_no_value():
-    velocity, acceleration = told(mechanism_of("pump"))
-    assert "kv = ω1·kL, oa = O1A/kL." in velocity
-    assert "ka = ω12·kL." in acceleration
-    assert "m/s" not in velocity + acceleration
-
-
 @pytest.mark.parametrize("name", LABS)
 def test_the_scale_that_is_told_is_that_by_which_millimetres_are_marked(name):
     mechanism, lab = load(name), read_lab(name)
