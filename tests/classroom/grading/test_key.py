@@ -31,7 +31,7 @@ from tests.classroom.grading.students import (
 VARIANTS = range(1, 31)
 """The numbers of a half-group, for which the shipped labs are made."""
 DRAWINGS = 600
-MANY = 60
+MANY = 40
 CAREFUL, COARSE = 0.25, 2.0
 
 
