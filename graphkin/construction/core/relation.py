@@ -57,16 +57,6 @@ def figure(drawing: Drawing, value: float, digits: int = DIGITS) -> str:
     return text.rstrip("0").rstrip(mark) if mark in text and "·" not in text else text
 
 
-def rounded(value: float) -> float:
-    """A number as large as its figure: what a reader who takes the figure computes from."""
-    return float(f"{value:.{DIGITS - 1}e}")
-
-
-def squared(figures: str) -> str:
-    """The square of a figure that is put in; a power of ten is squared with the rest."""
-    return f"({figures})^2" if "·" in figures else f"{figures}^2"
-
-
 def within(drawing: Drawing, value: float) -> str:
     """A number after a sign: in brackets if it is negative."""
     text = figure(drawing, value, FINE)
@@ -81,3 +71,13 @@ def answer(drawing: Drawing, value: float) -> str:
 def length_of(drawing: Drawing, p: str, q: str) -> float:
     """Length of a bar in metres."""
     return abs(drawing.standing.spot(q) - drawing.standing.spot(p))
+
+
+def rounded(value: float) -> float:
+    """A number as large as its figure: what a reader who takes the figure computes from."""
+    return float(f"{value:.{DIGITS - 1}e}")
+
+
+def squared(figures: str) -> str:
+    """The square of a figure that is put in; a power of ten is squared with the rest."""
+    return f"({figures})^2" if "·" in figures else f"{figures}^2"
