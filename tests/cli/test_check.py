@@ -273,6 +273,45 @@ def test_the_closures_of_a_driven_cylinder_are_those_of_its_dyad(run: Run, tmp_p
 # --- what crosses, and what falls together -------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    ("name", "rows"),
+    [
+        (
+            "crank-slot",
+            [
+                ("76.37°", "normal", "the Coriolis triangles of C2 about B"),
+                ("76.37°", "normal", "the right triangle of C2 about B"),
+                ("90.00°", "velocity", "C on link 2"),
+            ],
+        ),
+        (
+            "gears-ring",
+            [
+                ("26.57°", "normal", "the right triangle of T1 about P"),
+                ("26.57°", "normal", "the right triangle of Q about T1"),
+            ],
+        ),
+        (
+            "rapid-return",
+            [
+                ("17.09°", "position", "P"),
+                ("17.09°", "velocity", "P"),
+                ("17.09°", "acceleration", "P"),
+            ],
+        ),
+        ("stephenson-2-binary", [("47.76°", "position", "B")]),
+    ],
+)
+def test_crossings_are_named_as_the_scene_names_them(
+    run: Run, name: str, rows: list[tuple[str, str, str]]
+) -> None:
+    """Points, not the letters of the plans; a crossing that two trial plans have is told once."""
+    lines = run("check", ROOT / "examples" / "scenes" / f"{name}.toml").stdout.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("crossings"))
+    found = [tuple(line.split(maxsplit=2)) for line in lines[at + 1 : at + 1 + len(rows)]]
+    assert found == rows
+
+
 def test_the_flattest_right_triangle_leans_as_its_velocity_says(run: Run) -> None:
     """Its edge crosses the bar at the angle whose tangent is l/v: told as it is drawn, to scale."""
     text = run("check", ROOT / "examples" / "scenes" / "slider-crank.toml").stdout
