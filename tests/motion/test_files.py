@@ -183,6 +183,16 @@ def test_a_title_is_text_and_no_formula():
     assert len(files) > 5
 
 
+def test_words_stand_to_the_right_of_their_lines_but_for_the_last():
+    """At the end of the range there is room on the left alone."""
+    found = sampled(cycle(load("pump", n=7), steps=24), 24)
+    with look():
+        told = pictures(found)["velocities"]().axes[0].texts
+    sides = {text.xy[0]: text.xyann[0] > 0 for text in told}
+    assert len(sides) >= 3
+    assert [at for at, right in sides.items() if not right] == [max(sides)]
+
+
 def test_a_picture_of_many_links_shows_some_and_says_of_how_many():
     """Legends of a hundred names leave no room for curves."""
     found = sampled(cycle(Mechanism(read_text(chain(20), "chain", None, {})), steps=8), 24)
