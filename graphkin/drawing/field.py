@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from graphkin.drawing.areas import Rect
 
 XY = tuple[float, float]
+
+
+class Carried(tuple[Any, Any]):
+    """A place of a page that moves: it knows how others are laid off from it."""
+
+    def toward(self, end: XY) -> tuple[Any, XY]:
+        """How far another place is from this one, and the unit way to it."""
+        raise NotImplementedError
+
+    def across(self, way: XY, along: Any, aside: Any) -> XY:
+        """The place so far along a unit way from this one and so far to its right."""
+        raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)

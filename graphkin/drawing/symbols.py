@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import count, takewhile
 from math import atan2, cos, degrees, hypot, radians, sin
 
-from graphkin.drawing.field import XY
+from graphkin.drawing.field import XY, Carried
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, polygon
 from graphkin.drawing.style import BRIEF
 
@@ -33,20 +34,24 @@ SLOT = 1.75
 """Half the width of a slot in mm."""
 ROUND = 10
 """Chords of a slot's round end."""
+UPRIGHT = (1.0, 0.0)
+"""The way to the right on the page."""
 WELD = 2.4
 """Side of the filled corner between two bars that are joined rigidly, in mm."""
 
 
 def arrow(tail: XY, tip: XY, cls: str, name: str, step: int | None = None) -> Iterator[Mark]:
     """A vector as one line from tail to tip, its head apart."""
-    length = hypot(tip[0] - tail[0], tip[1] - tail[1])
+    length = distance(tail, tip)
     yield LineMark(*tail, *tip, cls if length >= SHAFTED else f"{cls} {BRIEF}", name, step)
     if length >= SHORT:
         yield head(tail, tip, cls, name, step)
 
 
 def head(tail: XY, tip: XY, cls: str, name: str = "", step: int | None = None) -> Mark:
-    """An arrowhead at the tip, wider than any shaft."""
+    """An arrowhead at the tip, wider than any shaft; a page that moves lays it off itself."""
+    if isinstance(tail, Carried):
+        return polygon((tip, tail), f"arrowhead {cls.split(maxsplit=1)[0]}", name, step)
     length = hypot(tip[0] - tail[0], tip[1] - tail[1])
     size = min(HEAD, SHARE * length)
     u, v = (tip[0] - tail[0]) / length, (tip[1] - tail[1]) / length
@@ -67,12 +72,11 @@ def pin(at: XY, name: str, radius: float = PIN) -> Mark:
 
 def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = 2.0) -> Iterator[Mark]:
     """A line of the frame with hatching on its right-hand side as one walks along it (y down)."""
-    length = hypot(end[0] - start[0], end[1] - start[1])
-    u, v = (end[0] - start[0]) / length, (end[1] - start[1]) / length
+    length, way = toward(start, end)
     yield LineMark(*start, *end, "guide")
-    for i in range(int(length / spacing)):
-        x, y = start[0] + (i + 0.8) * spacing * u, start[1] + (i + 0.8) * spacing * v
-        yield LineMark(x, y, x - depth * (u + v), y - depth * (v - u), "ground")
+    for i in takewhile(lambda i: i + 1 <= length / spacing, count()):
+        foot = across(start, way, (i + 0.8) * spacing, 0)
+        yield LineMark(*foot, *across(foot, way, -depth, depth), "ground")
 
 
 def pivot_ground(at: XY, height: float = PIVOT) -> Iterator[Mark]:
@@ -88,8 +92,25 @@ def legs(at: XY, height: float) -> Iterator[Mark]:
         yield LineMark(*at, at[0] + half, at[1] + height, "ground")
 
 
+def distance(start: XY, end: XY) -> float:
+    """How far one place is from another."""
+    if isinstance(start, Carried):
+        return start.toward(end)[0]  # type: ignore[no-any-return]
+    return hypot(end[0] - start[0], end[1] - start[1])
+
+
+def toward(start: XY, end: XY) -> tuple[float, XY]:
+    """How far one place is from another, and the unit way to it."""
+    if isinstance(start, Carried):
+        return start.toward(end)
+    length = distance(start, end)
+    return length, ((end[0] - start[0]) / length, (end[1] - start[1]) / length)
+
+
 def across(at: XY, way: XY, along: float, aside: float) -> XY:
     """The place so far along a unit way of the page and so far to its right as one walks."""
+    if isinstance(at, Carried):
+        return at.across(way, along, aside)
     return at[0] + along * way[0] - aside * way[1], at[1] + along * way[1] + aside * way[0]
 
 
@@ -111,9 +132,10 @@ def slot(at: XY, way: XY, low: float, high: float, name: str) -> Mark:
     """A straight slot: two parallel lines with round ends, from ``low`` to ``high`` along it."""
     corners = []
     for end, start in ((high, -90), (low, 90)):
+        middle = across(at, way, end, 0)
         for i in range(ROUND + 1):
             turn = radians(start + 180 * i / ROUND)
-            corners.append(across(at, way, end + SLOT * cos(turn), SLOT * sin(turn)))
+            corners.append(across(middle, way, SLOT * cos(turn), SLOT * sin(turn)))
     return polygon(tuple(corners), "slot", name)
 
 
@@ -126,31 +148,30 @@ def slot_ground(at: XY, way: XY, low: float, high: float) -> Iterator[Mark]:
 
 def weld(corner: XY, first: XY, second: XY, name: str) -> Mark:
     """The filled corner that joins two bars rigidly; the ways are unit vectors on the page."""
-    ends = (
-        (corner[0] + WELD * first[0], corner[1] + WELD * first[1]),
-        (corner[0] + WELD * second[0], corner[1] + WELD * second[1]),
-    )
+    ends = (across(corner, way, WELD, 0) for way in (first, second))
     return polygon((corner, *ends), "weld", name)
 
 
-def turned_arrow(centre: XY, radius: float, start: float, end: float, cls: str) -> Iterator[Mark]:
-    """An arc with an arrowhead at its end, for a sense of turning; angles in degrees."""
-    yield Arc(*centre, radius, start, end, cls)
-    sign = 1 if end > start else -1
-    before = radians(end - sign * degrees(2.2 / radius))
-    tip = radians(end)
-    yield sense_head(centre, radius, before, tip, cls)
+def turned_arrow(
+    centre: XY, radius: float, way: XY, end: tuple[float, float], cls: str
+) -> Iterator[Mark]:
+    """An arc with an arrowhead at its end, for a sense of turning.
+
+    ``way`` leads to its end; ``end`` is the angle there, and how far from it the arc begins, in °.
+    """
+    angle, back = end
+    yield Arc(*centre, radius, angle + back, angle, cls)
+    yield sense_head(centre, radius, way, (1 if back > 0 else -1) * 2.2 / radius, cls)
 
 
-def sense_head(centre: XY, radius: float, before: float, tip: float, cls: str) -> Mark:
-    """The head of a turning arrow, along the chord of its last part."""
-    ends = [(centre[0] + radius * cos(t), centre[1] - radius * sin(t)) for t in (before, tip)]
-    (x0, y0), (x1, y1) = ends
+def sense_head(centre: XY, radius: float, way: XY, before: float, cls: str) -> Mark:
+    """The head of a turning arrow at the end of a way, along the chord from an angle before."""
+    (x0, y0), (x1, y1) = ((radius * cos(t), -radius * sin(t)) for t in (before, 0.0))
     length = hypot(x1 - x0, y1 - y0)
     u, v = (x1 - x0) / length, (y1 - y0) / length
     half = 0.45
     corners = ((x1, y1), (x0 - half * v, y0 + half * u), (x0 + half * v, y0 - half * u))
-    return polygon(corners, f"arrowhead {cls}")
+    return polygon(tuple(across(centre, way, *c) for c in corners), f"arrowhead {cls}")
 
 
 def square_mark(corner: XY, first: XY, second: XY, step: int | None, size: float = 2.0) -> Mark:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 COMMUTING = frozenset({"add", "mul", "min", "max", "equal", "both", "either"})
 """Operations whose arguments may change places."""
@@ -54,7 +54,8 @@ class Graph:
 
     The same is put down once: ``known`` has operations by what they do and to which nodes, each in
     its simplest form, numbers by all their bits, inputs by their names. ``squares`` are the nodes
-    that cannot be negative, ``units`` the pairs of nodes that are the parts of a unit vector.
+    that cannot be negative, ``units`` the pairs of nodes that are the parts of a unit vector;
+    ``now`` gives the value of a node where something is drawn, by which its marks are chosen.
     """
 
     def __init__(self) -> None:
@@ -63,6 +64,7 @@ class Graph:
         self.constants: dict[int, float] = {}
         self.squares: set[int] = set()
         self.units: set[tuple[int, int]] = set()
+        self.now: Callable[[int], Any] | None = None
 
     def put(self, op: str, args: tuple[int, ...]) -> int:
         """The number of an operation on earlier nodes."""

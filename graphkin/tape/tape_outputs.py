@@ -7,7 +7,8 @@ beside them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from graphkin.tape.graph import FOLD, Graph, Node
@@ -65,6 +66,15 @@ class TapeOutputs:
         if value.down is None:
             return self.value(value.node)
         return complex(self.value(value.node), self.value(value.down))
+
+    @contextmanager
+    def choosing(self) -> Iterator[None]:
+        """Marks are chosen here as they are drawn where the scene stands."""
+        before, self.graph.now = self.graph.now, self.value
+        try:
+            yield
+        finally:
+            self.graph.now = before
 
     def value(self, number: int) -> Any:
         """The value of a node where the scene stands."""

@@ -36,6 +36,10 @@ class Traced:
     __bool__ = __float__ = __complex__ = __int__ = __index__ = __array__ = refused
     __len__ = __iter__ = __getitem__ = refused
 
+    def drawn(self, node: int) -> Any:
+        """The value of a node where marks are drawn. Raises UntraceableError where none are."""
+        return refused(self) if self.graph.now is None else self.graph.now(node)
+
     def __getattr__(self, name: str) -> Any:
         raise UntraceableError(f"a step that asks an array for {name}")
 
@@ -56,13 +60,16 @@ class Traced:
 
 
 class Truth(Traced):
-    """A condition, true or false for each variant."""
+    """A condition, true or false for each variant; what is drawn is chosen by it as it stands."""
 
     __slots__ = ("node",)
 
     def __init__(self, graph: Graph, node: int) -> None:
         super().__init__(graph)
         self.node = node
+
+    def __bool__(self) -> bool:
+        return bool(self.drawn(self.node))
 
     def __and__(self, other: Any) -> Any:
         return self.joined("both", other)
@@ -89,6 +96,12 @@ class TracedNumber(Traced):  # noqa: PLW1641
 
     def __init__(self, graph: Graph, node: int, down: int | None = None) -> None:
         self.graph, self.node, self.down = graph, node, down
+
+    def __complex__(self) -> complex:
+        return complex(self.drawn(self.node), self.drawn(self.below()))
+
+    def __int__(self) -> int:
+        return int(self.drawn(self.node))
 
     @property
     def real(self) -> TracedNumber:
@@ -170,6 +183,9 @@ class TracedNumber(Traced):  # noqa: PLW1641
             found = found * self
         return found
 
+    def __mod__(self, other: float) -> TracedNumber:
+        return self - (self * (1 / other)).do("floor") * other
+
     def __neg__(self) -> TracedNumber:
         do = self.graph.do
         down = None if self.down is None else do("neg", self.down)
@@ -210,10 +226,14 @@ class TracedNumber(Traced):  # noqa: PLW1641
         return self.compared("at_most", other, turned=True)
 
     def __eq__(self, other: Any) -> Any:
-        return self.compared("equal", other)
+        other = entered(self.graph, other)
+        across = self.compared("equal", other)
+        if self.down is None and other.down is None:
+            return across
+        return across & self.imag.compared("equal", other.imag)
 
     def __ne__(self, other: Any) -> Any:
-        found = self.compared("equal", other)
+        found = self == other
         return ~found if isinstance(found, Truth) else not found
 
     __radd__, __rmul__ = __add__, __mul__

@@ -23,9 +23,9 @@ from graphkin.drawing.field import XY, Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.drawing.richtext import extent
 from graphkin.tape.tape_outputs import NOWHERE, TapeOutputs
+from graphkin.web.body_pose import BodyPose
 from graphkin.web.field_extents import room_of
 from graphkin.web.moving_sheet import MovingSheet
-from graphkin.web.traced_poses import BodyPose
 
 Record = list[Any]
 Binding = Callable[[Mark], Record | None]
@@ -172,8 +172,11 @@ class FieldBinder:
 
     def head(self, tail: Any, tip: Any, shown: Any = None) -> Binding:
         """The head of an arrow between two traced points of the drawing."""
-        ends = self.page(tail), self.page(tip)
-        return lambda _: ["h", self.condition(shown), *map(self.tape.point, ends)]
+        return self.heading(self.page(tail), self.page(tip), shown)
+
+    def heading(self, tail: Any, tip: Any, shown: Any = None) -> Binding:
+        """The head of an arrow between two traced places of the page."""
+        return lambda _: ["h", self.condition(shown), *map(self.tape.point, (tail, tip))]
 
     def corners(self, places: Sequence[Any], shown: Any = None) -> Binding:
         """A polygon or broken line through traced places of the page."""
@@ -192,13 +195,32 @@ class FieldBinder:
         """The place of what must be positive for a mark to show."""
         return NOWHERE if shown is None else self.tape.number(shown)
 
+    def by_poses(self, poses: Sequence[BodyPose]) -> Binding:
+        """A polygon whose corners are carried by poses of the page, each by its own."""
+
+        def bound(mark: Mark) -> Record:
+            assert isinstance(mark, Polyline)
+            found: Record = ["x", NOWHERE]
+            for point, pose in zip(mark.points, poses, strict=True):
+                found += self.rigid(CircleMark(*point, 1.0, ""), pose, None)[2:]
+            return found
+
+        return bound
+
     def arc(self, centre: Any, radius: Any, span: tuple[Any, Any], shown: Any = None) -> Binding:
         """An arc whose centre and angles (degrees) move; the radius is in metres."""
+        size = self.tape.lifted(radius) * self.field.mm
+        return self.sweeping(self.page(centre), size, span, shown)
+
+    def sweeping(
+        self, centre: Any, radius: Any, span: tuple[Any, Any], shown: Any = None
+    ) -> Binding:
+        """An arc about a place of the page; the radius is in mm."""
         return lambda _: [
             "a",
             self.condition(shown),
-            self.tape.point(self.page(centre)),
-            self.tape.number(self.tape.lifted(radius) * self.field.mm),
+            self.tape.point(centre),
+            self.tape.number(radius),
             *map(self.tape.number, span),
         ]
 

@@ -18,18 +18,13 @@ from graphkin.numbers.arithmetic import pick, smaller
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio, Vector
 from graphkin.web.body_binding import told
-from graphkin.web.driver_binding import of_driver
+from graphkin.web.body_pose import BodyPose, unit
 from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
 from graphkin.web.field_extents import must_be_seen
 from graphkin.web.step_binding import BEYOND_BOTH, FAR, Steps
-from graphkin.web.traced_poses import BodyPose, unit
 
-SOLID = ("link", "plate", "weld", "spoke", "guide-bar", "block", "slider", "disc", "gear-disc")
-"""The classes of marks that are parts of the link whose name they bear."""
 LABELS = ("label", "number", "leader")
 """The classes of a letter and of the circle and the leader that go with it."""
-PINS = ("pin", "hinge", "fixed-pivot")
-"""The classes of marks at the point whose name they bear."""
 FIXED = ("caption", "guide", "ground", "centre-line", "fixed-pivot", "title", "panel")
 """The classes of marks that stay, where nothing else is known of them."""
 ACROSS = ("guide ", "track ")
@@ -68,11 +63,7 @@ class MarkBindings:
         """The marks of bodies and drivers."""
         if not self.on_mechanism:
             return {}
-        found = told(self.binder)
-        if self.drawing.kind == "velocity":
-            for driver in self.drawing.scene.drivers:
-                found.update(of_driver(self.binder, driver, self.angles))
-        return found
+        return told(self.binder, self.angles)
 
     def records(self) -> Iterator[tuple[int, Record]]:
         """The record of every mark that moves, with the mark's number in the field."""
@@ -149,10 +140,6 @@ class MarkBindings:
     def body(self, mark: Mark, first: str) -> Binding:
         """A mark of the mechanism that no step has drawn."""
         places = self.binder.places
-        if mark.name in self.drawing.scene.links and first in SOLID:
-            return self.binder.carried_by(places.pose(mark.name))
-        if first in PINS and mark.name in places.positions:
-            return self.binder.with_point(places.positions[mark.name])
         if isinstance(mark, LineMark) and mark.name.startswith(ACROSS):
             return self.across(mark)
         if first == "moving-centrode":

@@ -2,19 +2,61 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphkin.construction.core.drawn_scene import ENDLESS, NOISE
+from graphkin.construction.core.drawn_scene import ENDLESS, NOISE, Drawing
 from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined
 from graphkin.construction.core.program import Part
+from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import larger, pick, smaller
 from graphkin.numbers.plane import Circle, Ratio, dot
-from graphkin.web.traced_poses import TracedBodies, unit
+from graphkin.tape.tape_outputs import TapeOutputs
+from graphkin.web.body_pose import BodyPose, unit
 
 
-class MovingSheet(TracedBodies):
+@dataclass(frozen=True)
+class MovingSheet:
     """One sheet while it moves: its drawing, and the traced values of its steps."""
+
+    drawing: Drawing
+    trace: Trace
+    tape: TapeOutputs
+
+    @property
+    def values(self) -> Mapping[int, Any]:
+        """The traced values of the steps."""
+        return self.trace.values
+
+    @cached_property
+    def moving(self) -> Drawing:
+        """The drawing in traced numbers."""
+        return replace(self.drawing, trace=self.trace)
+
+    @property
+    def spots(self) -> Mapping[str, Any]:
+        """Where every point of the drawing stands, by its letters."""
+        return self.moving.standing.places
+
+    def pose(self, link: str) -> BodyPose | None:
+        """Where a link stands; None where nothing tells how it is turned."""
+        points = self.drawing.scene.link(link).points
+        places = [p for name, p in self.moving.positions.items() if name in points]
+        with self.tape.choosing():
+            way = self.moving.standing.axis(link)
+        if way is None or not places:
+            return None
+        return BodyPose(self.tape.lifted(places[0]), self.tape.lifted(way))
+
+    def turn_of(self, link: str) -> Any:
+        """By how much a link has turned since the drawing, as a unit vector."""
+        with self.tape.choosing():
+            way = self.moving.standing.axis(link)
+        return self.tape.lifted(
+            1 + 0j if way is None else way * complex(self.tape.now(way)).conjugate()
+        )
 
     def points_on(self, number: int) -> list[int]:
         """The steps whose points a line or an arc must reach, as the layout finds them."""

@@ -25,8 +25,8 @@ from graphkin.numbers.arithmetic import larger, pick, smaller
 from graphkin.numbers.plane import Circle as Round
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Vector, cross, dot
+from graphkin.web.body_pose import unit
 from graphkin.web.field_binder import Binding, only_at_start
-from graphkin.web.traced_poses import unit
 from graphkin.web.visible_steps import ALIKE, VisibleSteps
 
 FULL, NEAR, FAR, LAST = 0, 1, 2, 3

@@ -126,3 +126,9 @@ def apart(one: Sequence[float], other: Sequence[float]) -> float:
     if len(one) != len(other):
         return inf
     return max(abs(a - b) for a, b in zip(one, other, strict=True))
+
+
+def around_apart(one: Sequence[float], other: Sequence[float]) -> float:
+    """The same of two polygons, whose corners may be counted from any one."""
+    turned = (apart([*one[i:], *one[:i]], other) for i in range(0, len(one), 2))
+    return min(turned, default=0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import dot
 from graphkin.scene.model import Rolling, Slide, Wheel
 
@@ -22,12 +23,12 @@ class Guideway(NamedTuple):
     offset: float
 
     @property
-    def coordinate(self) -> float:
+    def coordinate(self) -> Real:
         """Where the block stands, along the guide from its zero."""
-        return float(dot(self.at - self.zero, self.along))
+        return dot(self.at - self.zero, self.along)
 
     @property
-    def foot(self) -> complex:
+    def foot(self) -> Point:
         """The place on the guide beside the block's first point."""
         return self.zero + self.coordinate * self.along
 

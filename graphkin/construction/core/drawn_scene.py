@@ -35,7 +35,7 @@ class Drawing:
 
     ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``curves``
     are those over the whole motion. ``computed`` says by the symbol why a quantity is computed,
-    not measured.
+    not measured. ``driven`` are angles of drivers in degrees, where these are not the scene's.
     """
 
     kind: str
@@ -47,6 +47,7 @@ class Drawing:
     again: bool = False
     curves: tuple[Curve, ...] = ()
     computed: Mapping[str, str] = field(default_factory=dict)
+    driven: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def plane(self) -> Plane:

@@ -12,6 +12,7 @@ from functools import cached_property
 from graphkin.construction.core.bodies import Disc, Guideway, Touch
 from graphkin.construction.core.program import ContactName
 from graphkin.construction.core.run import Trace
+from graphkin.numbers.arithmetic import pick
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Apart, At, Link, Polar, Rolling, Scene, Slide, Wheel
 from graphkin.scene.quantity import Quantity
@@ -46,7 +47,7 @@ class LinkPoses:
     def known(self) -> Mapping[str, complex]:
         """Where every point of the program stands that the trace has placed."""
         return {
-            of: complex(self.trace.values[number])
+            of: self.trace.values[number]
             for (quantity, of), number in self.trace.program.targets.items()
             if quantity == "position" and number in self.trace.values
         }
@@ -77,7 +78,8 @@ class LinkPoses:
         """The largest distance between points, along x or y; 1 where they all fall together."""
         xs = [p.real for p in self.positions.values()] or [0.0]
         ys = [p.imag for p in self.positions.values()] or [0.0]
-        return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+        size = max(max(xs) - min(xs), max(ys) - min(ys))
+        return size if size > 0 else 1.0
 
     def axis(self, link: str, asking: frozenset[str] = frozenset()) -> complex | None:
         """Unit direction of a link's x axis; None where nothing tells it."""
@@ -85,7 +87,7 @@ class LinkPoses:
             return 1 + 0j
         stated = self.trace.value("axis", link)
         if stated is not None:
-            return complex(stated)
+            return stated  # type: ignore[no-any-return]
         found = self.axis_by_points(link)
         if found is None and link not in asking:
             found = self.axis_by_guides(link, asking | {link})
@@ -152,7 +154,7 @@ class LinkPoses:
         along, offset = self.direction(slide), self.si(slide.offset)
         stated = self.trace.value("guide", block.name)
         if along is None and isinstance(stated, Line) and len(block.slides) == 1:
-            along = complex(stated.along / abs(stated.along))
+            along = stated.along / abs(stated.along)
         if along is None:
             return None
         zero = self.carried(slide.on, slide.along[0] if slide.along else slide.through)
@@ -203,14 +205,14 @@ class LinkPoses:
 
     def beside_wheels(self, way: Guideway) -> complex:
         """Where a block of the frame is drawn: at its point, but clear of a wheel on its link."""
-        for touch in self.touches:
+        found = way.at
+        for touch in reversed(self.touches):
             if touch.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
                 continue
-            gap = float(dot(way.at - touch.at, way.along))
-            if abs(gap) < CLEAR * touch.disc.radius:
-                side = -1 if gap < 0 else 1
-                return way.at + (side * CLEAR * touch.disc.radius - gap) * way.along
-        return way.at
+            gap, clear = dot(way.at - touch.at, way.along), CLEAR * touch.disc.radius
+            aside = way.at + (pick(gap < 0, -1, 1) * clear - gap) * way.along
+            found = pick(abs(gap) < clear, aside, found)
+        return found
 
     def on_line(self, own: list[Disc], rolling: Rolling) -> Touch | None:
         """A straight track: the foot of the perpendicular from the centre of the wheel."""
@@ -220,7 +222,7 @@ class LinkPoses:
         along = axis * complex(rolling.angle.direction(self.scene.values))
 
         def miss(disc: Disc) -> float:
-            return float(abs(abs(cross(along, disc.centre - zero)) - disc.radius))
+            return abs(abs(cross(along, disc.centre - zero)) - disc.radius)  # type: ignore[no-any-return]
 
         disc = min(own, key=miss)
         at = zero + dot(disc.centre - zero, along) * along

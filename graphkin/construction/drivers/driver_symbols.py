@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from cmath import phase
-from collections.abc import Iterator
-from math import degrees, hypot
+from collections.abc import Iterable, Iterator
+from math import degrees, pi
 
 from graphkin.construction.core.amounts import in_degrees, written
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
@@ -15,9 +14,14 @@ from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc, LineMark, Mark
 from graphkin.drawing.symbols import BLOCK, across, arrow, head, turned_arrow
+from graphkin.numbers.arithmetic import Real, phase, pick, turn_by
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Driver, Slide
 
+DEGREE = 180 / pi
+"""Degrees of a radian."""
+TURN = 360.0
+"""Degrees of a turn."""
 ANGLE = 11.0
 """Radius of the arc of a driver's angle in mm."""
 WIDER = 6.5
@@ -41,7 +45,7 @@ def draw_drivers(board: FieldContent, drawing: Drawing, field: Field) -> None:
     used: list[tuple[str, int]] = []
     for driver in drawing.scene.drivers:
         if driver.kind == "turn":
-            start = (driver.of or drawing.scene.links[driver.link].points)[0]
+            start = pivot_of(drawing, driver)
             if start in drawing.positions:
                 nth = sum(1 for name, _ in used if name == start)
                 used.append((start, nth))
@@ -56,26 +60,32 @@ def draw_crank(
     board: FieldContent, drawing: Drawing, field: Field, driver: Driver, radius: float
 ) -> None:
     """The angle of a crank from the axis of the link it turns against, and its sense."""
-    start = (driver.of or drawing.scene.links[driver.link].points)[0]
+    start = pivot_of(drawing, driver)
     centre = field(drawing.positions[start])
     base = drawing.standing.axis(driver.against)
     if base is None:
         return
-    zero, swept = degrees(phase(base)), drawn_angle(drawing, driver)
+    zero, swept = phase(base) * DEGREE, drawn_angle(drawing, driver)
     end = zero + swept
-    ray = Arc(*centre, radius + 6, 0, 1, "angle").at(zero)
+    ray = across(centre, field.way(base), radius + 6, 0)
     board.marks.append(LineMark(*centre, *ray, "centre-line", f"x {driver.link}"))
-    if driver.of is None and not lies_along(drawing, driver.link, zero + swept):
-        tip = Arc(*centre, radius + 6, 0, 1, "angle").at(end)
+    if driver.of is None and not lies_along(drawing, driver.link, end):
+        tip = across(centre, field.way(base * turn_by(swept / DEGREE)), radius + 6, 0)
         board.marks.append(LineMark(*centre, *tip, "centre-line", f"axis {driver.link}"))
     name = "phi" if len(drawing.scene.drivers) == 1 else f"phi {driver.link}"
     if abs(swept) > 0.5:
         board.marks.append(Arc(*centre, radius, zero, end, "angle", name))
-    middle = Arc(*centre, radius, 0, 1, "angle").at(zero + swept / 2)
+    half = field.way(base * turn_by(swept / 2 / DEGREE))
+    middle = across(centre, half, radius, 0)
     given = drawing.scene, drawing.words, driver.position
     text = f"{angle_symbol(drawing.scene, driver)} = {in_degrees(*given) or written(*given)}"
-    board.labels.append(Label(text, "", middle, 2.5, name, away=unit(centre, middle)))
-    draw_sense(board, drawing, centre, end, driver, radius - 3)
+    board.labels.append(Label(text, "", middle, 2.5, name, away=half))
+    draw_sense(board, drawing, field, end, driver, radius - 3)
+
+
+def pivot_of(drawing: Drawing, driver: Driver) -> str:
+    """The point about which a driver's angle is drawn."""
+    return (driver.of or drawing.scene.links[driver.link].points)[0]
 
 
 def lies_along(drawing: Drawing, link: str, angle: float) -> bool:
@@ -83,58 +93,56 @@ def lies_along(drawing: Drawing, link: str, angle: float) -> bool:
     places = [drawing.positions[p] for p in drawing.scene.links[link].points[:2]]
     if len(places) < 2 or places[0] == places[1]:
         return False
-    turn = degrees(phase(places[1] - places[0])) - angle
-    return abs((turn + 180) % 360 - 180) < 0.01
+    turn = phase(places[1] - places[0]) * DEGREE - angle
+    return bool(abs((turn + 180) % 360 - 180) < 0.01)
 
 
-def drawn_angle(drawing: Drawing, driver: Driver) -> float:
+def drawn_angle(drawing: Drawing, driver: Driver) -> Real:
     """The driver's angle in degrees, as written where that is less than a turn either way."""
+    if driver.link in drawing.driven:
+        moved = drawing.driven[driver.link]
+        return pick(abs(moved) < TURN, moved, moved % TURN)
     turn = degrees(phase(complex(driver.position.direction(drawing.scene.values))))
     written = degrees(float(driver.position.si(drawing.scene.values)))
-    return written if abs(written) < 360 else turn % 360
-
-
-def unit(start: XY, end: XY) -> XY:
-    """The way from one place to another as a unit vector."""
-    length = hypot(end[0] - start[0], end[1] - start[1])
-    return (end[0] - start[0]) / length, (end[1] - start[1]) / length
+    return written if abs(written) < TURN else turn % TURN
 
 
 def draw_sense(
-    board: FieldContent, drawing: Drawing, centre: XY, end: float, driver: Driver, radius: float
+    board: FieldContent, drawing: Drawing, field: Field, end: Real, driver: Driver, radius: float
 ) -> None:
-    """A turning arrow beyond the crank, in the sense of its angular velocity."""
+    """A turning arrow beyond the crank at an angle, in the sense of its angular velocity."""
+    centre = field(drawing.positions[pivot_of(drawing, driver)])
     omega = float(driver.speed.si(drawing.scene.values))
     if not omega:
         return
     sign = 1 if omega > 0 else -1
-    near, far = clear_of(drawing, driver, end, sign)
-    arc = (end + sign * near, end + sign * far)
-    board.marks += turned_arrow(centre, radius, *arc, "sense")
-    at = Arc(*centre, radius, 0, 1, "sense").at((arc[0] + arc[1]) / 2)
+    near, long = clear_of(drawing, driver, end, sign)
+    tip = end + sign * (near + long)
+    way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
+    board.marks += turned_arrow(centre, radius, way, (tip, -sign * long), "sense")
+    at = across(centre, half, radius, 0)
     index = driver_index(driver)
     board.labels.append(Label(f"*ω*_{{{index}}}", "", at, 2.5, f"omega {driver.link}"))
 
 
-def clear_of(drawing: Drawing, driver: Driver, end: float, sign: int) -> tuple[float, float]:
-    """From where to where beyond its crank a turning arrow stands, in degrees in its own sense.
+def clear_of(drawing: Drawing, driver: Driver, end: Real, sign: int) -> tuple[Real, float]:
+    """How far beyond its crank a turning arrow begins and how long it is, in degrees in its sense.
 
     Further on where the velocity of its pivot, which is set there, or a bar would cut it.
     """
-    (near, far), here = SENSE, (driver.of or drawing.scene.links[driver.link].points)[0]
+    (near, far), here = SENSE, pivot_of(drawing, driver)
     velocity = drawing.trace.value("velocity", here)
     if velocity is None or abs(velocity) < NOISE * drawing.largest:
-        return near, far
+        return near, far - near
     links = (link for link in drawing.scene.links.values() if here in link.points)
     others = (point for link in links for point in link.points if link.name != driver.link)
     ways = [drawing.positions[point] - drawing.positions[here] for point in others]
-    turns = (sign * (degrees(phase(way)) - end) % 360 for way in (velocity, *ways) if abs(way))
+    turns = (sign * (phase(way) * DEGREE - end) % 360 for way in (velocity, *ways) if abs(way) > 0)
     cuts = sorted(turns)
     starts = [start for start in (near, *(cut + near for cut in cuts)) if start + far < 360]
     length = far - near
     free = (s for s in starts if not any(-AROUND < cut - s < length + AROUND for cut in cuts))
-    start = next(free, near)
-    return start, start + length
+    return next(free, near), length
 
 
 def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
@@ -185,15 +193,16 @@ def draw_way(
     name = f"s {driver.link}"
     text = f"{angle_symbol(drawing.scene, driver)} = "
     text += written(drawing.scene, drawing.words, driver.position)
-    apart = hypot(end[0] - start[0], end[1] - start[1])
-    shown = field.holds(zero, 1) and apart >= LEAST
+    shown = field.holds(zero, 1) and abs(here - zero) * field.mm >= LEAST
     if shown:
         low, high = across(start, way, 0, aside), across(end, way, 0, aside)
-        board.marks += within(dimension(start, end, low, high, name), field.rect)
+        thin = across(start, way, 0, aside + side * 1.5), across(end, way, 0, aside + side * 1.5)
+        lines = ((start, thin[0]), (end, thin[1]), (low, high))
+        board.marks += within(dimension(lines, name), field.rect)
         board.labels.append(Label(text, "", (low, high), 2.5, name))
     else:
         at = across(field(drawn), way, 0, side * BLOCK[1] / 2)
-        board.labels.append(Label(text, "", at, 2.5, name, away=unit(field(drawn), at)))
+        board.labels.append(Label(text, "", at, 2.5, name, away=across((0.0, 0.0), way, 0, side)))
     speed = float(driver.speed.si(drawing.scene.values))
     if speed:
         ahead = HALF if speed > 0 else -HALF
@@ -224,11 +233,9 @@ def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way:
     return next(free, outer * ASIDE)
 
 
-def dimension(start: XY, end: XY, low: XY, high: XY, name: str) -> Iterator[Mark]:
-    """A dimension line with arrowheads, and the thin lines that lead to what it measures."""
-    for at, foot in ((start, low), (end, high)):
-        way = unit(at, foot)
-        yield LineMark(*at, foot[0] + 1.5 * way[0], foot[1] + 1.5 * way[1], "drive", name)
-    yield LineMark(*low, *high, "drive", name)
+def dimension(lines: Iterable[tuple[XY, XY]], name: str) -> Iterator[Mark]:
+    """The thin lines that lead to what is measured, then the dimension line with arrowheads."""
+    for low, high in lines:
+        yield LineMark(*low, *high, "drive", name)
     yield head(low, high, "sense", name)
     yield head(high, low, "sense", name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 
 from graphkin.construction.core.bodies import Guideway
 from graphkin.construction.core.drawn_scene import Drawing
@@ -22,7 +23,7 @@ from graphkin.drawing.symbols import (
     slot_ground,
     weld,
 )
-from graphkin.numbers.arithmetic import Real, larger, pick, smaller
+from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Slide
 
@@ -71,7 +72,7 @@ class Rail:
 
     def along_of(self, point: complex) -> float:
         """How far along the line a point lies."""
-        return float(dot(point - self.zero, self.along))
+        return dot(point - self.zero, self.along)  # type: ignore[no-any-return]
 
 
 def is_swivel(drawing: Drawing, slide: Slide) -> bool:
@@ -105,14 +106,14 @@ def rails_of(drawing: Drawing) -> list[Rail]:
     return found
 
 
-def seat(drawing: Drawing, way: Guideway) -> complex:
+def seat(drawing: Drawing, way: Guideway) -> Point:
     """Where the middle of the rectangle of a sliding pair stands."""
     if way.slide.on == FRAME:
         return drawing.standing.beside_wheels(way)
     if not is_swivel(drawing, way.slide):
         return way.foot
     pivot = drawing.positions[drawing.scene.links[way.slide.on].points[0]]
-    return way.at + float(dot(pivot - way.at, way.along)) * way.along
+    return way.at + dot(pivot - way.at, way.along) * way.along
 
 
 def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -190,7 +191,8 @@ def guide_bar(drawing: Drawing, field: Field, rail: Rail) -> Iterator[Mark]:
         ends += [mark - pad, mark + pad]
     if not on and places:
         yield from joint(field, rail, min(places, key=lambda p: off(rail, p, ends)), ends)
-    yield LineMark(*field(rail.at(min(ends))), *field(rail.at(max(ends))), "guide-bar", rail.owner)
+    low, high = reduce(smaller, ends), reduce(larger, ends)
+    yield LineMark(*field(rail.at(low)), *field(rail.at(high)), "guide-bar", rail.owner)
     at, way = field(rail.zero), field.way(rail.along)
     for low, high in slots:
         yield slot(at, way, low * field.mm, high * field.mm, rail.owner)
@@ -201,32 +203,35 @@ def slot_ends(field: Field, coordinate: float, on: list[float]) -> tuple[float, 
     low, high = coordinate - STROKE / field.mm, coordinate + STROKE / field.mm
     clear, least = CLEAR / field.mm, 2 * SLOT / field.mm
     for point in on:
-        if low - clear < point < coordinate - least:
-            low = point + clear
-        if coordinate + least < point < high + clear:
-            high = point - clear
-    return min(low, coordinate), max(high, coordinate)
+        is_before = (low - clear < point) & (point < coordinate - least)
+        is_after = (coordinate + least < point) & (point < high + clear)
+        low, high = pick(is_before, point + clear, low), pick(is_after, point - clear, high)
+    return smaller(low, coordinate), larger(high, coordinate)
 
 
 def off(rail: Rail, point: complex, ends: list[float]) -> float:
     """How far a point stands from the drawn part of a line."""
-    coordinate = min(max(rail.along_of(point), min(ends)), max(ends))
-    return abs(point - rail.at(coordinate))
+    return abs(point - rail.at(nearest(rail.along_of(point), ends)))
+
+
+def nearest(coordinate: float, ends: list[float]) -> float:
+    """The coordinate of the drawn part of a line that is nearest to a given one."""
+    beyond = larger(coordinate, reduce(smaller, ends))
+    return smaller(beyond, reduce(larger, ends))  # type: ignore[no-any-return]
 
 
 def joint(field: Field, rail: Rail, point: complex, ends: list[float]) -> Iterator[Mark]:
     """The arm from a point of a link to its guide, and the filled corner between the two."""
     coordinate = rail.along_of(point)
-    if not min(ends) <= coordinate <= max(ends):
-        far = abs(coordinate - (min(ends) + max(ends)) / 2)
-        if far * field.mm > 4 * REACH:
-            coordinate = min(max(coordinate, min(ends)), max(ends))
-        ends.append(coordinate)
+    middle = (reduce(smaller, ends) + reduce(larger, ends)) / 2
+    is_far = abs(coordinate - middle) * field.mm > 4 * REACH
+    coordinate = pick(is_far, nearest(coordinate, ends), coordinate)
+    ends.append(coordinate)
     foot, here = field(rail.at(coordinate)), field(point)
     yield LineMark(*here, *foot, "guide-bar", rail.owner)
     if abs(point - rail.at(coordinate)) * field.mm > BLOCK[1]:
-        inward = (min(ends) + max(ends)) / 2 - coordinate
-        way = field.way(rail.along * (1 if inward >= 0 else -1))
+        inward = (reduce(smaller, ends) + reduce(larger, ends)) / 2 - coordinate
+        way = field.way(rail.along * pick(inward >= 0, 1, -1))
         yield weld(foot, way, field.way(point - rail.at(coordinate)), rail.owner)
 
 

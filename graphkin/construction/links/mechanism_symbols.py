@@ -30,7 +30,8 @@ from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, polygon
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, PIVOT, legs, pin, pivot_ground
+from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, PIVOT, across, legs, pin, pivot_ground
+from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import FRAME, Link
 
 LONG = 14.0
@@ -127,6 +128,16 @@ def stretched(start: XY, end: XY) -> tuple[XY, XY]:
     return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)
 
 
+def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The links with their plates, bars, guides, blocks, profiles, contacts and pins."""
+    draw_plates(board, drawing, field)
+    draw_slides(board, drawing, field)
+    draw_bodies(board, drawing, field, carriers=False)
+    draw_edges(board, drawing, field)
+    draw_contacts(board, drawing, field)
+    draw_pins(board, drawing, field)
+
+
 def draw_plates(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """Wheels and plates, below everything else."""
     draw_wheels(board, drawing, field)
@@ -145,14 +156,19 @@ def draw_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """Guides and the bars that blocks slide on, then the blocks, and the ground that bears some."""
     for link in drawing.scene.links.values():
         draw_guide_line(board, drawing, field, link)
+    draw_slides(board, drawing, field)
+    for name in drawing.scene.frame.points:
+        if is_covered(drawing, field, name):
+            board.marks += legs(field(drawing.positions[name]), TALL)
+
+
+def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Tracks, guides and the bars that blocks slide on, then the blocks."""
     draw_tracks(board, drawing, field)
     draw_frame_guides(board, drawing, field)
     draw_bodies(board, drawing, field, carriers=True)
     draw_guide_bars(board, drawing, field)
     draw_blocks(board, drawing, field)
-    for name in drawing.scene.frame.points:
-        if is_covered(drawing, field, name):
-            board.marks += legs(field(drawing.positions[name]), TALL)
 
 
 def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -195,10 +211,10 @@ def draw_unbroken(board: FieldContent, drawing: Drawing, field: Field, name: str
         if name not in link.points or len(places) < 3 or corners_of(drawing, link) is not None:
             continue
         first, last = farthest(places)
-        reach = min(abs(here - first), abs(here - last)) * field.mm
+        reach = smaller(abs(here - first), abs(here - last)) * field.mm
         if reach > 2 * PIN:
-            (x, y), (u, v) = field(here), field.way(last - first)
-            ends = (x - PIN * u, y - PIN * v), (x + PIN * u, y + PIN * v)
+            at, way = field(here), field.way(last - first)
+            ends = across(at, way, -PIN, 0), across(at, way, PIN, 0)
             board.marks.append(LineMark(*ends[0], *ends[1], "link", link.name))
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from cmath import phase
-
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.slide_symbols import places_of
+from graphkin.numbers.arithmetic import phase
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import Link
 
@@ -47,7 +46,8 @@ def is_all_wheel(drawing: Drawing, link: str) -> bool:
 
 def hull(places: list[complex]) -> list[complex]:
     """The corners of the convex figure around places, in order around it."""
-    ordered = sorted(set(places), key=lambda p: (p.real, p.imag))
+    ordered = sorted(places, key=lambda p: (p.real, p.imag))
+    ordered = [p for i, p in enumerate(ordered) if not i or p != ordered[i - 1]]
     around: list[complex] = []
     for half in (ordered, ordered[::-1]):
         chain: list[complex] = []

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from cmath import phase
 from collections.abc import Iterator
-from math import degrees
-from typing import Any, NamedTuple
+from math import degrees, pi
+from typing import NamedTuple
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import APART
@@ -13,7 +12,7 @@ from graphkin.drawing.areas import MARGIN
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc
-from graphkin.numbers.arithmetic import smaller
+from graphkin.numbers.arithmetic import phase, smaller
 from graphkin.scene.known_names import place_of
 from graphkin.scene.model import Profile
 from graphkin.text.errors import PageError, Problem
@@ -62,11 +61,7 @@ def without_radius(edge: Edge) -> Problem:
 def edge_arc(field: Field, edge: Edge) -> Arc:
     """The arc of a profile about its contact."""
     radius = abs(edge.contact - edge.centre) * field.mm
-    middle, half = degrees(phase(edge.contact - edge.centre)), half_span(radius)
+    middle = phase(edge.contact - edge.centre) * (180 / pi)
+    half = smaller(degrees(HALF) / radius, WIDEST)
     ends = middle - half, middle + half
     return Arc(*field(edge.centre), radius, *ends, "profile", edge.link)
-
-
-def half_span(radius: Any) -> Any:
-    """How far a profile is drawn to each side of its contact, in degrees; the radius is in mm."""
-    return smaller(degrees(HALF) / radius, WIDEST)

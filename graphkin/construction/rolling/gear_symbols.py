@@ -11,7 +11,7 @@ from graphkin.construction.core.bodies import Disc, Touch
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, polygon
-from graphkin.drawing.symbols import across, hatched
+from graphkin.drawing.symbols import UPRIGHT, across, hatched
 from graphkin.scene.model import FRAME
 
 FEW, MANY = 2, 12
@@ -30,7 +30,7 @@ BASE = 3.2
 
 def polar(centre: XY, radius: float, angle: float) -> XY:
     """The place at an angle (radians, counter-clockwise on paper) and a distance from a centre."""
-    return centre[0] + radius * cos(angle), centre[1] - radius * sin(angle)
+    return across(centre, UPRIGHT, radius * cos(angle), -radius * sin(angle))
 
 
 def gear(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:

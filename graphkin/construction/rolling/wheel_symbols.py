@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Iterator
-from math import hypot, pi
+from functools import reduce
+from math import pi
 
 from graphkin.construction.core.bodies import Disc, Touch
 from graphkin.construction.core.drawn_scene import Drawing
@@ -17,6 +18,7 @@ from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, Mark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import across, hatched
+from graphkin.numbers.arithmetic import Real, larger, pick, smaller
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Link
 
@@ -140,14 +142,14 @@ def track_ends(drawing: Drawing, field: Field, touch: Touch) -> tuple[float, flo
     half = max(REACH, 0.8 * touch.disc.radius * field.mm)
     zero = dot(touch.zero - touch.at, touch.along) * field.mm
     ends = [-half, half, *seats(drawing, field, touch)]
-    if abs(zero) < SPARE or isinstance(touch.rolling.through, str):
-        ends += [zero - 4, zero + 4]
+    is_near = (abs(zero) < SPARE) | isinstance(touch.rolling.through, str)
+    ends += [pick(is_near, zero - 4, -half), pick(is_near, zero + 4, half)]
     if touch.on != FRAME:
         near = ALIKE * drawing.standing.size + 2.5 * touch.disc.module
         for place in places_of(drawing, touch.on):
             if abs(cross(touch.along, place - touch.at)) < near:
                 ends.append(dot(place - touch.at, touch.along) * field.mm)
-    return min(ends), max(ends)
+    return reduce(smaller, ends), reduce(larger, ends)
 
 
 def seats(drawing: Drawing, field: Field, touch: Touch) -> list[float]:
@@ -164,12 +166,11 @@ def rack_ends(
 ) -> tuple[float, float]:
     """The part of a track that has the body of a rack: clear of the guides of its link."""
     full = teeth_beside(touch) * pi * touch.disc.module * field.mm + BASE
-    low, high = min(low, -full), max(high, full)
+    low, high = smaller(low, -full), larger(high, full)
     for place in seats(drawing, field, touch):
-        if place > 0:
-            high = min(high, place - REACH - 2)
-        else:
-            low = max(low, place + REACH + 2)
+        is_ahead = place > 0
+        high = pick(is_ahead, smaller(high, place - REACH - 2), high)
+        low = pick(is_ahead, low, larger(low, place + REACH + 2))
     return low, high
 
 
@@ -182,20 +183,19 @@ def arm_to_track(
         return
     thick = 2.5 * touch.disc.module * field.mm
 
-    def foot(place: complex) -> float:
-        return min(max(float(dot(place - touch.at, touch.along)) * field.mm, low), high)
+    def foot(place: complex) -> Real:
+        return smaller(larger(dot(place - touch.at, touch.along) * field.mm, low), high)
 
-    at, way = field(touch.at), field.way(touch.along)
     side = touch.side
     aside = side * (ROOT * touch.disc.module * field.mm + BASE) if touch.disc.module else 0.0
 
-    def gap(place: complex) -> float:
-        here, there = field(place), across(at, way, foot(place), aside)
-        return hypot(here[0] - there[0], here[1] - there[1])
+    def gap(place: complex) -> Real:
+        there = touch.at + (foot(place) - 1j * aside) / field.mm * touch.along
+        return abs(place - there) * field.mm
 
     nearest = min(places, key=gap)
     if gap(nearest) > max(thick + BASE, 0.5):
-        there = across(at, way, foot(nearest), aside)
+        there = across(field(touch.at), field.way(touch.along), foot(nearest), aside)
         yield LineMark(*field(nearest), *there, "guide-bar", touch.on)
 
 
