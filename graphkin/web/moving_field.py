@@ -28,7 +28,7 @@ class Local(NamedTuple):
         return self.pose.origin + self.pose.way * self.at if self.at else self.pose.origin
 
 
-class Coordinate(TracedNumber):
+class MovingCoordinate(TracedNumber):
     """A coordinate of a place that a pose carries."""
 
     __slots__ = ("local",)
@@ -46,7 +46,9 @@ class MovingPlace(Carried):
     def __new__(cls, local: Local) -> MovingPlace:
         """Both coordinates of a place."""
         at = local.on_page
-        found = super().__new__(cls, (Coordinate(at.real, local), Coordinate(at.imag, local)))
+        found = super().__new__(
+            cls, (MovingCoordinate(at.real, local), MovingCoordinate(at.imag, local))
+        )
         found.local = local
         return found
 

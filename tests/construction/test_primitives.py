@@ -24,6 +24,7 @@ from graphkin.construction.centres.instant_centre import instant_centre
 from graphkin.construction.core import vocabulary
 from graphkin.construction.links import dyad_by_arcs
 from graphkin.construction.normal_component import normal_component
+from graphkin.construction.velocity import perpendicular_through
 from graphkin.numbers.plane import (
     Circle,
     Line,
@@ -329,8 +330,8 @@ def by_similarity(plate: Plate) -> complex:
 def by_perpendiculars(plate: Plate) -> complex:
     """The hand's two perpendiculars, which coincide when the point lies on the line."""
     p, q, r = plate.points
-    near = vocabulary.square_to(plate.images[0], p, r)
-    return vocabulary.meet(near, vocabulary.square_to(plate.images[1], q, r))
+    near = perpendicular_through.square_to(plate.images[0], p, r)
+    return vocabulary.meet(near, perpendicular_through.square_to(plate.images[1], q, r))
 
 
 @MANY
@@ -372,8 +373,8 @@ def normal_within(normal: Callable, spoke: tuple[complex, complex]) -> bool:
 
 def normal_by_triangle(pivot: complex, pin: complex, image: complex, image_pin: complex) -> complex:
     """The hand's right triangle, in coordinates."""
-    tip = vocabulary.set_velocity(pin, image, image_pin, 1.0)
-    edge, line = vocabulary.square_at(tip, pivot), normal_component.bar_line(pivot, pin)
+    tip = normal_component.set_velocity(pin, image, image_pin, 1.0)
+    edge, line = normal_component.square_at(tip, pivot), normal_component.bar_line(pivot, pin)
     end = normal_component.turn_over(vocabulary.meet(edge, line), pin)
     return normal_component.normal_by_hand(pin, end, 1.0)
 
@@ -473,7 +474,7 @@ def flat_dyads(draw):
 def dyad_within(sample: tuple[complex, ...]) -> tuple[bool, bool]:
     """Velocity to 4·eps·(L/lmin)/s², acceleration to 8·eps·(L/lmin)/s³, normwise."""
     p, q, x, v, w, a, b = sample
-    square, meet = vocabulary.square_to, vocabulary.meet
+    square, meet = perpendicular_through.square_to, vocabulary.meet
     image = meet(square(v, p, x), square(w, q, x))
     corners = (
         (start + normal_component.normal(end, x, image_end, image))
