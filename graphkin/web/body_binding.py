@@ -18,7 +18,7 @@ from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline
 from graphkin.numbers.plane import dot
 from graphkin.web.body_pose import BodyPose
 from graphkin.web.field_binder import SPACING, Binding, FieldBinder, Told, still
-from graphkin.web.moving_field import MovingCoordinate, Local, MovingField
+from graphkin.web.moving_field import Local, MovingCoordinate, MovingField
 from graphkin.web.wheel_binding import gears, racks, stepped
 
 ENDLESS: Rect = (-inf, -inf, inf, inf)
