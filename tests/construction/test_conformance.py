@@ -11,6 +11,7 @@ import inspect
 import pkgutil
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -35,6 +36,7 @@ from tests.chosen import FOLDER, SCENES
 from tests.documents.test_words import RARE, rare
 
 LABS = ("pump", "slotted-lever")
+WHEELS = Path(__file__).parents[1] / "motion" / "scenes" / "planet-on-coupler.toml"
 LANGUAGES = ("en", "it", "ro")
 MARKING = {"slips", "sizes", "power_of", "as_measured", "proportions"}
 """Faces that only labs and marking look at: tests/classroom holds them."""
@@ -63,6 +65,8 @@ def mechanism(name: str) -> Mechanism:
     """A lab, an example, or a scene of the tests."""
     if name in RARE:
         return rare(name)
+    if name == WHEELS.stem:
+        return load(WHEELS)
     return load(name if name in LABS else FOLDER / f"{name}.toml")
 
 
@@ -86,7 +90,7 @@ def homes() -> dict[type, list[str]]:
     """The scenes whose sheets draw each kind; of one that is never drawn those that compute it."""
     found: dict[type, list[str]] = {}
     written: dict[type, list[str]] = {}
-    for name in (*LABS, *SCENES, *RARE):
+    for name in (*LABS, *SCENES, *RARE, WHEELS.stem):
         steps = mechanism(name).program.steps
         for kind in {type(steps[number].of) for number in drawn(name)}:
             found.setdefault(kind, []).append(name)
