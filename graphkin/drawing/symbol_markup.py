@@ -19,9 +19,9 @@ TAGS = {"¹": "I", "²": "II"}
 @lru_cache(maxsize=1024)
 def symbol(name: str) -> str:
     """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the
-    numeral of its trial."""
+    numeral of its trial; nothing where there is no name."""
     found = NAME.match(name)
-    if name.isdigit():
+    if not name or name.isdigit():
         return name
     if not found:
         return f"*{escape(name)}*"

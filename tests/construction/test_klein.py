@@ -16,7 +16,7 @@ from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text.errors import GraphkinError
 from tests.textbook.book import within
 
-ENGINE = Path(__file__).parents[2] / "examples" / "scenes" / "slider-crank-klein.toml"
+ENGINE = Path(__file__).parents[2] / "examples" / "scenes" / "klein-engine.toml"
 SCENE = """
 graphkin = 1
 title = "slider-crank"

@@ -18,7 +18,9 @@ from hypothesis import strategies as st
 
 from graphkin.construction.core import vocabulary
 from graphkin.construction.links import compass_arc, dyad_by_arcs
+from graphkin.construction.velocity import perpendicular_through
 from graphkin.numbers.arithmetic import FLOAT
+from graphkin.numbers.plane import cross, dot
 from tests.construction.test_primitives import (
     EPS,
     MANY,
@@ -53,13 +55,13 @@ def velocity_within(solve: Solve, sample: tuple[complex, ...]) -> bool:
 
 def by_perpendiculars(u: complex, t: complex, v: complex, w: complex) -> complex:
     """As the plan is drawn: square to each bar through the image of its outer end."""
-    lines = vocabulary.square_to(v, 0j, u), vocabulary.square_to(w, 0j, t)
+    lines = perpendicular_through.square_to(v, 0j, u), perpendicular_through.square_to(w, 0j, t)
     return vocabulary.meet(*lines)
 
 
 def by_least_squares(u: complex, t: complex, v: complex, w: complex) -> complex:
     """Textbook: the normal equations, whose condition is the square of that of the bars."""
-    rows, right = (u, t), (vocabulary.dot(v, u), vocabulary.dot(w, t))
+    rows, right = (u, t), (dot(v, u), dot(w, t))
     a = sum(bar.real**2 for bar in rows)
     b = sum(bar.real * bar.imag for bar in rows)
     c = sum(bar.imag**2 for bar in rows)
@@ -72,7 +74,7 @@ def by_least_squares(u: complex, t: complex, v: complex, w: complex) -> complex:
 def by_differences(u: complex, t: complex, v: complex, w: complex) -> complex:
     """Textbook: positions a little later and earlier, from arcs, over twice the time."""
     h = 1e-6 * min(abs(u), abs(t))
-    side = 1 if vocabulary.cross(t - u, t) * 1 > 0 else -1
+    side = 1 if cross(t - u, t) * 1 > 0 else -1
     places = []
     for time in (h, -h):
         p, q = v * time - u, w * time - t
