@@ -20,7 +20,6 @@ from graphkin.construction.core import vocabulary
 from graphkin.construction.links import compass_arc, dyad_by_arcs
 from graphkin.construction.velocity import perpendicular_through
 from graphkin.numbers.arithmetic import FLOAT
-from graphkin.numbers.plane import cross, dot
 from tests.construction.test_primitives import (
     EPS,
     MANY,
