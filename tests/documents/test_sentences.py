@@ -69,7 +69,7 @@ def test_every_normal_component_that_is_laid_off_has_a_length_or_a_triangle(both
             for clause in said.markup.split("; "):
                 for name in NORMAL.findall(clause):
                     assert re.search(r"\d mm", clause) or name in told, (clause, told)
-            if said.name in ("ν1", "ν", "ν none", "ν by number"):
+            if said.name in ("ν1", "ν", "ν none", "ν by number", "ν by chord"):
                 told |= set(re.findall(r"\*a\*_\{[^}]*\}\^\{ν\}", said.markup))
 
 
