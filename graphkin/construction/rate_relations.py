@@ -1,4 +1,4 @@
-"""The relations of angular velocities and accelerations: by bars, by sums, by gears, by trials."""
+"""The relations of angular velocities and accelerations: by bars, by sums, by gears."""
 
 from __future__ import annotations
 
@@ -9,14 +9,12 @@ from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.naming import rate_symbol
-from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate
 from graphkin.construction.result_tables import sense
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.drawing.symbol_markup import TAGS, symbol
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import FRAME, Driver
-from graphkin.text import MINUS
 
 
 def of_turning(drawing: Drawing) -> Iterator[Relation]:
@@ -61,23 +59,8 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
             yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
         elif isinstance(kind := construction(step), TurningOfLink):
             yield kind.relation(drawing, tail)
-        elif action == "between":
-            yield by_trials(drawing, step, name, letter, tail)
-
-
-def by_trials(
-    drawing: Drawing, step: Step, name: str, letter: str, tail: tuple[str, str, str]
-) -> Relation:
-    """A rate that was tried itself, divided as every line of the two trials is."""
-    first, second, share = (float(drawing.trace.values[arg]) for arg in step.args)
-    figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
-    figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
-    one, two = (symbol(f"{letter}_{step.name}{tag}") for tag in TAGS)
-    whole = f"{one} + *λ*·({two} − {one})"
-    result, unit, turning = tail
-    if first + share * (second - first) < 0:
-        result = f"{MINUS}{result}"
-    return Relation(name, whole, figures, result, unit, turning)
+        elif kind and (found := kind.rate_relation(drawing, link, tail)):
+            yield found
 
 
 def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:

@@ -9,7 +9,7 @@ from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.coriolis.coriolis import CoriolisComponent
-from graphkin.construction.higher_class.trial_words import with_trials_together
+from graphkin.construction.higher_class.two_trials import with_trials_together
 from graphkin.construction.links.placed_point import with_starts_together
 from graphkin.construction.normal_component.component_words import with_normals_together
 from graphkin.construction.normal_component.normal_component import NormalComponent

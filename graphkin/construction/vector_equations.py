@@ -6,7 +6,8 @@ What is not crossed in the plan but computed and laid off stands with its number
 from __future__ import annotations
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
-from graphkin.construction.core.drawn_scene import TAGS, Drawing
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Step
@@ -17,7 +18,7 @@ def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
     """The equations of a plan in the order of drawing, each once, with the rate that it takes."""
     found: dict[str, tuple[str, Relation]] = {}
     for number, step, _ in drawing.steps(drawing.plane):
-        if drawing.tags.get(number) == TAGS[1]:
+        if (plan := auxiliary_plan(drawing, number)) and plan.repeats:
             continue
         kind = construction(step)
         for relation in kind.equations(drawing, step.role) if kind else ():

@@ -106,8 +106,8 @@ def not_found(program: Program, number: int, reason: str, hint: str) -> Problem:
 def sought(program: Program, number: int) -> str:
     """What a step was to find: its letter, else the points or the links that it is about."""
     step = program.steps[number]
-    if step.action is not None and step.action.key == "share":
-        return f"links {', '.join(closed_by(program, number))}"
+    if links := closed_by(step):
+        return f"links {', '.join(links)}"
     kind = construction(step)
     ends = kind.points if kind is not None else (step.says.get(key, "") for key in "pq")
     return step.name or "-".join(filter(None, ends))
@@ -120,7 +120,7 @@ def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
     """The problem of a group of higher class that does not close, or not in so many ways."""
-    links = failed.step.says["list"]
+    links = ", ".join(closed_by(failed.step))
     if not error.ways:
         found = f"links {links} do not close{least_miss(scene, failed)}"
         return Problem("position", found, "loci that cross", where_it_closes(scene))
@@ -139,7 +139,7 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
 
 def merging(scene: Scene, step: Step, error: MergingError) -> Problem:
     """The problem of a closure whose number is not decided, as two of its group merge here."""
-    links = step.says["list"]
+    links = ", ".join(closed_by(step))
     merge = f"closures {error.first} and {error.first + 1} of links {links} {MERGE}"
     return Problem(
         f"branches.{branch_of(scene, links)}",

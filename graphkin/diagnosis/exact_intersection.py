@@ -17,7 +17,6 @@ from typing import Any
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, evaluate
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
-from graphkin.construction.higher_class.trial import needed_of
 from graphkin.numbers.exact import RATIONAL, Exact, IrrationalError
 from graphkin.numbers.kinds import ball_kind
 from graphkin.numbers.plane import Circle, Line
@@ -165,7 +164,7 @@ def stated_loci(program: Program, number: int, values: Mapping[str, Any]) -> Loc
     found: dict[int, Any] = {}
     step = program.steps[number]
     try:
-        for earlier in needed_of(program, step.args):
+        for earlier in program.behind(step.args):
             found[earlier] = exact_value(program, earlier, found, values)
     except (IrrationalError, ZeroDivisionError, OverflowError):
         return None
@@ -176,7 +175,7 @@ def proved_clearance(scene: Scene, program: Program, number: int) -> float | Non
     """By how much the loci of a step miss each other (m), of a sign that balls prove; None where
     they do not, as at a touch, and behind a group of higher class."""
     step = program.steps[number]
-    needed = needed_of(program, step.args)
+    needed = program.behind(step.args)
     if any(
         isinstance(getattr(program.steps[n].action, "value", None), ClosureSolver) for n in needed
     ):

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.kind import construction, lies_along
 from graphkin.construction.core.program import Program, Step
-from graphkin.construction.higher_class.trial import needed_of
 from graphkin.diagnosis.ranges import MOST, driver_words
 from graphkin.scene.model import Driver, Scene
 
@@ -18,10 +17,10 @@ def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> st
     ``nearly`` is put before these words where the crossing is flat only.
     """
     step = program.steps[number]
-    kind, key = step.of, step.action.key if step.action else ""
+    kind = step.of
     if isinstance(kind, Determined) and (words := kind.in_line(program.steps, nearly)):
         return words
-    if key.startswith(("close", "part", "share")) and (links := closed_by(program, number)):
+    if links := closed_by(step):
         bars = arms(scene, links)
         if bars:
             return f"the lines {', '.join(bars[:-1])} and {bars[-1]} {nearly}meet in one point"
@@ -29,13 +28,10 @@ def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> st
     return parallel(program, step, nearly)
 
 
-def closed_by(program: Program, number: int) -> list[str]:
+def closed_by(step: Step) -> tuple[str, ...]:
     """The links of the group of higher class that a step helps to close."""
-    for earlier in reversed(needed_of(program, (number,))):
-        says = program.steps[earlier].says
-        if "list" in says:
-            return says["list"].split(", ")
-    return []
+    kind = construction(step)
+    return kind.closes if kind is not None else ()
 
 
 def arms(scene: Scene, links: Sequence[str]) -> list[str]:
@@ -80,7 +76,7 @@ def line_words(program: Program, line: Step) -> tuple[str, bool]:
 def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
     """What is nearly in line where a crossing is flat, and which driver positions to leave."""
     drivers = zip(scene.drivers, program.drives, strict=False)
-    needed = set(needed_of(program, (number,)))
+    needed = set(program.behind((number,)))
     causes = [driver for driver, drive in drivers if drive.position in needed]
     places = [f"{driver_words(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
     words = in_line(scene, program, number, "nearly ")

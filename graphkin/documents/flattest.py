@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from itertools import product
 from math import degrees
 
+from graphkin.construction.core.auxiliary_plan import falls
 from graphkin.construction.core.component import TriangleComponent, is_hidden
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part
-from graphkin.construction.higher_class.coincident_images import fallen_on
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.drawing.areas import BELOW, TABLES
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
@@ -61,32 +62,28 @@ def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
         crossing
         for crossing in crossings(drawing.trace)
         if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
-        if crossing.number not in drawing.tags or not fallen_on(drawing, crossing.number)
+        if not falls(drawing, crossing.number)
         if not is_hidden(drawing, crossing.number)
     )
 
 
-def locus_of(drawing: Drawing, crossing: Crossing) -> tuple[int, str] | None:
-    """Of a crossing that closes a group the step that does, and the letter of the locus."""
-    steps = drawing.trace.program.steps
-    for number in steps[crossing.number].args:
-        action, letter = steps[number].action, steps[number].says.get("q")
-        if action is not None and action.key == "close" and letter:
-            return number, letter
-    return None
+def group_closed(drawing: Drawing, crossing: Crossing) -> ClosedGroup | None:
+    """The group of higher class that a crossing closes; None for any other crossing."""
+    kind = construction(drawing.trace.program.steps[crossing.number])
+    return kind if isinstance(kind, ClosedGroup) else None
 
 
 def is_gap(drawing: Drawing, crossing: Crossing) -> bool:
     """True where two loci show how a group closes: where they are a bar apart, not by crossing."""
-    locus = locus_of(drawing, crossing)
-    return locus is not None and " " in drawing.trace.program.steps[locus[0]].says["l"]
+    group = group_closed(drawing, crossing)
+    return group is not None and len(group.traced) > 1
 
 
 def letter_of_crossing(drawing: Drawing, crossing: Crossing) -> str:
     """The letter of a crossing as it is drawn; of one that closes a group that of the locus."""
-    locus, step = locus_of(drawing, crossing), drawing.trace.program.steps[crossing.number]
-    if locus:
-        return locus[1]
+    group, step = group_closed(drawing, crossing), drawing.trace.program.steps[crossing.number]
+    if group is not None and group.locus:
+        return group.locus
     kind = construction(step)
     if isinstance(kind, TriangleComponent):
         return kind.letter(drawing, step.role)

@@ -8,29 +8,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.naming import drawn_between, drawn_in, scale_of, segment_of
+from graphkin.construction.core.naming import drawn_in, scale_of, segment_of
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.relation import FINE, Relation, answer, figure, length_of, within
+from graphkin.construction.core.program import Part
+from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, length_of
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
-from graphkin.construction.higher_class.misclosure import Misclosure, driver_of, misses
-from graphkin.construction.higher_class.trial_lengths import of_trial_lengths
+from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.rate_relations import of_sum, of_turning
 from graphkin.construction.registry import COMPONENTS
 from graphkin.construction.rolling.contact_velocities import of_contacts
 from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.drawing.scale import digits
-from graphkin.drawing.symbol_markup import TAGS, bar, symbol
+from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Ratio, Vector
 
 Section = tuple[str, list[Relation]]
-GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
-"""What two trial plans miss."""
 ROOM = ". . . . . . . ."
 """Room to write a coordinate in."""
 
@@ -64,7 +60,7 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     return Relation(
         bar(p, q),
         "",
-        f"{drawing.words.decimal(digits(drawing.scales.kL))}·{drawn(drawing, mm)}",
+        f"{drawing.words.decimal(digits(drawing.scales.kL))}·{drawn_length(drawing, mm)}",
         answer(drawing, mm * drawing.scales.kL),
         "mm",
         drawing.words("calculation.measured"),
@@ -136,78 +132,9 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
         segment = segment_of(drawing, step)
         if not segment:
             segment = drawing.words("calculation.segment", name=symbol(name))
-        length = drawn(drawing, drawn_in(drawing, drawing.plane, size))
+        length = drawn_length(drawing, drawn_in(drawing, drawing.plane, size))
         figures = f"{figure(drawing, scale / 1000)}·{length}"
         yield Relation(symbol(name), f"{k}·{segment}", figures, answer(drawing, size), unit)
-
-
-def of_trials(drawing: Drawing) -> Iterator[Relation]:
-    """What two trial plans lay off, and where between them the right one lies: what they miss
-    grows in proportion."""
-    yield from of_trial_lengths(drawing)
-    for number, step, value in drawing.steps(Plane.NUMBERS):
-        if step.action is None or step.action.key != "share" or step.part is not Part(drawing.kind):
-            continue
-        users = [user for user in drawing.children.get(number, ()) if is_point(drawing, user)]
-        steps = drawing.trace.program.steps
-        measured = step.by_hand in drawing.trace.values
-        crossed = [user for user in users if measured and steps[user].by_hand in drawing.results]
-        one, two = (symbol(steps[arg].name) for arg in steps[(crossed or users)[0]].args[:2])
-        ratio = f"{one}{symbol(steps[(crossed or users)[0]].name)}/{one}{two}"
-        others = [symbol(steps[user].name) for user in users if user not in crossed]
-        fields = {"ratio": ratio, "list": drawing.words("list_mark").join(others)}
-        result = answer(drawing, float(value))
-        if crossed:
-            figures = on_line(drawing, steps[crossed[0]])
-            remark = drawing.words("calculation.divided-alike", **fields) if others else ""
-            yield Relation("*λ*", ratio, figures, result, "", remark)
-            continue
-        gaps = misses(drawing, step)
-        yield from of_gaps(drawing, step, gaps)
-        first, second = figure(drawing, gaps[0].size), within(drawing, gaps[1].size)
-        yield Relation(
-            "*λ*",
-            "{0}/({0} − {1})".format(*GAPS),
-            f"{first}/({first} − {second})",
-            result,
-            "",
-            drawing.words("calculation.divided", **fields),
-        )
-
-
-def on_line(drawing: Drawing, crossed: Step) -> str:
-    """How far along the line of its trials a point was found, over how long that is, in mm."""
-    one, two = crossed.args[:2]
-    whole = drawn_between(drawing, one, two, drawing.plane)
-    share = float(drawing.trace.values[crossed.args[2]])
-    return f"{drawn(drawing, OnPaper(share * whole))}/{drawn(drawing, whole)}"
-
-
-def is_point(drawing: Drawing, number: int) -> bool:
-    """True for a step that finds a point of this sheet's plan."""
-    return drawing.trace.program.steps[number].plane is drawing.plane
-
-
-def of_gaps(
-    drawing: Drawing, step: Step, gaps: tuple[Misclosure, Misclosure]
-) -> Iterator[Relation]:
-    """The gaps of two trials, read off the plan; of a driver less than what it gives."""
-    turns = "d" in step.says and driver_of(drawing, step).kind == "turn"
-    velocity = drawing.kind == "velocity"
-    unit = ("rad/s" if turns else "m/s") + ("" if velocity else "^2")
-    scale = scale_of(drawing, drawing.plane) / 1000
-    for name, gap in zip(GAPS, gaps, strict=True):
-        length = gap.found if "d" in step.says else gap.size
-        mm = within(drawing, length / scale)
-        figures = figure(drawing, length, FINE) if turns else f"{figure(drawing, scale)}·{mm}"
-        less = f" − {within(drawing, gap.found - gap.size)}" if "d" in step.says else ""
-        size = answer(drawing, gap.size)
-        yield Relation(name, "", f"{figures}{less}", size, unit, gap.remark(drawing))
-
-
-def drawn(drawing: Drawing, millimetres: OnPaper) -> str:
-    """A drawn length, to a thousandth of a millimetre or five digits."""
-    return figure(drawing, millimetres if millimetres < 10 else round(millimetres, 3))
 
 
 def of_components(drawing: Drawing) -> list[Section]:

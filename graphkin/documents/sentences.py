@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from graphkin.construction.centres.instant_centre import set_before
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import Component, component_of, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -13,11 +14,7 @@ from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.core.too_short import TINY
-from graphkin.construction.higher_class.closing_words import closing_sentence, idle_sentences
-from graphkin.construction.higher_class.trial_words import (
-    share_sentence,
-    trial_sentence,
-)
+from graphkin.construction.links.idle_links import idle_sentences
 from graphkin.construction.registry import TOGETHER
 from graphkin.construction.step_sentences import point_sentence
 from graphkin.documents.indices import with_indices
@@ -91,20 +88,15 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
             name, markup = component.sentence(drawing, first=first)
             if markup:
                 yield Sentence(number, name, markup)
-        elif number in drawing.tags:
-            yield from trial_sentence(drawing, number)
+        elif plan := auxiliary_plan(drawing, number):
+            yield from plan.sentences(drawing, number)
         elif laid is not None:
             if is_own(drawing, step) and (markup := laid.sentence(drawing)):
                 yield Sentence(number, key, markup)
         elif alone := said_alone(drawing, step):
             yield Sentence(number, key, alone)
-        elif key in OWN and is_own(drawing, step):
-            if markup := OWN[key](drawing, number, step):
-                yield Sentence(number, key, markup)
         elif is_found_point(drawing, number, step) and not is_again(drawing, step):
-            divided = key == "between" and step.by_hand not in drawing.trace.values
-            markup = "" if divided else point_sentence(drawing, number, step)
-            yield Sentence(number, step.name, markup)
+            yield Sentence(number, step.name, point_sentence(drawing, step))
 
 
 def is_again(drawing: Drawing, step: Step) -> bool:
@@ -134,13 +126,3 @@ def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
         wanted = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
         return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.frame.points
     return step.plane is drawing.plane and not isinstance(construction(step), PlanPole)
-
-
-# --- sentences of their own ----------------------------------------------------------------------
-
-
-OWN: dict[str, Callable[[Drawing, int, Step], str]] = {
-    "close": closing_sentence,
-    "share": share_sentence,
-}
-"""Steps that find no point by themselves and have a sentence all the same."""

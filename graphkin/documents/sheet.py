@@ -18,7 +18,7 @@ from graphkin.construction.core.plot import Plot, above_foot
 from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
-from graphkin.construction.higher_class.closing_words import draw_closing_arcs
+from graphkin.construction.higher_class.closed_group import draw_closing_arcs
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.result_tables import tables
 from graphkin.documents.captions import headlines

@@ -6,11 +6,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.higher_class.closing_words import IDLE
+from graphkin.construction.higher_class.closed_group import ClosedGroup
+from graphkin.construction.links.idle_links import IDLE
 from graphkin.documents.mark_dependencies import Target, rests_on
 from graphkin.drawing.marks import Mark
 
@@ -110,7 +112,7 @@ def stage_of(
 def settled(drawing: Drawing, number: int, staged: dict[int, int]) -> int:
     """The sentence by which a value stands; that of a number as soon as it can be reckoned."""
     step = drawing.trace.program.steps[number]
-    closes = step.action is not None and step.action.key == "close"
+    closes = isinstance(step.of, ClosedGroup) and step.role == "closing"
     if number in staged and (closes or step.plane is not Plane.NUMBERS):
         return staged[number]
     return max((settled(drawing, arg, staged) for arg in step.args), default=BEFORE)
@@ -136,7 +138,7 @@ def stage_of_closing(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> 
     return next((at for at, one in enumerate(said) if mark.name in traced(drawing, one)), None)
 
 
-def traced(drawing: Drawing, said: Sentence) -> list[str]:
+def traced(drawing: Drawing, said: Sentence) -> tuple[str, ...]:
     """The points whose loci a sentence has drawn."""
-    steps = drawing.trace.program.steps
-    return str(steps[said.step].says["l"]).split() if said.name == "close" else []
+    kind = construction(drawing.trace.program.steps[said.step]) if said.step >= 0 else None
+    return kind.traced if isinstance(kind, ClosedGroup) else ()

@@ -12,7 +12,7 @@ from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.naming import called
 from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.detail import parted
-from graphkin.documents.flattest import crossings_on, is_gap, letter_of_crossing, locus_of
+from graphkin.documents.flattest import crossings_on, group_closed, is_gap, letter_of_crossing
 from graphkin.documents.inset import insets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import heading, left_board, panels, right_board, title_block, title_of
@@ -96,8 +96,8 @@ def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
 
 def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int, int]) -> int:
     """The sentence that draws a crossing."""
-    locus = locus_of(drawing, crossing)
-    return staged[locus[0] if locus else crossing.number]
+    group = group_closed(drawing, crossing)
+    return staged[group.closing if group is not None and group.locus else crossing.number]
 
 
 def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mark]:

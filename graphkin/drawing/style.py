@@ -89,6 +89,8 @@ COMPONENTS = (
 """The components of accelerations."""
 BY_SIGN = {kind.sign: kind for kind in COMPONENTS}
 """The same by their signs."""
+AUXILIARY = OWN_LINES, CHAIN_LINES = "trial", "trial-line"
+"""The looks of the lines of auxiliary plans: their own, and chain lines through their points."""
 VECTORS = ("velocity", "relative-velocity", "acceleration", *(kind.look for kind in COMPONENTS))
 """The classes of lines that are vectors."""
 CENTRODES = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}

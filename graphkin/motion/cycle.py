@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.construction.core.determined import Determined
-from graphkin.construction.core.program import Step, Target
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.program import Target
 from graphkin.construction.core.results import gathered, row_of, rows_of
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Solution
@@ -277,15 +277,11 @@ def columns_at(
                 columns[target] = placed(columns.get(target), value, rows, len(at))
         for n, margin in trace.margins.items():
             step = piece.course.program.steps[n]
-            name = step.name or link_of(step)
+            kind = construction(step)
+            name = step.name or (kind.found_link if kind else "")
             if n in piece.course.crossings and name:
                 margins.setdefault(name, np.full(len(at), np.nan))[rows] = margin
     return Columns(which, columns, margins)
-
-
-def link_of(step: Step) -> str:
-    """The link that a step finds where it finds no point."""
-    return step.of.found_link if isinstance(step.of, Determined) else step.says.get("k", "")
 
 
 def assigned(sweep: Sweep, path: Path, at: Reals, near: float) -> tuple[Any, Reals]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.solution import Curve
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
 from graphkin.mechanism import Mechanism
 
@@ -57,7 +59,9 @@ def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
         _, *signs, _ = trace.values[number]
         round_ = step.action.value.trying.turns
         loci = step.action.value.loci([trace.values[arg] for arg in step.args], signs)
-        for point, locus in zip(step.says["l"].split(), loci, strict=True):
+        kind = construction(step)
+        assert isinstance(kind, ClosedGroup)
+        for point, locus in zip(kind.traced, loci, strict=True):
             fit = trace.value("position", point)
             curves.append(Curve("locus", point, piece(locus, fit, far, closed=round_)))
     return tuple(curves)

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from graphkin.construction.core.drawn_scene import TAGS, Drawing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.plot import Plot
+from graphkin.construction.core.program import Step
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.links.mechanism_symbols import (
     draw_bars,
@@ -73,10 +74,10 @@ def plan_seen(drawing: Drawing, field: Field) -> FrameView:
     """The vectors and points of a plan, without what constructs them, and its letters."""
     board = FieldContent(field.rect)
     draw_plan_steps(Plot(board, field, drawing, Layout(field, field, Free())))
-    marks = [mark for mark in board.marks if is_shown(mark)]
+    marks = [mark for mark in board.marks if is_shown(drawing, mark)]
     letters, places = dict[str, PointLetter](), {}
     for number, step, value in drawing.steps(drawing.plane):
-        if is_point(step.name) and isinstance(value, complex):
+        if is_point(step) and isinstance(value, complex):
             letters[step.name] = PointLetter(symbol(step.name), drawing.kind, number)
             places[step.name] = field(value)
     return FrameView(
@@ -99,15 +100,16 @@ class Free(dict[int, tuple[float, float]]):
         return 0.0, 0.0
 
 
-def is_point(name: str) -> bool:
-    """Whether a step of a plan gives a point of the plan itself, by its name."""
-    return bool(name) and name[-1] not in TAGS
+def is_point(step: Step) -> bool:
+    """Whether a step gives a point of the plan itself, not of one that is drawn aside."""
+    return bool(step.name) and step.aside is None
 
 
-def is_shown(mark: Mark) -> bool:
+def is_shown(drawing: Drawing, mark: Mark) -> bool:
     """Whether a mark of a plan is a vector or a point of the plan itself."""
-    first = mark.cls.split()[0]
-    return first in SHOWN and not (mark.name and mark.name[-1] in TAGS)
+    steps = drawing.trace.program.steps
+    aside = mark.step is not None and steps[mark.step].aside is not None
+    return mark.cls.split()[0] in SHOWN and not aside
 
 
 def plan_box(drawing: Drawing) -> Extent:
@@ -116,7 +118,7 @@ def plan_box(drawing: Drawing) -> Extent:
     for _, step, value in drawing.steps(drawing.plane):
         if isinstance(value, Vector) and step.arrow:
             points += [value.tail, value.tip]
-        elif is_point(step.name) and isinstance(value, complex):
+        elif is_point(step) and isinstance(value, complex):
             points.append(value)
     return extent_of(points)
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.numbers.plane import Circle, Ratio
+from graphkin.construction.core.layout import BEYOND
+from graphkin.numbers.arithmetic import larger, smaller
+from graphkin.numbers.plane import Circle, Ratio, dot
+from graphkin.web.body_pose import unit
 from graphkin.web.field_binder import FieldBinder
 from graphkin.web.moving_sheet import place_of
 
@@ -23,7 +27,7 @@ class MovingCanvas:
 
     binder: FieldBinder
     ends: Ends | None = None
-    legs: list[Ends] = field(default_factory=list)
+    legs: list[Callable[[], Ends]] = field(default_factory=list)
     faces: Any = None
     swung: Ends | None = None
     is_beyond: bool = False
@@ -43,6 +47,11 @@ class MovingCanvas:
         """The sheet where the scene stands."""
         return self.binder.places.drawing
 
+    @property
+    def mm(self) -> float:
+        """The millimetres of paper that a unit of the field takes up."""
+        return self.binder.field.mm
+
     def value(self, number: int) -> Any:
         """The value of a step while it moves."""
         return self.binder.places.values[number]
@@ -60,7 +69,7 @@ class MovingCanvas:
 
     def segment(self, start: Any, end: Any) -> None:
         """A thin line between two points that move."""
-        self.legs.append((start, end))
+        self.legs.append(lambda: (start, end))
 
     def line(self) -> bool:
         """The step's own line."""
@@ -99,6 +108,39 @@ class MovingCanvas:
     def side(self, start: Any, end: Any) -> None:
         """A side of the image of a link."""
         self.segment(start, end)
+
+    def image_aside(self) -> None:
+        """The same of an auxiliary plan."""
+
+    def line_aside(self) -> None:
+        """The step's own line."""
+
+    def leg(self, name: str, look: str, start: Any, end: Any) -> None:
+        """A thin line between two points that move."""
+        self.legs.append(lambda: (start, end))
+
+    def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
+        """A thin line of a look on a line through a point, from one distance to another."""
+        self.legs.append(lambda: (at + along * low, at + along * high))
+
+    def chain(self) -> None:
+        """The step's own line."""
+
+    def through(self, first: Any, second: Any, third: Any) -> None:
+        """The line through two points as far as a third, a little beyond them all."""
+        self.legs.append(lambda: self.around(first, second, third))
+
+    def around(self, first: Any, second: Any, third: Any) -> Ends:
+        """The ends of such a line."""
+        lift = self.binder.tape.lifted
+        first, last = lift(first), lift(second)
+        way = unit(last - first)
+        low = high = lift(0.0)
+        for point in (last, lift(third)):
+            along = dot(point - first, way)
+            low, high = smaller(low, along), larger(high, along)
+        beyond = BEYOND / 2 / self.mm
+        return first + way * (low - beyond), first + way * (high + beyond)
 
     # --- centres -----------------------------------------------------------------------------
 

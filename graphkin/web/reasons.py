@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from string import Formatter
 
+from graphkin.construction.core.auxiliary_plan import falls
 from graphkin.construction.core.component import is_hidden
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -12,18 +13,12 @@ from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import names_in
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.higher_class.coincident_images import fallen_on
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import TURNING
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.text import Words
 from graphkin.web.label_names import as_labelled
 
-WHY = {
-    (Part.VELOCITY, "between"): "why.trials",
-    (Part.ACCELERATION, "between"): "why.trials",
-}
-"""The key of the reason for an action in a part of the work; others need none."""
 AGAIN = {
     "why.height": "why.height_again",
     "why.normal": "why.normal_again",
@@ -57,7 +52,7 @@ def reasons(
         if not all(known[gap] for gap in gaps(drawing.words, key)):
             continue
         if key == LAST:
-            if number not in drawing.tags or not fallen_on(drawing, number):
+            if not falls(drawing, number):
                 met[known["name"]] = number
             continue
         text = drawing.words(AGAIN.get(key, key) if key in given else key, **known)
@@ -88,13 +83,7 @@ def alike(step: Step, names: Iterable[str]) -> Iterator[str]:
 def reason(drawing: Drawing, step: Step) -> str:
     """The key of a step's reason; nothing where it needs none."""
     kind = construction(step)
-    if kind is not None:
-        return kind.reason(drawing, step.role)
-    if step.action is None:
-        return ""
-    if step.action.key == "similar-point" and step.by_hand in drawing.trace.values:
-        return LAST
-    return WHY.get((step.part, step.action.key), "")
+    return kind.reason(drawing, step.role) if kind is not None else ""
 
 
 def gaps(words: Words, key: str) -> Iterator[str]:

@@ -8,23 +8,22 @@ from math import hypot, pi
 from typing import Any
 
 from graphkin.construction.centres.instant_centre import PARALLEL
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import BEYOND, SWEEP
 from graphkin.construction.core.paper_canvas import BEYOND_TIPS, STRAIGHT
 from graphkin.construction.core.paper_canvas import FAR as ENDLESS
 from graphkin.construction.core.plot import above_foot
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.too_short import NEAR as SHORTEST
 from graphkin.construction.core.too_short import TINY
-from graphkin.construction.higher_class.closing_words import ends_of_bar
-from graphkin.construction.higher_class.misclosure_marks import gap_lines
-from graphkin.construction.higher_class.trial_marks import NEAR as SHORTEST
-from graphkin.construction.higher_class.trial_marks import leg_start
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline
-from graphkin.drawing.style import VECTORS
+from graphkin.drawing.style import AUXILIARY, VECTORS
 from graphkin.drawing.symbols import SHORT
-from graphkin.numbers.arithmetic import larger, pick, smaller
+from graphkin.numbers.arithmetic import pick, smaller
 from graphkin.numbers.plane import Circle as Round
 from graphkin.numbers.plane import Line as Carrier
-from graphkin.numbers.plane import Vector, cross, dot
+from graphkin.numbers.plane import Vector, cross
 from graphkin.web.body_pose import unit
 from graphkin.web.field_binder import Binding, only_at_start
 from graphkin.web.visible_steps import ALIKE, VisibleSteps
@@ -81,9 +80,9 @@ class Steps(VisibleSteps):
         """A compass arc about the points on it, or the one that turns a length over."""
         if (swung := self.part_of(number).swung) is not None:
             return self.arc_about(*swung, SWEEP / 2)
-        if self.key(number) == "close":
+        if isinstance(kind := construction(self.step(number)), ClosedGroup):
             drawing, spots = self.binder.places.drawing, self.binder.places.spots
-            centre, pin = ends_of_bar(drawing, number, self.step(number))
+            centre, pin = kind.ends_of_bar(drawing)
             return self.arc_about(spots[centre], spots[pin], SWEEP)
         value = self.value(number)
         if not isinstance(value, Round):
@@ -154,7 +153,7 @@ class Steps(VisibleSteps):
             return self.endless(*part.endless)
         for start, end in self.legs(number):
             if self.is_at(mark, start, end):
-                is_leg = cls in ("trial", "trial-line") or self.key(number) == "similar-point"
+                is_leg = cls in AUXILIARY or self.key(number) == "similar-point"
                 shown = self.apart(end, start) - SHORTEST if is_leg else self.seen(number)
                 return self.binder.between(start, end, shown=shown)
         if isinstance(self.drawn(number), Carrier) and number in self.layout.spans:
@@ -186,42 +185,17 @@ class Steps(VisibleSteps):
 
     def legs(self, number: int) -> Iterator[tuple[Any, Any]]:
         """The lines between two points that a step may be drawn with."""
-        value, step, tape = self.value(number), self.step(number), self.binder.tape
-        for start, end in self.part_of(number).legs:
+        tape = self.binder.tape
+        for leg in self.part_of(number).legs:
+            start, end = leg()
             yield tape.lifted(start), tape.lifted(end)
-        if isinstance(value, Carrier):
-            return
-        drawing = self.binder.places.drawing
-        if number in drawing.tags and leg_start(self.plot, step) is not None:
-            yield tape.lifted(self.value(step.args[0])), tape.lifted(value)
-        if self.key(number) == "between":
-            yield self.divided(number)
-        for _, tail, tip in gap_lines(number, step, self.lifted, self.binder.field.mm):
-            yield tail, tip
-
-    def lifted(self, number: int) -> Any:
-        """The value of a step as a traced number; a line as it is."""
-        value = self.value(number)
-        return value if isinstance(value, Carrier) else self.binder.tape.lifted(value)
-
-    def divided(self, number: int) -> tuple[Any, Any]:
-        """The line through the two trials of a point, as far as the right one and a little more."""
-        lift = self.binder.tape.lifted
-        first, last = (lift(self.value(arg)) for arg in self.step(number).args[:2])
-        way = unit(last - first)
-        low = high = lift(0.0)
-        for point in (last, lift(self.value(number))):
-            along = dot(point - first, way)
-            low, high = smaller(low, along), larger(high, along)
-        beyond = BEYOND / 2 / self.binder.field.mm
-        return first + way * (low - beyond), first + way * (high + beyond)
 
     def is_short(self, mark: LineMark) -> bool:
         """Whether a mark is all there is of a line of which only the ends are drawn elsewhere."""
         number = mark.step
         if number is None or self.key(number) not in BEYOND_BOTH:
             return False
-        if number in self.binder.places.drawing.tags or number not in self.layout.spans:
+        if number in self.binder.places.drawing.auxiliary or number not in self.layout.spans:
             return False
         low, high = self.layout.spans[number]
         return mark.cls == "construction" and high - low <= 2 * BEYOND + TINY
@@ -250,7 +224,7 @@ class Steps(VisibleSteps):
         """Which part of its line a mark is."""
         if self.part_of(number).is_end:
             return LAST
-        if self.key(number) not in BEYOND_BOTH or number in self.binder.places.drawing.tags:
+        if self.key(number) not in BEYOND_BOTH or number in self.binder.places.drawing.auxiliary:
             return FULL
         low, high = self.layout.spans[number]
         if high - low <= 2 * BEYOND + TINY:

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphkin.construction.core.batch import made_ready, run_moving
-from graphkin.construction.higher_class.trial import needed_of
 from graphkin.numbers.arithmetic import phase
 from graphkin.tape.emit import LOOP, value
 from graphkin.tape.graph import Graph
@@ -92,7 +91,7 @@ def trial(trying: Any, known: Sequence[Any], at: Any, signs: Sequence[Any]) -> M
     overrides = dict(zip(trying.inputs, known, strict=True))
     overrides[trying.tried] = kind.radians(at) if trying.turns else at
     overrides |= dict(zip(trying.signs, signs, strict=True))
-    needed = needed_of(trying.program, trying.results)
+    needed = trying.program.behind(trying.results)
     ready = made_ready(trying.program, needed, trying.values, trying.results, frozenset(overrides))
     return run_moving(ready, trying.values, kind, overrides=overrides).values
 

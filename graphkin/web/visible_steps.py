@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout
@@ -66,8 +67,11 @@ class VisibleSteps:
             self.parts[number] = canvas = MovingCanvas(self.binder)
             step, kind = self.step(number), construction(self.step(number))
             known = self.binder.places.values
+            plan = auxiliary_plan(self.binder.places.drawing, number)
             if kind is not None and number in known and kind.is_whole(known):
                 kind.marks(canvas, step.role)
+            if plan is not None and number in known:
+                plan.marks(canvas, number)
         return self.parts[number]
 
     def apart(self, one: Any, other: Any) -> Any:

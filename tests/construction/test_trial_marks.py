@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.higher_class.trial_rates import ROUND, tried_by
+from graphkin.construction.higher_class.trial_rates import ROUND
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
@@ -81,7 +81,7 @@ def test_a_solution_is_reckoned_with_the_driver_s_own_rate_and_nought(higher):
     """On paper alone the trials are round: batches need no answer before they begin."""
     trace = higher.trace()
     for _, step in shares(higher):
-        first, second = (trace.values[number] for number in tried_by(step))
+        first, second = (trace.values[number] for number in step.of.rates)
         assert first == 0
         assert second not in higher.trial_rates.values()
 

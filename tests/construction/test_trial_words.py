@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.construction.core.drawn_scene import TAGS, Drawing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_between
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.higher_class.trial_words import begun_by
+from graphkin.construction.higher_class.trial_plan import begun_by
+from graphkin.construction.higher_class.two_trials import TAGS
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
@@ -66,7 +67,8 @@ def said_as(said: tuple[Sentence, ...], name: str) -> str:
 def points_of(drawing: Drawing, tag: str) -> list[int]:
     """The steps that find the points of a trial plan."""
     steps = drawing.trace.program.steps
-    return [number for number, own in drawing.tags.items() if own == tag and steps[number].name]
+    plans = drawing.auxiliary.items()
+    return [number for number, own in plans if own.tag == tag and steps[number].name]
 
 
 def test_every_length_that_a_trial_tries_is_told(higher):
@@ -98,7 +100,7 @@ def test_the_calculation_tells_what_a_trial_lays_off_and_how_long_it_is_drawn(hi
             step = drawing.trace.program.steps[number]
             if begun_by(step) is not None:
                 size = drawn_between(drawing, step.args[0], number, step.plane)
-                laid_off += [(TAG_WORDS[drawing.tags[number]], size)] if size else []
+                laid_off += [(TAG_WORDS[drawing.auxiliary[number].tag], size)] if size else []
         tried = [each for each in told if each.left.endswith(("I}", "I}^{τ}"))]
         assert len(tried) == len(laid_off) > 0, higher
         scale = (drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka) / 1000
@@ -141,8 +143,7 @@ def test_in_words_of_a_trial_no_triangle_is_without_size(higher):
     (drawing, said, page), _ = drawn("rod-and-wheel")
     assert said_as(said, "trial¹").endswith("*c*_{I}, *b*_{I}, *b*_{1,I} fall on *o*")
     lines = [mark.step for mark in page.marks if isinstance(mark, LineMark) and mark.step]
-    assert not [step for step in lines if drawing.tags.get(step) == "¹"]
-    assert [step for step in lines if drawing.tags.get(step) == "²"]
+    assert {drawing.auxiliary[step].tag for step in lines if step in drawing.auxiliary} == {"²"}
     assert "*b*_{1,I}" not in {symbol(c.name) for c in crossings_on(drawing)}
     assert "*C**T**B*" in said_as(said, "trial²")
 

@@ -119,13 +119,12 @@ def test_every_point_of_the_right_plan_stands_on_the_line_of_its_trials_in_one_r
                 if abs(second - first) > 1e-9:
                     shares.add(round(((value - first) / (second - first)).real, 6))
         assert len(shares) == 1, shares
-        tags = set(drawing.tags.values())
-        assert tags == set("¹²")
+        assert {plan.tag for plan in drawing.auxiliary.values()} == set("¹²")
 
 
 def test_a_trial_is_drawn_thin_and_grey_and_no_vector_belongs_to_it():
     page = drawn("rapid-return", None, "acceleration")
-    tags = page.drawing.tags
+    tags = page.drawing.auxiliary
     marks = [mark for mark in page.marks["plan"] if mark.step in tags and not is_label(mark)]
     assert marks
     assert {kind_of(mark) for mark in marks} == {"trial", "point"}

@@ -38,9 +38,9 @@ def laid_off(drawing):
     """The symbols of the vectors that are laid off in the right plan, with their lengths in mm."""
     for number, step, _ in drawing.steps(drawing.plane):
         component = component_laid_off(step)
-        if component is not None and number not in drawing.tags:
+        if component is not None and number not in drawing.auxiliary:
             yield component.symbol, drawn_between(drawing, step.args[0], number, step.plane)
-        elif step.action and step.action.key in LAID and number not in drawing.tags:
+        elif step.action and step.action.key in LAID and number not in drawing.auxiliary:
             size = drawn_between(drawing, step.args[0], number, step.plane)
             made = construction(step)
             if isinstance(made, LaidOff):

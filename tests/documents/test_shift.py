@@ -15,7 +15,6 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.run import StepFailed, Trace, run
-from graphkin.construction.higher_class.trial_marks import is_idle
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.documents.sheet_documents import targets_of
 from graphkin.drawing.marks import CircleMark as Dot
@@ -57,7 +56,7 @@ def rerun(drawing: Drawing, number: int, size: float) -> Trace:
 
     needed = sorted(drawing.trace.values)
     shares = [step for step in program.steps if step.action and step.action.key == "share"]
-    tried = {int(place) for step in shares for place in step.says["tried"].split()}
+    tried = {place for step in shares for place in step.of.rates}
     overrides = {place: drawing.trace.values[place] for place in tried & set(needed)}
     overrides[program.seconds] = drawing.scales.seconds
     return run(program, needed, values, FLOAT, hook=hook, overrides=overrides)
@@ -152,8 +151,8 @@ def size_of(drawing: Drawing, plane: Plane, millimetres: float) -> float:
 
 def idle_lines(drawing: Drawing) -> set[int]:
     """The lines of trials that are not drawn, for what they find falls on where they begin."""
-    lines = {n for n in drawing.tags if isinstance(drawing.trace.values[n], Line)}
-    return {number for number in lines if is_idle(drawing, number)}
+    lines = {n for n in drawing.auxiliary if isinstance(drawing.trace.values[n], Line)}
+    return {number for number in lines if drawing.auxiliary[number].is_idle(drawing, number)}
 
 
 def appears(drawing: Drawing, trace: Trace, number: int) -> bool:

@@ -10,7 +10,6 @@ import pytest
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
 from graphkin.construction.higher_class.refining import proved
-from graphkin.construction.higher_class.trial import needed_of
 from graphkin.numbers.arithmetic import is_ball, phase, turn_by
 from graphkin.numbers.kinds import ball_kind, decimal_kind
 from tests.numbers import number_kinds as nk
@@ -45,7 +44,7 @@ def misfit_of(trying, known, signs):
     def misfit(tried):
         tried = context.mpf(tried)
         here = given | {trying.tried: turn_by(tried) if trying.turns else tried}
-        needed = needed_of(trying.program, (trying.misfit,))
+        needed = trying.program.behind((trying.misfit,))
         return run(trying.program, needed, trying.values, FINE, overrides=here).values[
             trying.misfit
         ]

@@ -5,11 +5,7 @@ from __future__ import annotations
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import image, letter, second_image
 from graphkin.construction.core.program import ContactName, Part, Program
-from graphkin.diagnosis.singularity_words import closed_by
 from graphkin.text.plain_table import listed
-
-TAGS = "¹²"
-"""The tags of the images of two trial plans."""
 
 
 def crossing(program: Program, number: int) -> tuple[str, str]:
@@ -24,37 +20,35 @@ def place_words(program: Program, number: int) -> str:
     whole = next((n for n, other in enumerate(program.steps) if other.by_hand == number), None)
     if whole is not None and not step.name:
         return place_words(program, whole)
-    key = step.action.key if step.action else ""
     kind = construction(step)
     if kind is not None and (title := kind.title(step.role)):
         return title
-    if not step.name and key.startswith(("close", "part", "share")):
-        return f"links {listed(closed_by(program, number))} together"
+    if kind is not None and kind.closes:
+        return f"links {listed(kind.closes)} together"
     return point_words(program, drawn_name(program, number))
 
 
 def drawn_name(program: Program, number: int) -> str:
-    """The letter of a step, or of the later step that lays what it finds.
+    """The letter of a step, or of the later step that lays what it finds, without any tag.
 
     The corner of a plate has its letter only where the plate is laid.
     """
     step = program.steps[number]
-    name, reached = step.name, {number}
+    name, reached = step.letter, {number}
     for later in range(number + 1, len(program.steps)):
         after = program.steps[later]
         if name or after.part not in (step.part, Part.POSITION):
             break
         if reached.intersection(after.args):
-            name = after.name
+            name = after.letter
             reached.add(later)
     return name
 
 
 def point_words(program: Program, name: str) -> str:
     """The point whose letter or whose image in a plan this is; a name that is none stays itself."""
-    bare = name.rstrip(TAGS)
     for quantity, point in program.targets:
-        if quantity == "position" and bare in (letter(point), image(point), second_image(point)):
+        if quantity == "position" and name in (letter(point), image(point), second_image(point)):
             own, _, link = point.partition("@")
             words = f"the contact {own}" if isinstance(point, ContactName) else own
             return f"{words} on link {link}" if link else words

@@ -29,10 +29,6 @@ DRAWN_IN = {
     Part.POLE: "acceleration pole",
 }
 """Where a crossing is drawn that its construction does not say it of."""
-LINES = {
-    "line-through": "the line of the trials",
-}
-"""What lines and arcs are called, by the key of their sentence."""
 
 
 def pencil_record(found: Forecast) -> dict[str, Any]:
@@ -217,15 +213,9 @@ def arrow_end(program: Program, number: int) -> str:
 
 
 def line_words(program: Program, step: Step) -> str:
-    """A line or an arc by what it is square or parallel to; nothing for other steps."""
+    """A line or an arc by what it is perpendicular or parallel to; nothing for other steps."""
     kind = construction(step)
-    if kind is not None:
-        return kind.line_name(program.steps, step.role)
-    words = LINES.get(step.action.key if step.action is not None else "")
-    try:
-        return words.format_map(step.says) if words else ""
-    except KeyError:
-        return ""
+    return kind.line_name(program.steps, step.role) if kind is not None else ""
 
 
 def lines_words(program: Program, number: int) -> str:

@@ -140,7 +140,7 @@ class TurnedAcceleration(LaidOffAboutPivot):
                 yield self.by_turning(drawing, self.omega, "ν")
             return
         assert self.epsilon is not None
-        if self.image not in drawing.tags and not self.is_of_driver(drawing, self.epsilon):
+        if self.image not in drawing.auxiliary and not self.is_of_driver(drawing, self.epsilon):
             yield self.by_turning(drawing, self.epsilon, "τ")
 
     def rate_taken(self, drawing: Drawing, role: str) -> str:

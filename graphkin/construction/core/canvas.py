@@ -19,6 +19,10 @@ class Canvas(Protocol):
     def drawing(self) -> Drawing:
         """The sheet at the position where the scene stands."""
 
+    @property
+    def mm(self) -> float:
+        """The millimetres of paper that a unit of the field takes up."""
+
     def value(self, number: int) -> Any:
         """The value of a step."""
 
@@ -65,6 +69,24 @@ class Canvas(Protocol):
 
     def side(self, start: Any, end: Any) -> None:
         """A side of the image of a link, where it is long enough to be drawn."""
+
+    def image_aside(self) -> None:
+        """The same point of an auxiliary plan, which is smaller."""
+
+    def line_aside(self) -> None:
+        """The step's own line in an auxiliary plan as far as it is needed."""
+
+    def leg(self, name: str, look: str, start: Any, end: Any) -> None:
+        """A thin line of a look between two points of a plan that stand apart."""
+
+    def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
+        """A thin line of a look on a line through a point, from one distance to another."""
+
+    def chain(self) -> None:
+        """The step's own line as far as it is needed, as a chain line."""
+
+    def through(self, first: Any, second: Any, third: Any) -> None:
+        """A chain line through two points that stand apart and a third, a little beyond them."""
 
     # --- centres -----------------------------------------------------------------------------
 

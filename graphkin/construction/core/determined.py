@@ -26,11 +26,6 @@ class Determined(Construction):
     has_angle: ClassVar[bool] = True
     has_mirror: ClassVar[bool] = False
 
-    @property
-    def found_link(self) -> str:
-        """The link that it turns; nothing where it finds a point."""
-        return ""
-
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """What lies in line or perpendicular where it fails; ``nearly`` is put before, if flat."""
         return ""

@@ -10,7 +10,7 @@ from typing import Any
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.curve_extent import shown
 from graphkin.construction.core.link_poses import LinkPoses
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import Part, PlanAside, Plane, Step
 from graphkin.construction.core.quantities import MOTION, PLANES, RATE, SLIDING, MotionQuantity
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
@@ -23,8 +23,6 @@ METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
 """The units in which a scene may write lengths."""
 ENDLESS = 1e9
 """A centre so many mechanisms away counts as at infinity."""
-TAGS = "¹²"
-"""What the points of two trial plans bear behind their names."""
 NOISE = 1e-9
 """A quantity this small beside the largest of its kind is rounding and shown as nought."""
 
@@ -188,21 +186,21 @@ class Drawing:
         }
 
     @cached_property
-    def tags(self) -> Mapping[int, str]:
-        """The tag ¹ or ² of each step of the plan that only a trial plan uses."""
-        found: dict[int, str] = {}
+    def auxiliary(self) -> Mapping[int, PlanAside]:
+        """The auxiliary plan of each step of the plan that only such a plan uses."""
+        found: dict[int, PlanAside] = {}
         steps = self.trace.program.steps
         own = [number for number, _, _ in self.steps(self.plane)]
         for number in reversed(own):
             if steps[number].name:
-                tag = steps[number].name[-1]
-                found |= {number: tag} if tag in TAGS else {}
+                plan = steps[number].aside
+                found |= {number: plan} if plan is not None else {}
                 continue
             users = [*self.children.get(number, ()), self.results.get(number, -1)]
             users = [user for user in users if user in own]
-            tags = {found.get(child, "") for child in users}
-            if len(tags) == 1 and tags != {""}:
-                found[number] = tags.pop()
+            plans = {found.get(child) for child in users}
+            if len(plans) == 1 and (plan := plans.pop()) is not None:
+                found[number] = plan
         return found
 
     def settled(self, value: float) -> float:

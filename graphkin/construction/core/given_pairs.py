@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.kind import Construction, constructions
 from graphkin.construction.core.line_words import axis_of, heading, straight
 from graphkin.construction.core.parameter_words import after_parameter
 from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
@@ -213,14 +213,7 @@ def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
 
 def closures(drawing: Drawing) -> Iterator[str]:
     """Which of the ways in which a group of higher class closes is meant."""
-    scene, steps = drawing.scene, drawing.trace.program.steps
-    groups = [step.says for step in steps if step.action and step.action.key == "close"]
-    for name, branch in scene.branches.items():
+    groups = [kind for kind in constructions(drawing.trace.program, Construction) if kind.closes]
+    for name, branch in drawing.scene.branches.items():
         if isinstance(branch, Closure):
-            says = next(says for says in groups if name in says["list"].split(", "))
-            yield drawing.words(
-                "page.closure",
-                list=escape(says["list"]),
-                number=str(branch.number),
-                axis=axis_of(drawing, scene.link(says["a"])),
-            )
+            yield next(kind for kind in groups if name in kind.closes).branch_words(drawing)

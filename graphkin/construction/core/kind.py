@@ -21,7 +21,8 @@ class Construction(Roles):
     ``laid_off`` the roles of points that are laid off from the first value of their step,
     ``unmarked`` those of points that a pencil need not mark, ``directions`` those of unit vectors,
     ``slips`` by what a student's slip multiplies its result, ``drawn_in`` what a report calls the
-    drawing of its crossings where that is not the plan's.
+    drawing of its crossings where that is not the plan's. ``joins`` are the roles of lines drawn as
+    far as the points through which they lead.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
@@ -31,6 +32,7 @@ class Construction(Roles):
     directions: ClassVar[frozenset[str]] = frozenset()
     slips: ClassVar[Mapping[str, complex]] = {}
     drawn_in: ClassVar[str] = ""
+    joins: ClassVar[frozenset[str]] = frozenset()
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason behind the step of a role; nothing where it needs none."""
@@ -60,6 +62,20 @@ class Construction(Roles):
         return ""
 
     @property
+    def closes(self) -> tuple[str, ...]:
+        """The links that it closes together; none for others."""
+        return ()
+
+    @property
+    def found_link(self) -> str:
+        """The link whose place it finds; nothing where it finds a point."""
+        return ""
+
+    def branch_words(self, drawing: Drawing) -> str:
+        """Which of the ways in which its links close is meant, among what is given."""
+        return ""
+
+    @property
     def sought(self) -> str:
         """The point whose image it finds by crossing lines; nothing for others."""
         return ""
@@ -81,6 +97,12 @@ class Construction(Roles):
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """What is said of a role's step that finds no point; nothing for other roles."""
         return ""
+
+    def rate_relation(
+        self, drawing: Drawing, link: str, tail: tuple[str, str, str]
+    ) -> Relation | None:
+        """How the rate of a link that it gives is found: with result, unit and sense at the end."""
+        return None
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that are told before the step of a role."""

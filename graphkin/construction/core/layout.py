@@ -13,6 +13,7 @@ from math import degrees
 from typing import Any
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Plane
 from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, MARGIN, WIDTH, Rect
 from graphkin.drawing.field import Field
@@ -134,12 +135,13 @@ def points_on(drawing: Drawing, number: int) -> list[complex]:
 
 
 def joined(drawing: Drawing, number: int) -> list[int]:
-    """The steps of the centres, or of the two trials of a point, that a line joins."""
+    """The steps of the centres, or of other points, that a line joins."""
     step, values = drawing.trace.program.steps[number], drawing.trace.values
     if not isinstance(values[number], Line):
         return []
-    trials = step.action is not None and step.action.key == "line-through"
-    return [arg for arg in step.args if trials or isinstance(values[arg], Ratio)]
+    kind = construction(step)
+    joins = kind is not None and step.role in kind.joins
+    return [arg for arg in step.args if joins or isinstance(values[arg], Ratio)]
 
 
 def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:

@@ -13,14 +13,17 @@ from graphkin.construction.core.layout import BEYOND, SWEEP
 from graphkin.construction.core.plan_marks import name_point, put_locus, put_point, put_pole
 from graphkin.construction.core.plot import Plot, above_foot, line_ends, line_part, middle
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.too_short import TINY
+from graphkin.construction.core.too_short import NEAR, TINY
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark
+from graphkin.drawing.style import CHAIN_LINES, OWN_LINES
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import FIXED, SHORT, arrow, bearing, head, square_mark
 from graphkin.numbers.plane import Circle, Ratio
 
+ASIDE = f"point {OWN_LINES}"
+"""The class of a point of an auxiliary plan."""
 SIDE = 6.0
 """Shortest side of a triangle, in mm, at whose corner a right angle is marked."""
 LEG = "leg"
@@ -37,8 +40,6 @@ LAST = 20.0
 """How much of a ray to a far centre its name belongs to, in mm."""
 STRAIGHT = 1e6
 """Radius in mm of a circle that is a straight line, or none at all, on any page."""
-NEAR = 0.3
-"""A side of the image of a link shorter than this, in mm, is not drawn."""
 FAR = 2000.0
 """Longer than any way on a page, in mm."""
 BEYOND_TIPS = 4.0
@@ -49,6 +50,19 @@ def draw_part(plot: Plot, number: int, step: Step, kind: Construction) -> None:
     """Draw the step of a construction, unless the construction is too small for it."""
     if not kind.is_hidden(plot.drawing):
         kind.marks(PaperCanvas(plot, number), step.role)
+
+
+def raise_points_aside(plot: Plot) -> None:
+    """Put the points of auxiliary plans over arrows that would hide them, not over right points."""
+    circles = [mark for mark in plot.board.marks if isinstance(mark, CircleMark)]
+    aside = [mark for mark in circles if mark.cls == ASIDE]
+    right = [complex(mark.cx, mark.cy) for mark in circles if mark.cls != ASIDE]
+    free = {
+        id(mark)
+        for mark in aside
+        if all(abs(complex(mark.cx, mark.cy) - at) > 2 * DOT for at in right)
+    }
+    plot.board.marks.sort(key=lambda mark: id(mark) in free)
 
 
 @dataclass(frozen=True)
@@ -67,6 +81,11 @@ class PaperCanvas:
     def step(self) -> Step:
         """The step."""
         return self.drawing.trace.program.steps[self.number]
+
+    @property
+    def mm(self) -> float:
+        """The millimetres of paper that a unit of the field takes up."""
+        return self.plot.field.mm
 
     def value(self, number: int) -> Any:
         """The value of a step."""
@@ -159,18 +178,18 @@ class PaperCanvas:
     # --- plans -------------------------------------------------------------------------------
 
     @property
-    def is_tried(self) -> bool:
-        """Whether it is of a trial plan, whose points and lines have a look of their own."""
-        return self.number in self.drawing.tags
+    def is_aside(self) -> bool:
+        """Whether it is of an auxiliary plan, which draws its own points and lines."""
+        return self.number in self.drawing.auxiliary
 
     def locus(self, name: str, text: str) -> None:
         """The step's own line beyond the points on it, with what it is drawn by along it."""
-        if not self.is_tried:
+        if not self.is_aside:
             put_locus(self.plot, self.number, name, text)
 
     def image(self) -> None:
         """The step's own point of the plan with its letter; none of a point without letter."""
-        if not self.is_tried:
+        if not self.is_aside:
             put_point(self.plot, self.number, self.step, self.value(self.number))
 
     def pole(self) -> None:
@@ -179,10 +198,49 @@ class PaperCanvas:
 
     def side(self, start: Any, end: Any) -> None:
         """A side of the image of a link, where it is long enough to be drawn."""
+        self.leg(self.step.name, OWN_LINES if self.is_aside else "construction", start, end)
+
+    def image_aside(self) -> None:
+        """The same of an auxiliary plan, whose points are smaller."""
+        if self.step.name:
+            place = self.plot.field(self.value(self.number))
+            self.circled(place, ASIDE, DOT)
+            name_point(self.plot, self.number, self.step, place, DOT, OWN_LINES, 2.5)
+
+    def line_aside(self) -> None:
+        """The step's own line in an auxiliary plan as far as the layout says."""
+        ends = line_ends(self.plot, self.number, self.value(self.number))
+        if ends:
+            line = LineMark(*ends[0], *ends[1], OWN_LINES, self.step.name, self.number)
+            self.plot.board.marks.append(line)
+
+    def leg(self, name: str, look: str, start: Any, end: Any) -> None:
+        """A thin line of a look between two points of a plan that stand apart."""
         if self.size(end - start) > NEAR:
-            cls = "trial" if self.is_tried else "construction"
             ends = *self.plot.field(start), *self.plot.field(end)
-            self.plot.board.marks.append(LineMark(*ends, cls, self.step.name, self.number))
+            self.plot.board.marks.append(LineMark(*ends, look, name, self.number))
+
+    def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
+        """A thin line of a look on a line through a point, from one distance to another."""
+        self.leg(name, look, at + along * low, at + along * high)
+
+    def chain(self) -> None:
+        """The step's own line as far as the layout says, as a chain line."""
+        ends = line_ends(self.plot, self.number, self.value(self.number))
+        if ends:
+            line = LineMark(*ends[0], *ends[1], CHAIN_LINES, "", self.number)
+            self.plot.board.marks.append(line)
+
+    def through(self, first: Any, second: Any, third: Any) -> None:
+        """A chain line through two points that stand apart and a third, a little beyond them."""
+        way = second - first
+        if self.size(way) > NEAR:
+            unit = way / abs(way)
+            along = [((p - first) * unit.conjugate()).real for p in (first, second, third)]
+            beyond = BEYOND / 2 / self.mm
+            low, high = min(along) - beyond, max(along) + beyond
+            ends = *self.plot.field(first + low * unit), *self.plot.field(first + high * unit)
+            self.plot.board.marks.append(LineMark(*ends, CHAIN_LINES, "", self.number))
 
     # --- centres -----------------------------------------------------------------------------
 

@@ -17,6 +17,7 @@ from graphkin.construction.core.program import (
     Drive,
     Given,
     Part,
+    PlanAside,
     Plane,
     Program,
     Roles,
@@ -59,7 +60,7 @@ class Pen:
         self.shared: dict[tuple[Any, ...], int] = {}
         self.peeked: dict[int, Any] = {}
         self.layer: dict[Target, int] | None = None
-        self.tag = ""
+        self.auxiliary: PlanAside | None = None
         self.part, self.plane, self.hand = Part.SHAPE, Plane.NUMBERS, False
         self.effect: Effect | None = None
 
@@ -86,11 +87,11 @@ class Pen:
         self.hand = before
 
     @contextmanager
-    def trial(self, tag: str) -> Iterator[dict[Target, int]]:
-        """Work at a trial plan: its points bear a tag, its quantities are gathered apart."""
-        self.layer, self.tag = {}, tag
+    def aside(self, plan: PlanAside) -> Iterator[dict[Target, int]]:
+        """Work at an auxiliary plan: its points bear a tag, its quantities are gathered apart."""
+        self.layer, self.auxiliary = {}, plan
         yield self.layer
-        self.layer, self.tag = None, ""
+        self.layer = self.auxiliary = None
 
     def draw(
         self,
@@ -102,8 +103,9 @@ class Pen:
         **says: Any,
     ) -> int:
         """Add a step that follows from earlier ones."""
-        if name and self.plane in (Plane.VELOCITIES, Plane.ACCELERATIONS):
-            name += self.tag
+        aside = self.auxiliary if self.plane in (Plane.VELOCITIES, Plane.ACCELERATIONS) else None
+        if name and aside is not None:
+            name += aside.tag
         return self._add(
             Step(
                 action,
@@ -117,6 +119,7 @@ class Pen:
                 self.hand,
                 says=says,
                 effect=self.effect,
+                aside=aside,
             )
         )
 
@@ -144,7 +147,7 @@ class Pen:
         return (), (-way_of(self.scene, dyad) if stays else way_of(self.scene, dyad),)
 
     def arrow(self, action: Action, *args: int, name: str, **says: Any) -> int:
-        """Add an arrow: drawn where its ends are, used by no other step, in no trial."""
+        """Add an arrow: drawn where its ends are, used by no other step, in no auxiliary plan."""
         if self.layer is not None:
             return -1
         self.arrows.add(name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, ClassVar
@@ -82,6 +82,16 @@ class Roles:
             if number is not None:
                 yield role, number
 
+    def comes_along(self, role: str, found: Container[int]) -> bool:
+        """Whether an arrow from it brings the step of a role, where all that it needs is found."""
+        return False
+
+
+class PlanAside:
+    """A plan drawn beside the right one: its ``tag`` stands behind the names of its points."""
+
+    tag: str
+
 
 @dataclass(frozen=True, slots=True)
 class Step:
@@ -91,7 +101,7 @@ class Step:
     only that way uses, ``arrow`` those that are only drawn. ``name`` is the letter on
     the drawing, ``says`` the names in the sentence. ``effect`` is what of the motion the step is
     drawn for, None where its part of the work says it. ``of`` is the construction that it is part
-    of, ``role`` what it is there.
+    of, ``role`` what it is there, ``aside`` the auxiliary plan in which it is drawn.
     """
 
     action: Action | None
@@ -108,6 +118,12 @@ class Step:
     effect: Effect | None = None
     of: Roles | None = None
     role: str = ""
+    aside: PlanAside | None = None
+
+    @property
+    def letter(self) -> str:
+        """Its letter without the tag of an auxiliary plan."""
+        return self.name.removesuffix(self.aside.tag) if self.aside is not None else self.name
 
 
 PLACES = ("axis", "guide", "track", "rolled")
@@ -170,7 +186,11 @@ class Program:
         With ``by_hand`` the hand's way of each composite step comes with it, and every arrow
         between points that are there.
         """
-        wanted = {self.targets[target] for target in targets}
+        return self.behind((self.targets[target] for target in targets), by_hand=by_hand)
+
+    def behind(self, numbers: Iterable[int], *, by_hand: bool = False) -> tuple[int, ...]:
+        """The steps that some steps need, themselves included, in order."""
+        wanted = {*numbers}
         for number in range(len(self.steps) - 1, -1, -1):
             if number not in wanted:
                 continue
@@ -201,16 +221,11 @@ class Program:
         return found - wanted
 
     def _comes_along(self, number: int, found: set[int]) -> bool:
-        """Whether an arrow brings a step: a given value, or a point of a plan that two trials give.
-
-        That is the one that a crossing finds, by which the others are, or the one under a sliding
-        one, through which the sliding one's components lead.
-        """
+        """Whether an arrow brings a step: a given value, or one that its construction says."""
         step = self.steps[number]
-        if step.action is None or step.action.key != "between":
+        if step.of is None or not step.of.comes_along(step.role, found):
             return step.given is not None
-        leads = "@" in step.says.get("q", "") or step.by_hand in found
-        return leads and found.issuperset(step.args)
+        return found.issuperset(step.args)
 
     def descendants(self, number: int) -> frozenset[int]:
         """The steps whose values depend on a step, itself included."""

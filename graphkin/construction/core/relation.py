@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.drawn_scene import Drawing
 
 DIGITS = 5
@@ -66,6 +67,11 @@ def within(drawing: Drawing, value: float) -> str:
 def answer(drawing: Drawing, value: float) -> str:
     """A number as it comes out of a relation."""
     return drawing.words.significant(value, 4)
+
+
+def drawn_length(drawing: Drawing, millimetres: OnPaper) -> str:
+    """A drawn length, to a thousandth of a millimetre or five digits."""
+    return figure(drawing, millimetres if millimetres < 10 else round(millimetres, 3))
 
 
 def length_of(drawing: Drawing, p: str, q: str) -> float:

@@ -9,6 +9,8 @@ from graphkin.construction.core.program import Plane
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
+NEAR = 0.3
+"""A thin line between two points of a plan that is shorter than this, in mm, is not drawn."""
 
 
 def is_short(drawing: Drawing, size: float, plane: Plane) -> bool:

@@ -103,7 +103,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate):
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """What is given along the guide; in a trial the motion along it."""
-        if self.image in drawing.tags:
+        if self.image in drawing.auxiliary:
             yield self.motion_of(drawing, self.point)
             return
         letter = drawing.vector.letter

@@ -10,11 +10,12 @@ from dataclasses import dataclass
 
 from graphkin.construction.core.bases import Base, bases, ending, trial_base
 from graphkin.construction.core.branches import closure_of, has_two_ways
-from graphkin.construction.core.pen import Pen, Says
+from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import coordinate
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
 from graphkin.construction.guides.guides import axis, known_guide, path_of, standing_guide
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.higher_class.trial_actions import (
     beside_line,
@@ -47,15 +48,13 @@ Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 def position(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     """The mechanism to scale: the tried link where the locus says, then dyad by dyad."""
     trying, inputs = trial_of(pen, group, each)
-    number = closure_of(pen.scene, group)
-    says: Says = {"k": group.trial.link, "n": str(number), "list": ", ".join(group.links)}
-    says |= cut_at(group.last) | {"l": " ".join(traced_points(pen, group.last))}
-    says["a"] = counted_by(pen, group)
+    number, dyads = closure_of(pen.scene, group), choosing_dyads(group)
+    counted, traced = counted_by(pen, group), tuple(traced_points(pen, group.last))
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        closing = pen.draw(trying.action(number), *inputs, **says)
-        tried = pen.draw(part, closing, extra=(0,), **says)
-        for k, dyad in enumerate(choosing_dyads(group), 1):
-            pen.chosen[dyad.links] = pen.draw(part, closing, extra=(k,))
+        closing = pen.draw(trying.action(number), *inputs)
+        tried, *sides = (pen.draw(part, closing, extra=(k,)) for k in range(len(dyads) + 1))
+    pen.chosen |= {dyad.links: side for dyad, side in zip(dyads, sides, strict=True)}
+    pen.make(ClosedGroup(group, number, counted, traced, closing, tried, tuple(sides)))
     build(pen, shapes, group, each, tried)
 
 
@@ -72,18 +71,6 @@ def counted_by(pen: Pen, group: Higher) -> str:
         held |= more
     written = [name for name in scene.links if name in group.links]
     return next((name for name in written if name not in held), written[0])
-
-
-def cut_at(last: Tie | Driver) -> Says:
-    """Where a group is cut: a bar or a guide with the pin beside it, or a driver that waits."""
-    match last:
-        case Tie(_, Pin(point=p), Pin(point=q)):
-            return {"p": p, "q": q}
-        case Tie(_, Pin(point=p), Sliding(links=(block, _))):
-            return {"q": p, "g": block}
-        case Driver(link=link):
-            return {"d": link}
-    raise AssertionError(last)
 
 
 def choosing_dyads(group: Higher) -> list[Dyad]:

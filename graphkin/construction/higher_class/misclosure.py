@@ -1,121 +1,195 @@
-"""What two trial plans miss: the gap of each, between which points, and how long on paper."""
+"""What a trial plan misses at the link or driver that comes last, and how it is measured.
+
+The gap lies across the line on which the plan's point should be: perpendicular to the bar that
+closes the group, or parallel to its guide. Of a driver it is what the plan has less what is given.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.component import component_of, index_before, laid_off
-from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import scale_of, way_of
-from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
+from graphkin.construction.core.vocabulary import action
+from graphkin.drawing.style import CHAIN_LINES, OWN_LINES
 from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point, Real, larger, smaller
+from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import Driver
 
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
 
-@dataclass(frozen=True, slots=True)
-class Misclosure:
-    """The gap of a trial: ``size`` from its ``point`` to the line ``locus``, on which it should be.
 
-    ``locus`` is the key of the words for that line, ``fields`` what fills their gaps. Where a
-    driver gives what is missed, ``found`` is what the trial has of it, in the plan as ``point``.
+@action("lacks")
+def lacks(p: Point, q: Point, image_p: Point, image_q: Point, wanted: Point) -> Real:
+    """What a bar's trial images miss along the bar."""
+    bar = q - p
+    return dot(bar, image_q - image_p - wanted) / abs(bar)
+
+
+@action("lacks")
+def lacks_across(line: Line, start: Point, image: Point) -> Real:
+    """What a sliding point's trial image misses across its guide."""
+    return cross(line.along, image - start) / abs(line.along)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Misclosure(Construction):
+    """The gap of a trial plan: the step of its ``size``, positive to one side.
+
+    It is drawn unless a crossing tells how the right plan divides, at the step ``settled``.
     """
 
-    size: float
-    point: str = ""
-    locus: str = "given"
-    fields: Mapping[str, str] = field(default_factory=dict)
-    found: float = 0.0
+    gives: ClassVar[tuple[str, ...]] = ("size",)
+
+    size: int
+    settled: int | None = None
+
+    def amount(self, drawing: Drawing) -> float:
+        """Its size in the unit of the plan."""
+        return float(drawing.trace.values[self.size])
+
+    def point(self, drawing: Drawing) -> str:
+        """Markup of the point, or the vector of the plan, at which it is measured."""
+        raise NotImplementedError
+
+    def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
+        """The key of the words for the line from which it is measured, and what fills them."""
+        return "given", {}
 
     def line(self, drawing: Drawing) -> str:
-        """The line on which the trial's point should be."""
-        return drawing.words(f"step.gap-{self.locus}", **self.fields)
+        """The line on which the plan's point should be."""
+        key, fields = self.fields(drawing)
+        return drawing.words(f"step.gap-{key}", **fields)
 
-    def remark(self, drawing: Drawing) -> str:
-        """Between what the gap is measured, in few words; nothing where it is none of a plan."""
-        if not self.point:
-            return ""
-        return drawing.words(f"calculation.gap-{self.locus}", one=self.point, **self.fields)
+    def relation(self, drawing: Drawing, name: str) -> Relation:
+        """The gap as it is read off the plan."""
+        scale = scale_of(drawing, drawing.plane) / 1000
+        size, (key, fields) = self.amount(drawing), self.fields(drawing)
+        figures = f"{figure(drawing, scale)}·{within(drawing, size / scale)}"
+        remark = drawing.words(f"calculation.gap-{key}", one=self.point(drawing), **fields)
+        unit = drawing.vector.caret_unit
+        return Relation(name, "", figures, answer(drawing, size), unit, remark)
 
+    def draw_gap(self, canvas: Canvas, foot: Any, start: Any, tip: Any, across: Any) -> None:
+        """What is laid off, the line from its end on which the point should be, the way to it."""
+        end, along = tip - across * canvas.value(self.size), 1j * across
+        reach, beyond = dot(along, end - start), BEYOND / 2 / canvas.mm
+        low, high = smaller(reach, 0.0) - beyond, larger(reach, 0.0) + beyond
+        canvas.leg("laid off", OWN_LINES, foot, start)
+        canvas.stretch("locus of a trial", OWN_LINES, start, along, low, high)
+        canvas.leg("gap", CHAIN_LINES, tip, end)
 
-def misses(drawing: Drawing, share: Step) -> tuple[Misclosure, Misclosure]:
-    """The gaps of the two trials."""
-    first, second = (miss(drawing, number, share) for number in share.args)
-    return first, second
-
-
-def miss(drawing: Drawing, number: int, share: Step) -> Misclosure:
-    """The gap of one trial."""
-    steps, values = drawing.trace.program.steps, drawing.trace.values
-    step, size = steps[number], float(values[number])
-    if "d" in share.says:
-        found = float(values[step.args[0]])
-        if driver_of(drawing, share).kind == "turn":
-            return Misclosure(size, found=found)
-        _, start, image = (steps[arg] for arg in steps[step.args[0]].args)
-        along = symbol(start.name) + symbol(image.name)
-        if not start.name:
-            before = steps[step.args[0]].args[1]
-            along = symbol(f"a_{index_before(drawing.trace.program, before)}^r")
-        return Misclosure(size, along, found=found)
-    if "g" in share.says:
-        begun, ended = step.args[1:]
-        return Misclosure(size, symbol(steps[ended].name), *along_guide(drawing, begun, share))
-    return Misclosure(size, symbol(steps[step.args[3]].name), *across_bar(drawing, step))
+    def is_drawn(self, drawing: Drawing) -> bool:
+        """Whether it is measured on a sheet."""
+        return self.settled not in drawing.trace.values
 
 
-def driver_of(drawing: Drawing, share: Step) -> Driver:
-    """The driver that two trials do not meet."""
-    return next(d for d in drawing.scene.drivers if d.link == share.says["d"])
+@dataclass(frozen=True, kw_only=True)
+class BarMisclosure(Misclosure):
+    """The gap along a bar between the images of its ends, ``wanted`` its normal component."""
+
+    p: int
+    q: int
+    foot: int
+    tip: int
+    wanted: int
+
+    def point(self, drawing: Drawing) -> str:
+        """The image of the pin that is found last."""
+        return symbol(drawing.trace.program.steps[self.tip].name)
+
+    def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
+        """Perpendicular to the bar, from the end of a normal component."""
+        steps = drawing.trace.program.steps
+        p, q = steps[self.p].name, steps[self.q].name
+        fields = {"bar": bar(p, q), "s": symbol(steps[self.foot].name), "p": symbol(p)}
+        component = component_of(drawing.trace.program, self.wanted)
+        if component is None:
+            return "square", fields
+        return "square-end", {**fields, "a": component.symbol}
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The gap, where no crossing settles it."""
+        if self.is_drawn(canvas.drawing):
+            ends = (self.p, self.q, self.foot, self.tip, self.wanted)
+            p, q, foot, tip, wanted = map(canvas.value, ends)
+            across = (q - p) / abs(q - p)
+            self.draw_gap(canvas, foot, foot + wanted, tip, across)
 
 
-def tried_link(drawing: Drawing, number: int) -> str:
-    """The link whose rate a step holds, if two trial plans try it; else nothing."""
-    for _, share, _ in drawing.steps(Plane.NUMBERS):
-        called = share.action is not None and share.action.key == "share"
-        if called and str(number) in share.says["tried"].split():
-            return str(share.says["k"])
-    return ""
+@dataclass(frozen=True, kw_only=True)
+class GuideMisclosure(Misclosure):
+    """The gap across the guide of a ``block``, of the image of its point from what is known."""
+
+    block: str
+    guide: int
+    start: int
+    tip: int
+
+    def point(self, drawing: Drawing) -> str:
+        """The image of the block's point."""
+        return symbol(drawing.trace.program.steps[self.tip].name)
+
+    def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
+        """Parallel to the guide, from the end of what is laid off."""
+        fields = {"guide": way_of(drawing, self.block)}
+        program = drawing.trace.program
+        laid = laid_off(program, self.start)
+        if laid is None:
+            return "parallel", {**fields, "s": symbol(program.steps[self.start].name)}
+        fields |= {"a": laid.component.symbol, "s": symbol(program.steps[laid.start].name)}
+        return "parallel-end", fields
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The gap, where no crossing settles it."""
+        if self.is_drawn(canvas.drawing):
+            guide, start, tip = map(canvas.value, (self.guide, self.start, self.tip))
+            self.draw_gap(canvas, start, start, tip, 1j * guide.along / abs(guide.along))
 
 
-def on_paper(drawing: Drawing) -> float:
-    """The millimetres of paper that a unit of the plan takes up."""
-    return 1000 / scale_of(drawing, drawing.plane)
+@dataclass(frozen=True, kw_only=True)
+class DrivenMisclosure(Misclosure):
+    """What a plan has too much of a driver's given rate: the step that has it, ``found``.
 
-
-def along_guide(drawing: Drawing, start: int, share: Step) -> tuple[str, dict[str, str]]:
-    """The line on which the point of a block should lie: parallel to its guide."""
-    fields = {"guide": way_of(drawing, share.says["g"])}
-    steps, laid = drawing.trace.program.steps, laid_off(drawing.trace.program, start)
-    if laid is None:
-        return "parallel", {**fields, "s": symbol(steps[start].name)}
-    fields |= {"a": laid.component.symbol, "s": symbol(steps[laid.start].name)}
-    return "parallel-end", fields
-
-
-def across_bar(drawing: Drawing, step: Step) -> tuple[str, dict[str, str]]:
-    """The line on which a pin should lie: square to its bar, at the end of a normal component."""
-    steps = drawing.trace.program.steps
-    p, q = (steps[arg].name for arg in step.args[:2])
-    fields = {"bar": bar(p, q), "s": symbol(steps[step.args[2]].name), "p": symbol(p)}
-    component = component_of(drawing.trace.program, step.args[4])
-    if component is None:
-        return "square", fields
-    return "square-end", {**fields, "a": component.symbol}
-
-
-def ratio(drawing: Drawing, number: int, first: float, second: float) -> dict[str, str]:
-    """How a point divides the line of its two trials, and beyond which of them, if not between.
-
-    ``first`` and ``second`` are the gaps, or the parts of the line, of one sign on one side.
+    Of a sliding driver ``start`` and ``tip`` are the images between which it is measured.
     """
-    steps = drawing.trace.program.steps
-    one, two = (symbol(steps[arg].name) for arg in steps[number].args[:2])
-    point = symbol(steps[number].name)
-    parts = f"{one}{point} : {point}{two}"
-    sizes = " : ".join(drawing.words.fixed(abs(size), 2) for size in (first, second))
-    beyond = ""
-    if first * second > 0:
-        end = two if abs(first) > abs(second) else one
-        beyond = drawing.words("step.divided-beyond", end=end)
-    return {"ratio": f"{parts} = {sizes}", "beyond": beyond}
+
+    driver: Driver
+    found: int
+    start: int | None = None
+    tip: int | None = None
+
+    def has(self, drawing: Drawing) -> float:
+        """What the plan has of it."""
+        return float(drawing.trace.values[self.found])
+
+    def point(self, drawing: Drawing) -> str:
+        """The vector along the guide; nothing for a driver that turns."""
+        if self.start is None or self.tip is None:
+            return ""
+        program = drawing.trace.program
+        start, tip = program.steps[self.start], program.steps[self.tip]
+        if not start.name:
+            return symbol(f"a_{index_before(program, self.start)}^r")
+        return symbol(start.name) + symbol(tip.name)
+
+    def relation(self, drawing: Drawing, name: str) -> Relation:
+        """What the plan has, less what is given."""
+        found, size = self.has(drawing), self.amount(drawing)
+        if self.driver.kind == "turn":
+            figures, unit, remark = figure(drawing, found, FINE), drawing.rate.caret_unit, ""
+        else:
+            scale = scale_of(drawing, drawing.plane) / 1000
+            figures = f"{figure(drawing, scale)}·{within(drawing, found / scale)}"
+            unit, point = drawing.vector.caret_unit, self.point(drawing)
+            remark = drawing.words("calculation.gap-given", one=point)
+        figures += f" − {within(drawing, found - size)}"
+        return Relation(name, "", figures, answer(drawing, size), unit, remark)

@@ -62,7 +62,7 @@ class Trial:
     def ready(self) -> Ready:
         """The program made ready for arrays of trials."""
         outside = frozenset((*self.inputs, self.tried, *self.signs))
-        needed = needed_of(self.program, self.results)
+        needed = self.program.behind(self.results)
         return made_ready(self.program, needed, self.values, self.results, outside)
 
     def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
@@ -88,7 +88,7 @@ class Trial:
                 found.append(None)
                 continue
             args = tuple(arg for arg in args if arg != sign)
-            needed = needed_of(self.program, args)
+            needed = self.program.behind(args)
             ready = made_ready(self.program, needed, self.values, args, outside)
             found.append((ready, REACHES[value], args))
         return tuple(found)
@@ -174,15 +174,8 @@ class Trial:
 
         overrides = dict(zip(self.inputs, known, strict=True))
         with np.errstate(all="ignore"):
-            needed = needed_of(self.program, (step,))
+            needed = self.program.behind((step,))
             trace = run_batch(
                 self.program, needed, self.values, batch_kind(), (step,), overrides=overrides
             )
         return trace.values[step]
-
-
-def needed_of(program: Program, steps: Sequence[int]) -> tuple[int, ...]:
-    """The steps that some steps need."""
-    return Program(program.steps, {("step", str(n)): n for n in steps}).needed(
-        [("step", str(n)) for n in steps]
-    )

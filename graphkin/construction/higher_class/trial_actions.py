@@ -66,19 +66,6 @@ def far(p: Point, *others: Point) -> Real:
     return total / len(others)
 
 
-@action("lacks")
-def lacks(p: Point, q: Point, image_p: Point, image_q: Point, wanted: Point) -> Real:
-    """What a bar's trial images miss along the bar."""
-    bar = q - p
-    return dot(bar, image_q - image_p - wanted) / abs(bar)
-
-
-@action("lacks")
-def lacks_across(line: Line, start: Point, image: Point) -> Real:
-    """What a sliding point's trial image misses across its guide."""
-    return cross(line.along, image - start) / abs(line.along)
-
-
 @action("share")
 def share(first: Real, second: Real) -> Real:
     """Where between two trials the misfit vanishes: it grows in proportion."""
@@ -90,12 +77,6 @@ def share_on_line(first: Point, second: Point, found: Point) -> Real:
     """The same share as it is measured on the line of the two trials of a point."""
     way = second - first
     return dot(way, found - first) / dot(way, way)
-
-
-@action("between")
-def between(first: Point, second: Point, part: Real) -> Point:
-    """The point that divides the way from the first trial's point to the second's so."""
-    return first + (second - first) * part
 
 
 @action("inverse")
@@ -157,9 +138,3 @@ def before_component(start: Point, tip: Point, component: Point) -> Vector:
 def last_component(start: Point, tip: Point, component: Point) -> Vector:
     """A component as the last leg of a way between two points of a plan."""
     return Vector(tip - component, tip)
-
-
-@action("line-through")
-def line_through(first: Point, second: Point) -> Line:
-    """The line through two points."""
-    return Line(first, second - first)

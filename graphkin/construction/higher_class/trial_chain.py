@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from graphkin.construction.core.run import StepFailed, run
-from graphkin.construction.higher_class.trial import needed_of
 from graphkin.numbers.arithmetic import Kind, is_ball, turn_by
 
 LEAST = 4 * 1024
@@ -61,7 +60,7 @@ class TrialChain:
         overrides[trying.tried] = turn_by(tried) if trying.turns else tried
         overrides |= dict(zip(trying.signs, self.signs, strict=True))
         if wanted not in self.needed:
-            self.needed[wanted] = needed_of(trying.program, wanted)
+            self.needed[wanted] = trying.program.behind(wanted)
         needed = self.needed[wanted]
         try:
             trace = run(trying.program, needed, trying.values, self.kind, overrides=overrides)

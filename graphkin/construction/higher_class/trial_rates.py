@@ -12,8 +12,11 @@ from itertools import product
 from math import floor, log10
 from typing import Any
 
-from graphkin.construction.core.program import Plane, Program, Step
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.program import Program
+from graphkin.construction.higher_class.divided_point import Divided
 from graphkin.construction.higher_class.settling import run_settled
+from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.scene.model import Scene
 
 ROUND = {1.0: 0.0, 1.5: 0.1, 2.0: 0.0, 3.0: 0.05, 4.0: 0.05, 5.0: 0.0, 6.0: 0.05, 8.0: 0.1}
@@ -68,45 +71,32 @@ def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
 
     Raises StepFailed where the mechanism does not close.
     """
-    steps = program.steps
-    divided = [t for t, n in program.targets.items() if is_called(steps[n], "between")]
-    if not divided:
+    divided = [each.value for each in constructions(program, Divided)]
+    wanted = {*divided} & {*program.targets.values()}
+    if not wanted:
         return {}
-    found = run_settled(scene, program, program.needed(divided)).values
+    found = run_settled(scene, program, program.behind(wanted)).values
     rates: dict[int, float] = {}
-    for number in found:
-        if is_called(steps[number], "share"):
-            spread = spread_of(program, found, number)
-            if spread is not None:
-                rates |= dict(zip(tried_by(steps[number]), chosen_rates(spread), strict=True))
+    for trials in constructions(program, TwoTrials):
+        spread = spread_of(program, found, trials) if trials.share in found else None
+        if spread is not None:
+            rates |= dict(zip(trials.rates, chosen_rates(spread), strict=True))
     return rates
 
 
-def is_called(step: Step, key: str) -> bool:
-    """Whether a step's action bears a name."""
-    return step.action is not None and step.action.key == key
-
-
-def tried_by(share: Step) -> tuple[int, int]:
-    """The steps that hold what two trials try."""
-    first, second = share.says["tried"].split()
-    return int(first), int(second)
-
-
-def spread_of(program: Program, found: Mapping[int, Any], share: int) -> Spread | None:
+def spread_of(program: Program, found: Mapping[int, Any], trials: TwoTrials) -> Spread | None:
     """The plans of all rates, from two of them; None where nothing moves, so that any rate does."""
-    one, two = (found[number] for number in tried_by(program.steps[share]))
+    one, two = (found[number] for number in trials.rates)
     start, way, whole = [], [], 0.0
-    for number, value in found.items():
-        step = program.steps[number]
-        if is_called(step, "between") and step.args[2] == share and step.plane is not Plane.NUMBERS:
-            first, second = (found[arg] for arg in step.args[:2])
+    for point in trials.divided(program):
+        if point.value in found:
+            first, second = found[point.first], found[point.second]
             way.append((second - first) / (two - one))
             start.append(first - one * way[-1])
-            whole = max(whole, abs(value))
+            whole = max(whole, abs(found[point.value]))
     if not whole or not any(way):
         return None
-    return Spread(tuple(start), tuple(way), one + found[share] * (two - one), whole)
+    return Spread(tuple(start), tuple(way), one + found[trials.share] * (two - one), whole)
 
 
 def chosen_rates(spread: Spread) -> tuple[float, float]:

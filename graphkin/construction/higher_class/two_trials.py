@@ -5,39 +5,226 @@ What a trial misses grows in proportion to what was tried (method of two plans, 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from graphkin.construction.acceleration import acceleration as accelerations
+from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.bases import bases, ending
-from graphkin.construction.core.pen import Pen, Says, image, named, second_image
-from graphkin.construction.core.program import Part, Plane, Target
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import driver_index
+from graphkin.construction.core.kind import Construction, construction, constructions
+from graphkin.construction.core.naming import drawn_between, scale_of, way_of
+from graphkin.construction.core.pen import Pen, image, second_image
+from graphkin.construction.core.program import Part, Plane, Program, Target
+from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
+from graphkin.construction.core.sentence import Sentence, in_one, together
 from graphkin.construction.core.vocabulary import distance, part_along, sum_of
 from graphkin.construction.guides.coincident_points import image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
-from graphkin.construction.higher_class.higher import Each, cut_at, slide_of
-from graphkin.construction.higher_class.trial_actions import (
+from graphkin.construction.higher_class.divided_point import (
+    CrossedLine,
+    DividedPoint,
+    DividedRate,
     between,
-    far,
-    inverse,
+    crossed_point,
+    crossing,
+)
+from graphkin.construction.higher_class.higher import Each, slide_of
+from graphkin.construction.higher_class.misclosure import (
+    BarMisclosure,
+    DrivenMisclosure,
+    GuideMisclosure,
+    Misclosure,
     lacks,
     lacks_across,
+)
+from graphkin.construction.higher_class.trial_actions import (
+    far,
+    inverse,
     less,
     product,
     share,
     share_on_line,
 )
 from graphkin.construction.higher_class.trial_arrows import components, relative_arrows
-from graphkin.construction.higher_class.trial_crossing import crossed_point, crossing
+from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import normal_component
 from graphkin.construction.velocity import velocity as velocities
+from graphkin.drawing.symbol_markup import TAGS as MARKED
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
+
+TAGS = tuple(MARKED)
+"""What the points of the two plans bear behind their names."""
+GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
+"""What two trial plans miss."""
+
+
+@dataclass(frozen=True)
+class TwoTrials(Construction):
+    """The share of the way from the first trial plan to the second at which nothing is missed.
+
+    ``gaps`` are what the ``plans`` miss. Where a crossing finds a point, the share is ``measured``
+    on the line of its trials.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("share", "measured")
+
+    group: Higher
+    plans: tuple[TrialPlan, TrialPlan]
+    gaps: tuple[Misclosure, Misclosure]
+    share: int
+    measured: int | None
+
+    @property
+    def closes(self) -> tuple[str, ...]:
+        """The links of the group."""
+        return self.group.links
+
+    @property
+    def rates(self) -> tuple[int, int]:
+        """The steps of the rates that are tried."""
+        return self.plans[0].rate, self.plans[1].rate
+
+    def divided(self, program: Program) -> Iterator[DividedPoint]:
+        """The points of the right plan that it divides."""
+        return (p for p in constructions(program, DividedPoint) if p.share == self.share)
+
+    # --- in words --------------------------------------------------------------------------------
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """What the trials miss: between which points the gaps are measured, how large they are."""
+        if role != "share":
+            return ""
+        first, second = self.gaps
+        if isinstance(first, DrivenMisclosure) and isinstance(second, DrivenMisclosure):
+            return driver_missed(drawing, first, second)
+        mm = on_paper(drawing)
+        one, two = (gap.amount(drawing) for gap in self.gaps)
+        side = "alike" if one * two > 0 else "opposite"
+        return drawing.words(
+            "step.share-lines",
+            one=first.point(drawing),
+            two=second.point(drawing),
+            first=drawing.words.fixed(abs(one) * mm, 2),
+            second=drawing.words.fixed(abs(two) * mm, 2),
+            side=drawing.words(f"step.gap-{side}"),
+            locus=first.line(drawing),
+            other=second.line(drawing),
+        )
+
+    # --- in figures ------------------------------------------------------------------------------
+
+    def relations(self, drawing: Drawing) -> Iterator[Relation]:
+        """Where between the trials the right plan lies: what they miss grows in proportion."""
+        steps, values = drawing.trace.program.steps, drawing.trace.values
+        points = [p for p in self.divided(drawing.trace.program) if p.value in values]
+        crossed = [p for p in points if self.measured in values and p.is_crossed(values)]
+        lead = (crossed or points)[0]
+        one, two, name = (symbol(steps[n].name) for n in (lead.first, lead.second, lead.value))
+        ratio = f"{one}{name}/{one}{two}"
+        others = [symbol(steps[point.value].name) for point in points if point not in crossed]
+        fields = {"ratio": ratio, "list": drawing.words("list_mark").join(others)}
+        result = answer(drawing, float(values[self.share]))
+        if crossed:
+            whole = drawn_between(drawing, lead.first, lead.second, drawing.plane)
+            part = OnPaper(float(values[self.share]) * whole)
+            figures = f"{drawn_length(drawing, part)}/{drawn_length(drawing, whole)}"
+            remark = drawing.words("calculation.divided-alike", **fields) if others else ""
+            yield Relation("*λ*", ratio, figures, result, "", remark)
+            return
+        for name, gap in zip(GAPS, self.gaps, strict=True):
+            yield gap.relation(drawing, name)
+        first = figure(drawing, self.gaps[0].amount(drawing))
+        second = within(drawing, self.gaps[1].amount(drawing))
+        yield Relation(
+            "*λ*",
+            "{0}/({0} − {1})".format(*GAPS),
+            f"{first}/({first} − {second})",
+            result,
+            "",
+            drawing.words("calculation.divided", **fields),
+        )
+
+
+def driver_missed(drawing: Drawing, first: DrivenMisclosure, second: DrivenMisclosure) -> str:
+    """What the trials miss of what a driver gives, in mm of the plan or in its rate."""
+    found, sizes = first.has(drawing), {}
+    sizes["a"], sizes["b"] = found, second.has(drawing)
+    sizes["given"] = found - first.amount(drawing)
+    sizes["first"], sizes["second"] = first.amount(drawing), second.amount(drawing)
+    driver = first.driver
+    if driver.kind == "turn":
+        fields = {key: figure(drawing, size) for key, size in sizes.items()}
+        fields["unit"] = drawing.rate.caret_unit
+        what = f"*{drawing.rate.letter}*_{{{driver_index(driver)}}}"
+        return drawing.words("step.share-turn", what=what, **fields)
+    mm = on_paper(drawing)
+    fields = {key: drawing.words.fixed(size * mm, 2) for key, size in sizes.items()}
+    return drawing.words(
+        "step.share-slide",
+        guide=way_of(drawing, driver.link),
+        one=first.point(drawing),
+        two=second.point(drawing),
+        **fields,
+    )
+
+
+def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
+    """The points that divide the lines of two trials said in one sentence."""
+    steps, values = drawing.trace.program.steps, drawing.trace.values
+    points = {
+        said: kind
+        for said in found
+        if said.step >= 0 and isinstance(kind := construction(steps[said.step]), DividedPoint)
+    }
+    crossed = [said for said, point in points.items() if point.is_crossed(values)]
+    divided = [said for said in points if said not in crossed]
+    if crossed:
+        found = [said for said in found if said.name != "share"]
+    if not divided:
+        return found
+    listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
+    mm = on_paper(drawing)
+    if not crossed:
+        point = points[divided[0]]
+        trials = construction(steps[point.share])
+        assert isinstance(trials, TwoTrials)
+        first, second = (gap.amount(drawing) * mm for gap in trials.gaps)
+        fields = point.ratio(drawing, first, second)
+        return together(found, divided, drawing.words("step.divided", list=listed, **fields))
+    point = points[crossed[-1]]
+    part, whole = float(values[point.share]), abs(values[point.second] - values[point.first]) * mm
+    fields = point.ratio(drawing, part * whole, (part - 1) * whole)
+    markup = drawing.words("step.divided-alike", list=listed, **fields)
+    kept = [said for said in found if said not in divided]
+    place = max(i for i, said in enumerate(kept) if said in crossed) + 1
+    return [*kept[:place], in_one(divided, "divided", markup), *kept[place:]]
+
+
+def of_trials(drawing: Drawing) -> Iterator[Relation]:
+    """What two trial plans lay off, and where between them the right one lies."""
+    yield from trial_lengths(drawing)
+    for number, step, _ in drawing.steps(Plane.NUMBERS):
+        kind = construction(step)
+        if isinstance(kind, TwoTrials) and number == kind.share and step.part is Part(drawing.kind):
+            yield from kind.relations(drawing)
+
+
+def on_paper(drawing: Drawing) -> float:
+    """The millimetres of paper that a unit of the plan takes up."""
+    return 1000 / scale_of(drawing, drawing.plane)
+
+
+# --- planning them -------------------------------------------------------------------------------
 
 
 def velocity(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
@@ -71,27 +258,29 @@ def two_trials(
     pen: Pen, shapes: LinkShapes, group: Higher, each: Each, kind: TrialQuantity
 ) -> None:
     """Two wrong plans give the right one: what is missed is linear in what is tried."""
-    layers, misses, begun = [], [], []
+    layers, gaps, begun = [], [], []
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         at_rest = pen.given("nought", name=f"{kind.rate} tried of {group.trial.link}")
-        values = at_rest, trial_value(pen, group, kind)
-    for tag, value in zip("¹²", values, strict=True):
+        first = TrialPlan(TAGS[0], group.trial.link, at_rest)
+        second = TrialPlan(TAGS[1], group.trial.link, trial_value(pen, group, kind), first)
+    for plan in (first, second):
         begun.append(len(pen.steps))
-        with pen.trial(tag) as layer:
-            move_trial(pen, shapes, group, kind, value)
+        with pen.aside(plan) as layer:
+            move_trial(pen, shapes, group, kind, plan.rate)
             for member in group.chain:
                 each(pen, shapes, member, bases(pen.scene, member))
-            misses.append(missed(pen, shapes, group, kind))
+            gaps.append(missed(pen, shapes, group, kind))
         layers.append(layer)
     tried = range(begun[1], len(pen.steps))
     crossed = crossings(pen, shapes, group, kind, layers)
     with pen.on(kind.part, Plane.NUMBERS):
         by_hand = None
-        for point, found in crossed.items():
+        for line in crossed.values():
             with pen.hands_way():
-                by_hand = pen.draw(share_on_line, *trials_of(layers, kind, point), found)
-        says: Says = {"k": group.trial.link, "tried": "{} {}".format(*values), **cut_at(group.last)}
-        divided = pen.draw(share, *misses, by_hand=by_hand, **says)
+                by_hand = pen.draw(share_on_line, line.first, line.second, line.crossing)
+        divided = pen.draw(share, *(gap.size for gap in gaps), by_hand=by_hand)
+    one, two = (pen.make(replace(gap, settled=by_hand)) for gap in gaps)
+    pen.make(TwoTrials(group, (first, second), (one, two), divided, by_hand))
     settle(pen, group, kind, layers, divided, crossed)
     if kind is ACCELERATION:
         components(pen, group, layers[1], tried)
@@ -157,7 +346,7 @@ def move_trial(
         accelerations.plate_points(pen, shapes, base)
 
 
-def missed(pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity) -> int:
+def missed(pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
     last = group.last
     match last:
@@ -168,7 +357,9 @@ def missed(pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity) -> 
             if kind is ACCELERATION:
                 wanted = normal_component(pen, p, q)
             with pen.on(kind.part, Plane.NUMBERS):
-                return pen.draw(lacks, *ends, wanted)
+                size = pen.draw(lacks, *ends, wanted)
+            roles = dict(zip(("p", "q", "foot", "tip"), ends, strict=True))
+            return BarMisclosure(size=size, wanted=wanted, **roles)
         case Tie(link, Pin(point=p), Sliding() as pair):
             known = partner(pair, link)
             line = known_guide(pen, shapes, pair)
@@ -176,8 +367,10 @@ def missed(pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity) -> 
                 start = image_under(pen, known, p)
             else:
                 start = known_end(pen, pair, link, p)
+            tip = pen.the(kind.quantity, p)
             with pen.on(kind.part, Plane.NUMBERS):
-                return pen.draw(lacks_across, line, start, pen.the(kind.quantity, p))
+                size = pen.draw(lacks_across, line, start, tip)
+            return GuideMisclosure(size=size, block=pair.links[0], guide=line, start=start, tip=tip)
         case Driver(kind="turn") as driver:
             given = getattr(pen.drive(driver), "speed" if kind is VELOCITY else "acceleration")
             own = omega_of(pen, driver.link, kind.rate)
@@ -185,13 +378,14 @@ def missed(pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity) -> 
                 with pen.on(kind.part, Plane.NUMBERS):
                     own = pen.draw(less, own, omega_of(pen, driver.against, kind.rate))
             with pen.on(kind.part, Plane.NUMBERS):
-                return pen.draw(less, own, given)
+                size = pen.draw(less, own, given)
+            return DrivenMisclosure(size=size, driver=driver, found=own)
         case Driver() as driver:
             return missed_slide(pen, shapes, driver, kind)
     raise AssertionError(last)
 
 
-def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: TrialQuantity) -> int:
+def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: TrialQuantity) -> Misclosure:
     """What a trial plan misses of a given sliding speed or acceleration."""
     pair = slide_of(pen, driver)
     first = pen.scene.link(driver.link).points[0]
@@ -202,8 +396,10 @@ def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: TrialQuanti
     else:
         start = known_end(pen, pair, driver.link, first)
     with pen.on(kind.part, Plane.NUMBERS):
-        found = pen.draw(part_along, line, start, pen.the(kind.quantity, first))
-        return pen.draw(less, found, given)
+        tip = pen.the(kind.quantity, first)
+        found = pen.draw(part_along, line, start, tip)
+        size = pen.draw(less, found, given)
+    return DrivenMisclosure(size=size, driver=driver, found=found, start=start, tip=tip)
 
 
 def trials_of(layers: list[dict[Target, int]], kind: TrialQuantity, point: str) -> tuple[int, int]:
@@ -218,8 +414,8 @@ def crossings(
     group: Higher,
     kind: TrialQuantity,
     layers: list[dict[Target, int]],
-) -> dict[str, int]:
-    """The point that a line known before the trials finds by a crossing, and the step that does."""
+) -> dict[str, CrossedLine]:
+    """The point that a line known before the trials finds by a crossing, and how."""
     images = [of for what, of in layers[0] if what == kind.quantity]
     tried = {of for of in images if len({*trials_of(layers, kind, of)}) > 1}
     point = crossed_point(pen, group, kind.quantity, tried)
@@ -235,7 +431,7 @@ def settle(
     kind: TrialQuantity,
     layers: list[dict[Target, int]],
     divided: int,
-    crossed: dict[str, int],
+    crossed: dict[str, CrossedLine],
 ) -> None:
     """Every point of the right plan, on the lines through its two trials."""
     first, second = layers
@@ -244,22 +440,18 @@ def settle(
         two = second[quantity, of]
         if quantity == kind.rate and own_rate(pen, of):
             with pen.on(Part.RESULT, Plane.NUMBERS):
-                pen.want(quantity, of, pen.draw(between, one, two, divided, name=of))
+                value = pen.want(quantity, of, pen.draw(between, one, two, divided, name=of))
+            pen.make(DividedRate(first=one, second=two, share=divided, value=value))
         elif quantity == kind.quantity and one == two:
             pen.want(quantity, of, one)
         elif quantity == kind.quantity:
-            says: Says = {"q": of, "a": named(pen, one), "b": named(pen, two)}
+            line, name = crossed.get(of), kind.named(of)
+            by_hand = line.crossing if line is not None else None
             with pen.on(kind.part, kind.plane):
-                found = pen.draw(
-                    between,
-                    one,
-                    two,
-                    divided,
-                    name=kind.named(of),
-                    by_hand=crossed.get(of),
-                    **says,
-                )
-            pen.want(quantity, of, found)
+                value = pen.draw(between, one, two, divided, name=name, by_hand=by_hand)
+            pen.want(quantity, of, value)
+            roles = {"first": one, "second": two, "share": divided, "value": value}
+            pen.make(DividedPoint(**roles, point=of, crossed=line))
             settled.append(of)
     closing: tuple[str, ...] = ()
     match group.last:

@@ -6,12 +6,12 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from graphkin.construction.core.amounts import in_mm
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import drawn_between, is_driven, rate_symbol
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.too_short import laid_off
-from graphkin.construction.higher_class.misclosure import tried_link
 from graphkin.construction.velocity.about_pivot import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 
@@ -76,13 +76,14 @@ def falls(drawing: Drawing, number: int, start: str) -> str:
     """
     if not start:
         return "step.falls-end"
-    return "step.falls" if number in drawing.tags else "step.falls-nought"
+    return "step.falls" if number in drawing.auxiliary else "step.falls-nought"
 
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
     """The rate by which a step lays off a vector; one that a trial plan tries is its link's."""
-    if number in drawing.tags and link:
-        own, lead = symbol(f"{letter}_{link}"), tried_link(drawing, rate)
+    plan = auxiliary_plan(drawing, number)
+    if plan is not None and link:
+        own, lead = symbol(f"{letter}_{link}"), plan.turned_by(rate)
         if lead not in ("", link):
             return f"{own} = {symbol(f'{letter}_{lead}')}"
         if lead or drawing.trace.program.steps[rate].name not in drawing.scene.links:

@@ -81,7 +81,7 @@ class TurnedVelocity(LaidOffAboutPivot):
         """Euler's theorem, and its size; a driver's crank has relations of its own."""
         if not self.is_of_driver(drawing, self.omega):
             yield self.euler(drawing)
-            if self.image not in drawing.tags:
+            if self.image not in drawing.auxiliary:
                 yield self.by_turning(drawing, self.omega, "")
 
     def rate_taken(self, drawing: Drawing, role: str) -> str:

@@ -1,0 +1,151 @@
+"""The position of a group of class III or higher: a locus of one of its points closes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.kind import Construction, constructions
+from graphkin.construction.core.layout import arc_span
+from graphkin.construction.core.line_words import axis_of
+from graphkin.construction.core.naming import way_of
+from graphkin.drawing.marks import Arc
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.plane import Circle
+from graphkin.scene.model import Driver
+from graphkin.structure.groups import Higher, Tie
+from graphkin.structure.pairs import Pin, Sliding
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+    from graphkin.drawing.field import Field
+    from graphkin.drawing.labels import FieldContent
+
+
+@dataclass(frozen=True)
+class ClosedGroup(Construction):
+    """A group in one closure: the step that closes it, the tried link's place, its dyads' sides.
+
+    Its closures are numbered by the angle of the link ``counted``. ``traced`` are the points whose
+    loci a hand draws.
+    """
+
+    group: Higher
+    number: int
+    counted: str
+    traced: tuple[str, ...]
+    closing: int
+    tried: int
+    sides: tuple[int, ...]
+
+    def given(self) -> Iterator[tuple[str, int]]:
+        """What closes the group, and each value taken from it."""
+        yield from (("closing", self.closing), ("tried", self.tried))
+        yield from (("side", number) for number in self.sides)
+
+    @property
+    def closes(self) -> tuple[str, ...]:
+        """The links of the group."""
+        return self.group.links
+
+    @property
+    def found_link(self) -> str:
+        """The link that is tried."""
+        return self.group.trial.link
+
+    # --- where it is cut -------------------------------------------------------------------------
+
+    @property
+    def driver(self) -> Driver | None:
+        """The driver that waits until the group is closed; None where a link is cut off."""
+        return self.group.last if isinstance(self.group.last, Driver) else None
+
+    @property
+    def guide(self) -> str:
+        """The block that is cut off its guide, or off the pin on it; nothing for others."""
+        match self.group.last:
+            case Tie(second=Sliding(links=(block, _))):
+                return block
+        return ""
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The pins at the ends of the link that is cut off; the last one traces the locus."""
+        last = self.group.last
+        pairs = (last.first, last.second) if isinstance(last, Tie) else ()
+        return tuple(pair.point for pair in pairs if isinstance(pair, Pin))
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The points of which its sentence speaks."""
+        return self.pins
+
+    @property
+    def locus(self) -> str:
+        """The point whose locus closes the group; nothing where a driver does."""
+        return self.pins[-1] if self.pins else ""
+
+    def ends_of_bar(self, drawing: Drawing) -> tuple[str, str]:
+        """The ends of the bar at which it is cut: one that is known, if any is; a moving one."""
+        first, second = self.pins
+        targets = drawing.trace.program.targets
+        known = {p for p in (first, second) if targets["position", p] < self.closing}
+        if second in known:
+            return second, first
+        return first if first in known else "", second
+
+    # --- in words --------------------------------------------------------------------------------
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """How the position of the group is found."""
+        if role != "closing":
+            return ""
+        listed = escape(", ".join(self.closes))
+        fields = {"k": escape(self.group.trial.link), "n": str(self.number), "list": listed}
+        if self.driver is not None:
+            fields["what"] = angle_symbol(drawing.scene, self.driver)
+            return drawing.words("step.close-driver", **fields)
+        drawn = self.links_drawn(drawing)
+        key = "step.close-links" if len(drawn) > 1 else "step.close-link"
+        fields["draw"] = drawing.words(key, list=escape(", ".join(drawn)))
+        fields["q"] = symbol(self.locus)
+        if self.guide:
+            return drawing.words("step.close-guide", guide=way_of(drawing, self.guide), **fields)
+        fixed, moving = self.ends_of_bar(drawing)
+        fields |= {"p": symbol(fixed or self.pins[0]), "q": symbol(moving)}
+        key = "step.close-bar" if fixed else "step.close-gap"
+        return drawing.words(key, bar=bar(*self.pins), **fields)
+
+    def links_drawn(self, drawing: Drawing) -> list[str]:
+        """The links that give the locus: all but the one that a pin or guide is cut off."""
+        links, near, ends = drawing.scene.links, list(self.closes), {*self.pins}
+        if self.guide:
+            near = [self.guide, *(slide.on for slide in links[self.guide].slides)]
+        cut = next(name for name in near if name in self.closes and ends <= {*links[name].points})
+        return [name for name in self.closes if name != cut]
+
+    def branch_words(self, drawing: Drawing) -> str:
+        """Which of the ways in which it closes is meant."""
+        return drawing.words(
+            "page.closure",
+            list=escape(", ".join(self.closes)),
+            number=str(self.number),
+            axis=axis_of(drawing, drawing.scene.link(self.counted)),
+        )
+
+
+def draw_closing_arcs(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Of the arc that a locus is cut by, where a group closes, the part that finds the pin."""
+    for kind in constructions(drawing.trace.program, ClosedGroup):
+        if kind.closing not in drawing.trace.values or len(kind.pins) < 2:
+            continue
+        fixed, moving = kind.ends_of_bar(drawing)
+        if fixed:
+            centre, pin = drawing.positions[fixed], drawing.positions[moving]
+            circle = Circle(centre, abs(pin - centre))
+            span, name = arc_span(circle, [pin], field.mm), "".join(kind.pins)
+            radius = circle.radius * field.mm
+            board.marks.append(Arc(*field(centre), radius, *span, "compass", name, kind.closing))

@@ -1,0 +1,235 @@
+"""Points of the right plan: each divides the line through its two trials in the same ratio.
+
+Where a line on which a point must lie is known, it cuts the line of that point's trials.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from graphkin.construction.acceleration.tangential_direction import tangential_direction
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.relation import FINE, Relation, figure, within
+from graphkin.construction.core.vocabulary import action, meet
+from graphkin.construction.guides.coincident_points import image_under
+from graphkin.construction.guides.guides import known_guide
+from graphkin.construction.guides.sliding import known_end
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.normal_component.normal_component import (
+    lay_off_normal,
+    normal_component,
+)
+from graphkin.construction.velocity.parallel_through import parallel_through
+from graphkin.construction.velocity.perpendicular_through import perpendicular_through
+from graphkin.drawing.symbol_markup import TAGS, symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Line
+from graphkin.structure.groups import Higher, Tie
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Pin, Sliding
+from graphkin.text import MINUS
+
+if TYPE_CHECKING:
+    from collections.abc import Container
+
+    from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
+
+IN_PLAN = {
+    "velocity": (Part.VELOCITY, Plane.VELOCITIES),
+    "acceleration": (Part.ACCELERATION, Plane.ACCELERATIONS),
+}
+"""Where the images of points are drawn."""
+
+
+@action("between")
+def between(first: Point, second: Point, part: Real) -> Point:
+    """The point that divides the way from the first trial's point to the second's so."""
+    return first + (second - first) * part
+
+
+@action("line-through")
+def line_through(first: Point, second: Point) -> Line:
+    """The line through two points."""
+    return Line(first, second - first)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Divided(Construction):
+    """A value of the right plan between those of ``first`` and ``second`` trial, by the share."""
+
+    gives: ClassVar[tuple[str, ...]] = ("value",)
+
+    first: int
+    second: int
+    share: int
+    value: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class DividedRate(Divided):
+    """The rate of the tried link itself."""
+
+    def rate_relation(self, drawing: Drawing, link: str, tail: tuple[str, str, str]) -> Relation:
+        """It is divided as every line of the two trials is."""
+        numbers = (self.first, self.second, self.share)
+        first, second, share = (float(drawing.trace.values[number]) for number in numbers)
+        figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
+        figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
+        letter = drawing.rate.letter
+        one, two = (symbol(f"{letter}_{link}{tag}") for tag in TAGS)
+        whole = f"{one} + *λ*·({two} − {one})"
+        result, unit, turning = tail
+        if first + share * (second - first) < 0:
+            result = f"{MINUS}{result}"
+        return Relation(symbol(f"{letter}_{link}"), whole, figures, result, unit, turning)
+
+
+@dataclass(frozen=True)
+class CrossedLine(Construction):
+    """The line through two trials of a point, and where a line known before them cuts it."""
+
+    gives: ClassVar[tuple[str, ...]] = ("line", "crossing")
+    lines: ClassVar[Mapping[str, str]] = {"line": "the line of the trials"}
+    joins: ClassVar[frozenset[str]] = frozenset({"line"})
+
+    first: int
+    second: int
+    locus: int
+    line: int
+    crossing: int
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """The line, by the names of the trials."""
+        if role != "line":
+            return ""
+        steps = drawing.trace.program.steps
+        a, b = (symbol(steps[number].name) for number in (self.first, self.second))
+        return drawing.words("step.line-through", a=a, b=b)
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The line, a little beyond all three points."""
+        if role == "line":
+            canvas.chain()
+
+
+@dataclass(frozen=True, kw_only=True)
+class DividedPoint(Divided):
+    """The image of a ``point``: where its line is crossed, or divided as another one's is."""
+
+    reasons: ClassVar[Mapping[str, str]] = {"value": "why.trials"}
+
+    point: str
+    crossed: CrossedLine | None = None
+
+    def comes_along(self, role: str, found: Container[int]) -> bool:
+        """An arrow brings the one that a crossing finds, by which the others are divided.
+
+        Or the one under a sliding point, through which that point's components lead.
+        """
+        return "@" in self.point or self.is_crossed(found)
+
+    def is_crossed(self, found: Container[int]) -> bool:
+        """Whether a crossing that is drawn finds it."""
+        return self.crossed is not None and self.crossed.crossing in found
+
+    @property
+    def sought(self) -> str:
+        """The point whose image a crossing finds."""
+        return self.point
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The two lines that cross."""
+        if self.crossed is None or not self.is_crossed(drawing.trace.values):
+            return ()
+        return self.crossed.line, self.crossed.locus
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """Where the lines meet; nothing of a point that is divided: one sentence tells of all."""
+        if not self.is_crossed(drawing.trace.values):
+            return ""
+        name = drawing.trace.program.steps[self.value].name
+        return drawing.words("step.meet", name=symbol(name))
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point, with the line of its trials where no other step draws it."""
+        if not self.is_crossed(canvas.drawing.trace.values):
+            canvas.through(*map(canvas.value, (self.first, self.second, self.value)))
+        canvas.image()
+
+    def ratio(self, drawing: Drawing, first: float, second: float) -> dict[str, str]:
+        """How it divides the line of its trials, and beyond which of them, if not between.
+
+        ``first`` and ``second`` are the gaps, or parts of the line, of one sign on one side.
+        """
+        steps = drawing.trace.program.steps
+        numbers = (self.first, self.second, self.value)
+        one, two, point = (symbol(steps[number].name) for number in numbers)
+        parts = f"{one}{point} : {point}{two}"
+        sizes = " : ".join(drawing.words.fixed(abs(size), 2) for size in (first, second))
+        beyond = ""
+        if first * second > 0:
+            end = two if abs(first) > abs(second) else one
+            beyond = drawing.words("step.divided-beyond", end=end)
+        return {"ratio": f"{parts} = {sizes}", "beyond": beyond}
+
+
+# --- the crossing --------------------------------------------------------------------------------
+
+
+def crossed_point(pen: Pen, group: Higher, quantity: str, tried: set[str]) -> str | None:
+    """The point whose right image lies on a line that is known before the trials; None for none.
+
+    ``tried`` are the points that two trials move.
+    """
+    match group.last:
+        case Tie(_, Pin(point=p), Pin(point=q)):
+            ends = [of for of, other in ((p, q), (q, p)) if pen.has(quantity, other)]
+            return next((of for of in ends if of in tried), None)
+        case Tie(link, Pin(point=p), Sliding() as pair) if p in tried:
+            return None if partner(pair, link) in group.links else p
+    return None
+
+
+def crossing(
+    pen: Pen, shapes: LinkShapes, group: Higher, quantity: str, of: str, ends: tuple[int, int]
+) -> CrossedLine:
+    """Where the line through both trials of a point cuts the line on which it must lie."""
+    locus = locus_of(pen, shapes, group, quantity, of)
+    with pen.on(*IN_PLAN[quantity]), pen.hands_way():
+        line = pen.draw(line_through, *ends)
+        return pen.make(CrossedLine(*ends, locus, line, pen.draw(meet, line, locus)))
+
+
+def locus_of(pen: Pen, shapes: LinkShapes, group: Higher, quantity: str, of: str) -> int:
+    """The line on which a pin must lie in the plan: square to its bar, or parallel to its guide."""
+    last = group.last
+    assert isinstance(last, Tie)
+    if isinstance(last.second, Sliding):
+        return along_guide(pen, shapes, last.link, last.second, quantity, of)
+    ends = last.first, last.second
+    other = next(end.point for end in ends if isinstance(end, Pin) and end.point != of)
+    if quantity == "velocity":
+        with pen.on(*IN_PLAN[quantity]), pen.hands_way():
+            return perpendicular_through(pen, other, of)
+    vector = normal_component(pen, other, of)
+    with pen.on(*IN_PLAN[quantity]), pen.hands_way():
+        return tangential_direction(pen, other, of, lay_off_normal(pen, other, of, vector))
+
+
+def along_guide(
+    pen: Pen, shapes: LinkShapes, link: str, pair: Sliding, quantity: str, of: str
+) -> int:
+    """The parallel to a guide of a known link from what is known of a sliding point's motion."""
+    if quantity == "velocity":
+        start = image_under(pen, partner(pair, link), of)
+    else:
+        with pen.on(*IN_PLAN[quantity]):
+            start = known_end(pen, pair, link, of)
+    guide = known_guide(pen, shapes, pair)
+    with pen.on(*IN_PLAN[quantity]), pen.hands_way():
+        return parallel_through(pen, start, guide, pair.links[0])

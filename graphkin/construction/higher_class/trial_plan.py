@@ -1,0 +1,245 @@
+"""One of two trial plans: its points bear a tag, its marks are thin and grey, one sentence says it.
+
+A line through points that fall together, or a figure without size, is not drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
+from graphkin.construction.core.amounts import in_mm
+from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.line_words import heading
+from graphkin.construction.core.naming import NAUGHT, drawn_between, drawn_in, has_no_length
+from graphkin.construction.core.program import Step
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.drivers.driven_slide import DrivenSlide
+from graphkin.construction.result_tables import sense
+from graphkin.construction.step_sentences import point_sentence
+from graphkin.construction.velocity.laid_off_by_rate import LaidOffAboutPivot, LaidOffByRate
+from graphkin.drawing.style import OWN_LINES
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.plane import Line as Carrier
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+
+
+@dataclass(frozen=True, eq=False)
+class TrialPlan(AuxiliaryPlan):
+    """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it."""
+
+    tag: str
+    link: str
+    rate: int
+    first: TrialPlan | None = None
+
+    @property
+    def repeats(self) -> bool:
+        """The second plan repeats the lines of the first."""
+        return self.first is not None
+
+    def turned_by(self, rate: int) -> str:
+        """The tried link."""
+        return self.link if rate == self.rate else ""
+
+    def points(self, drawing: Drawing) -> list[int]:
+        """The steps that find its points, in their order."""
+        steps = drawing.trace.program.steps
+        return sorted(n for n, plan in drawing.auxiliary.items() if plan is self and steps[n].name)
+
+    # --- points that fall together ---------------------------------------------------------------
+
+    def falls_on(self, drawing: Drawing, number: int) -> str:
+        """The point on which one of its own falls with all that it is drawn from; else nothing.
+
+        One that moves as another does says so itself.
+        """
+        steps = drawing.trace.program.steps
+        step = steps[number]
+        if step.action is not None and step.action.key == "alike":
+            return ""
+        before = list(drawn_from(drawing, number))
+        apart = (drawn_between(drawing, other, number, step.plane) for other in before)
+        if not before or any(size >= NAUGHT for size in apart):
+            return ""
+        known = [other for other in before if other not in drawing.auxiliary]
+        if known:
+            return steps[known[0]].name
+        return self.falls_on(drawing, before[0]) or steps[before[0]].name
+
+    def is_idle(self, drawing: Drawing, number: int) -> bool:
+        """Whether a line finds only points which fall on where it begins."""
+        users = drawing.children.get(number, ())
+        return bool(users) and all(self.falls_on(drawing, user) for user in users)
+
+    # --- marks -----------------------------------------------------------------------------------
+
+    def marks(self, canvas: Canvas, number: int) -> None:
+        """A line as far as it is needed, or a leg and the point at its end."""
+        drawing = canvas.drawing
+        step = drawing.trace.program.steps[number]
+        if isinstance(drawing.trace.values[number], Carrier):
+            if not self.is_idle(drawing, number):
+                canvas.line_aside()
+            return
+        start = leg_start(drawing, step)
+        if start is not None:
+            canvas.leg(step.name, OWN_LINES, canvas.value(start), canvas.value(number))
+        canvas.image_aside()
+
+    # --- in words --------------------------------------------------------------------------------
+
+    def sentences(self, drawing: Drawing, number: int) -> Iterator[Sentence]:
+        """One sentence for the whole plan, with its last point."""
+        named = self.points(drawing)
+        if number != named[-1]:
+            return
+        told = self.told_in_full(drawing, named) if self.first is None else self.told_again(drawing)
+        what, size = self.assumed(drawing, named)
+        key = "step.trial-2" if self.repeats else "step.trial-1"
+        markup = drawing.words(key, what=what, amount=size, how="; ".join(told))
+        yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
+
+    def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
+        """Its points one by one; those that fall on what they are drawn from in one."""
+        for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
+            if under:
+                fallen = list(run)
+                key = "falls" if len(fallen) == 1 else "fall-together"
+                yield of_many(drawing, key, fallen, s=symbol(under))
+            else:
+                yield from (point_told(drawing, number) for number in run)
+
+    def told_again(self, drawing: Drawing) -> Iterator[str]:
+        """Its points: in full where other lengths or more lines than in the first are drawn."""
+        assert self.first is not None
+        steps = drawing.trace.program.steps
+        first = {steps[n].letter: n for n in self.first.points(drawing)}
+
+        def is_new(number: int) -> bool:
+            before = first.get(steps[number].letter)
+            begins = begun_by(steps[number]) is not None
+            return begins or before is None or bool(self.falls_on(drawing, before))
+
+        for new, run in groupby(self.points(drawing), is_new):
+            if new:
+                yield from (turned_again(drawing, number) for number in run)
+            else:
+                yield of_many(drawing, "normals-again", list(run))
+
+    def assumed(self, drawing: Drawing, named: Sequence[int]) -> tuple[str, str]:
+        """What it assumes, and its amount with its unit."""
+        steps, values = drawing.trace.program.steps, drawing.trace.values
+        for number in named:
+            step = steps[number]
+            rate, kind = begun_by(step), construction(step)
+            if rate is not None:
+                size = float(values[rate])
+                if isinstance(kind, DrivenSlide):
+                    sliding = amount(drawing, abs(size), drawing.sliding.caret_unit)
+                    if size:
+                        way = heading(values[number] - values[step.args[0]])
+                        sliding += f" {drawing.words(f'page.to_{way}')}"
+                    return symbol(f"{drawing.sliding.letter}_{kind.point}"), sliding
+                turning = amount(drawing, abs(size), drawing.rate.caret_unit)
+                turning += f" {sense(drawing.words, size)}" if size else ""
+                assert isinstance(kind, LaidOffAboutPivot)
+                return symbol(f"{drawing.rate.letter}_{kind.link}"), turning
+        return "", ""
+
+    # --- in figures ------------------------------------------------------------------------------
+
+    def slid(self, drawing: Drawing, vector: DrivenSlide, rate: float) -> Relation:
+        """What it assumes of a slider along its guide."""
+        name = symbol(f"{drawing.sliding.letter}_{vector.point}{self.tag}")
+        drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate))
+        remark = drawing.words("calculation.chosen_drawn", drawn=drawn)
+        return Relation(name, "", "", figure(drawing, rate), drawing.sliding.caret_unit, remark)
+
+    def turned(
+        self, drawing: Drawing, vector: LaidOffAboutPivot, link: str, rate: float
+    ) -> Relation:
+        """What an assumed turning gives a pin, perpendicular to its bar: rate times bar."""
+        p, q = vector.p, vector.q
+        length, part = length_of(drawing, p, q), "" if drawing.kind == "velocity" else "^τ"
+        drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate * length))
+        return Relation(
+            symbol(f"{drawing.vector.letter}_{vector.index}{self.tag}{part}"),
+            f"{symbol(f'{drawing.rate.letter}_{link}{self.tag}')}·{bar(p, q)}",
+            f"{figure(drawing, rate)}·{figure(drawing, length)}",
+            answer(drawing, rate * length),
+            drawing.vector.caret_unit,
+            drawing.words("calculation.square_drawn", bar=bar(p, q), drawn=drawn),
+            over=(p, q),
+        )
+
+
+def trial_lengths(drawing: Drawing) -> Iterator[Relation]:
+    """Each vector that an assumed rate gives, in the order of drawing; none where that is zero."""
+    for number, step, _ in drawing.steps(drawing.plane):
+        plan, kind, rate = auxiliary_plan(drawing, number), construction(step), begun_by(step)
+        if not isinstance(plan, TrialPlan) or rate is None or has_no_length(drawing, number):
+            continue
+        size = abs(float(drawing.trace.values[rate]))
+        if isinstance(kind, DrivenSlide):
+            yield plan.slid(drawing, kind, size)
+        elif isinstance(kind, LaidOffAboutPivot):
+            yield plan.turned(drawing, kind, plan.turned_by(rate) or kind.link, size)
+
+
+def begun_by(step: Step) -> int | None:
+    """The rate by which a step lays off a vector, with which a trial begins; None for others."""
+    kind = construction(step)
+    return kind.tried_rate(step.role) if isinstance(kind, LaidOffByRate) else None
+
+
+def drawn_from(drawing: Drawing, number: int) -> Iterator[int]:
+    """The steps of the named points of the plan from which a step is drawn."""
+    steps = drawing.trace.program.steps
+    for arg in steps[number].args:
+        if steps[arg].plane is drawing.plane:
+            yield from [arg] if steps[arg].name else drawn_from(drawing, arg)
+
+
+def turned_again(drawing: Drawing, number: int) -> str:
+    """How a point of the second plan is found, its normal component being that of the first."""
+    kind = construction(drawing.trace.program.steps[number])
+    if not isinstance(kind, TurnedAcceleration) or kind.is_steady:
+        return point_told(drawing, number)
+    if has_no_length(drawing, kind.end) or has_no_length(drawing, number):
+        return point_told(drawing, number)
+    fields, normal = (kind.fields(drawing, role) for role in ("image", "end"))
+    return drawing.words("step.driven-again", normal=normal["vector"], **fields)
+
+
+def point_told(drawing: Drawing, number: int) -> str:
+    """How a point of a trial plan is found."""
+    return point_sentence(drawing, drawing.trace.program.steps[number])
+
+
+def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -> str:
+    """The words for several points of a trial plan."""
+    steps = drawing.trace.program.steps
+    listed = drawing.words("list_mark").join(symbol(steps[number].name) for number in numbers)
+    return drawing.words(f"step.{key}", name=listed, list=listed, **fields)
+
+
+def amount(drawing: Drawing, size: float, unit: str) -> str:
+    """An amount with its unit; zero without."""
+    return f"{figure(drawing, size)} {unit}" if size else "0"
+
+
+def leg_start(drawing: Drawing, step: Step) -> int | None:
+    """The step from which one lays off a vector of the plan; None where two lines cross."""
+    if step.action is None or step.action.key in ("meet", "similar-point", "alike"):
+        return None
+    start = step.args[0]
+    return start if drawing.trace.program.steps[start].plane is drawing.plane else None

@@ -1,0 +1,36 @@
+"""Links that fit by themselves: bars that no step lays off, as their pins are found without."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.sentence import Sentence
+from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import bar
+
+IDLE = "idle "
+"""What the name of a sentence about an idle link begins with; the link's name follows."""
+
+
+def points_of(step: Step) -> set[str]:
+    """The points of which the sentence of a step speaks."""
+    kind = construction(step)
+    return {step.name, *(kind.points if kind is not None else ())}
+
+
+def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
+    """Each bar that no step lays off, because its pins stand without it: an idle link."""
+    told = [
+        points_of(step)
+        for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS)
+        if step.part is Part.POSITION
+    ]
+    for link in drawing.scene.links.values():
+        points = set(link.points)
+        laid = any(len(points & names) > 1 for names in told)
+        if len(points) > 1 and not laid and not link.slides and not link.wheels:
+            names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
+            yield Sentence(-1, IDLE + link.name, drawing.words("step.idle", **names))
