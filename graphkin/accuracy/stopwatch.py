@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from statistics import quantiles
 from time import perf_counter
 
+from msgspec import Struct
+
 from graphkin.construction.core.timing import Timing
 
 Clock = Callable[[], float]
@@ -14,8 +16,7 @@ FEWEST = 5
 """Rounds of work that alone takes longer than the patience allows."""
 
 
-@dataclass(frozen=True, slots=True)
-class Effort:
+class Effort(Struct, frozen=True):
     """How much is measured: positions compared, rounds of a time, variants of a batch.
 
     ``timed`` are the positions at which decimals and balls are timed, ``drawn`` those on the way to
@@ -72,8 +73,7 @@ class TimedWork:
         return Timing(median, low, high, len(self.seconds))
 
 
-@dataclass(frozen=True, slots=True)
-class Stopwatch:
+class Stopwatch(Struct, frozen=True):
     """Times work on positions with a clock that tests may replace."""
 
     effort: Effort

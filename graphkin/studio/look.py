@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, field
 from typing import Any
+
+from msgspec import Struct, field, to_builtins
 
 from graphkin.construction.core.solution import FAIR, Verdict
 from graphkin.documents.scaling import shown
@@ -25,8 +26,7 @@ SETTING = "setting "
 STRANGER = "is no parameter"
 
 
-@dataclass(frozen=True, slots=True)
-class Sight:
+class Sight(Struct, frozen=True):
     """What is to be looked at: a text, the values of its sliders, and how it is shown.
 
     ``mechanism`` is the plan whose construction stands on the mechanism, ``quick`` lets labels
@@ -49,7 +49,7 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
     found: dict[str, Any] = {"problems": [], "sliders": []}
     try:
         scene = read(sight)
-        found["sliders"] = [asdict(each) for each in sliders(scene)]
+        found["sliders"] = [to_builtins(each) for each in sliders(scene)]
         found["title"] = scene.titles.get(sight.language, scene.title)
         found |= drawn(Mechanism(scene), sight, memory, found["problems"], go_on)
     except GraphkinError as error:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from threading import Condition, Lock
 from typing import Any
+
+from msgspec import Struct, to_builtins
 
 from graphkin.classroom.lab.new_lab import START
 from graphkin.construction.core.quantities import SHEETS
@@ -39,8 +40,7 @@ FIRST = "graphkin ="
 """How the first line of a scene begins."""
 
 
-@dataclass(frozen=True, slots=True)
-class Opened:
+class Opened(Struct, frozen=True):
     """A text to begin with, and the name of the file as which it would be saved.
 
     ``mark`` identifies the content of that file; it is empty for a text that is in no file here.
@@ -157,7 +157,7 @@ class Session:
         """The changes of a text that put the values of the sliders into it, or why they cannot."""
         text, settings = order.scene(), order.settings()
         try:
-            return {"edits": [asdict(edit) for edit in edits(text, settings)], "problems": []}
+            return {"edits": [to_builtins(edit) for edit in edits(text, settings)], "problems": []}
         except GraphkinError as error:
             return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
 
@@ -195,10 +195,10 @@ class Session:
     def saving(self, work: Callable[[], Saved], text: str) -> dict[str, Any]:
         """What was written, what is in the way, or why nothing was written."""
         try:
-            return asdict(work()) | {"problems": []}
+            return {**to_builtins(work()), "problems": []}
         except GraphkinError as error:
             problems = [told(mark) for mark in marked(error.problems, text)]
-        return asdict(Saved()) | {"problems": problems}
+        return {**to_builtins(Saved()), "problems": problems}
 
 
 def language_of(text: str) -> str:

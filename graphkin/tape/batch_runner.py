@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from importlib.util import find_spec
 from typing import Any, Literal
 
+from msgspec import Struct
+
 from graphkin.construction.core.batch import is_array, run_batch, run_blocks
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.results import merged
@@ -34,8 +36,7 @@ Way = Literal["steps", "numpy", "numba"]
 """Step by step on arrays, by emitted numpy, or by the compiled loop."""
 
 
-@dataclass(frozen=True)
-class BatchRequest:
+class BatchRequest(Struct, frozen=True):
     """What is asked of a program: the steps to run, the values that enter, and what is kept."""
 
     needed: Sequence[int]

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
 
+from msgspec import Struct
+
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.lab.lab_model import Item
@@ -46,8 +48,7 @@ OTHERS = {folded(name) for what, every in BESIDE.items() for name in (what, *eve
 """The same as they are compared."""
 
 
-@dataclass(frozen=True, slots=True)
-class Unread:
+class Unread(Struct, frozen=True):
     """A cell that cannot be read: its file and row, whose it is, its field, what it says and why.
 
     ``problem`` is that of its answer; ``unit`` that of its field.
@@ -62,8 +63,7 @@ class Unread:
     unit: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Stranger:
+class Stranger(Struct, frozen=True):
     """A column, or a row of one student's file, that is no field; ``near`` is the one meant."""
 
     file: str

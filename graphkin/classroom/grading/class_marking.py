@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, partial
 
+from msgspec import Struct
+
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import wrong_variants
 from graphkin.classroom.grading.graded import Answer, EarnedMark, Graded, Result, Status, Taker
@@ -90,8 +92,7 @@ def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
     return tuple(sorted(settings.items())), computed
 
 
-@dataclass(frozen=True)
-class Class:
+class Class(Struct, frozen=True):
     """A class that is marked: its result, and what was expected of each student."""
 
     result: Result

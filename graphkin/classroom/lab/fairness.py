@@ -8,10 +8,13 @@ sheet does not hold, or whose rays cross flatter than that, spoils nothing else:
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import astuple
 
 from graphkin.classroom.lab.demands import (
     crossing_angles,
@@ -43,8 +46,7 @@ WORDS = {
 """The limits by name, in words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(Struct, frozen=True):
     """A limit that a variant does not keep: which, where, its value and the bound, in its unit."""
 
     limit: str
@@ -228,8 +230,7 @@ def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Arra
     motions += [*asked.links.values(), *asked.slides.values()]
     sound = np.broadcast_to(np.asarray(asked.margin) >= FAIR, count).copy()
     for motion in motions:
-        for part in fields(motion):
-            value = getattr(motion, part.name)
+        for value in astuple(motion):
             if value is not None and not isinstance(value, tuple):
                 sound &= np.isfinite(value)
     return sound

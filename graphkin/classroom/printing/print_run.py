@@ -10,6 +10,8 @@ from hashlib import sha256
 from math import ceil
 from pathlib import Path
 
+from msgspec import Struct
+
 from graphkin import __version__
 from graphkin.classroom.printing.edition import Edition, Variant
 from graphkin.classroom.printing.file_names import in_the_way, inside, stems
@@ -33,8 +35,7 @@ FEWEST = 4
 """Students that are worth a process of their own."""
 
 
-@dataclass(frozen=True, slots=True)
-class PrintRequest:
+class PrintRequest(Struct, frozen=True):
     """What is to be printed of every student, and how."""
 
     views: tuple[str, ...] = ("task", "key")
@@ -44,8 +45,7 @@ class PrintRequest:
     force: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Means:
+class Means(Struct, frozen=True):
     """With what it is done: processes (1: this one alone), or the address of a cluster."""
 
     jobs: int = 1

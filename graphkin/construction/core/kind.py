@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from msgspec.structs import asdict
+
 from graphkin.construction.core.program import Program, Roles, Step
 
 if TYPE_CHECKING:
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 K = TypeVar("K", bound="Construction")
 
 
-class Construction(Roles):
+class Construction(Roles, frozen=True):
     """One construction: its roles are fields, and beside them stands all that is known of it.
 
     ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,
@@ -49,7 +51,7 @@ class Construction(Roles):
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """What a role's line is called in a report; nothing for other roles."""
         letters = {each: steps[number].name for each, number in self.given()}
-        return self.lines.get(role, "").format_map({**vars(self), **letters})
+        return self.lines.get(role, "").format_map({**asdict(self), **letters})
 
     @property
     def lies_along(self) -> str:

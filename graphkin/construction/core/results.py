@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import fields, replace
 from typing import Any
+
+from msgspec.structs import asdict, replace
 
 from graphkin.construction.core.program import Part, is_in_scene
 from graphkin.construction.core.quantities import QUANTITIES, Whose
@@ -123,7 +124,7 @@ def rows_of(solution: Solution, rows: Any) -> Solution:
     """Some rows of a solution of arrays; what all variants share stays."""
 
     def cut(record: Any) -> Any:
-        found = {f.name: getattr(record, f.name) for f in fields(record)}
+        found = asdict(record)
         return replace(record, **{name: row_of(v, rows) for name, v in found.items()})
 
     parts = ("points", "links", "slides")

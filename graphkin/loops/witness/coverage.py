@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields, replace
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import QUANTITIES, held
 from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
@@ -56,7 +57,7 @@ def points_named(solution: Solution) -> Iterator[str]:
 
 def says_anything(motion: PointMotion | LinkMotion | SlideMotion) -> bool:
     """Whether any quantity of a motion is known."""
-    return any(getattr(motion, each.name) is not None for each in fields(motion))
+    return any(getattr(motion, name) is not None for name in motion.__struct_fields__)
 
 
 def owners_of(loops: Equations, point: str) -> list[str]:
