@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from cmath import phase, rect
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from functools import cache
 
 from hypothesis import settings
 from hypothesis import strategies as st
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.plane import cross, dot
@@ -48,8 +49,7 @@ def mechanism_of(text: str, **settings: object) -> Mechanism:
     return Mechanism(scene_of(text, **settings))
 
 
-@dataclass(frozen=True)
-class Bar:
+class Bar(Struct, frozen=True):
     """A link with its points in the order written, and how the scene tells where they lie.
 
     ``how`` is "lengths" (sides, lines), "angles" or "coordinates"; ``axes`` are the link's own
@@ -62,8 +62,7 @@ class Bar:
     axes: tuple[complex, complex] = (0j, 1 + 0j)
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(Struct, frozen=True):
     """A block on a straight guide of the frame, pinned at one of its points.
 
     ``along`` is the direction of the guide, ``offset`` the first point's distance to its left and
@@ -78,8 +77,7 @@ class Block:
     zero: float
 
 
-@dataclass(frozen=True)
-class Driver:
+class Driver(Struct, frozen=True):
     """A crank's motion: link, pivot and tip, ω (rad/s) and ε (rad/s²)."""
 
     link: str
@@ -89,8 +87,7 @@ class Driver:
     acceleration: float = 0.0
 
 
-@dataclass(frozen=True)
-class Made:
+class Made(Struct, frozen=True):
     """A closed mechanism: where its points stand, its links, drivers, and pins with their sides."""
 
     places: dict[str, complex]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
+
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil import Original, original
 from graphkin.accuracy.pencil.pencil_marks import Paper

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of, marked

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil import Pencil, drawn, simulated
 from graphkin.accuracy.pencil.drawn_closing import followed

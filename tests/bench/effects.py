@@ -10,11 +10,12 @@ from __future__ import annotations
 import timeit
 import tracemalloc
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import Ask

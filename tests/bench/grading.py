@@ -9,9 +9,10 @@ from __future__ import annotations
 import random
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from fractions import Fraction
 from resource import RUSAGE_SELF, getrusage
+
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_marking import KEPT, Book, graded_class
 from graphkin.classroom.grading.graded import Answer, Taker

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.construction.core.run import run
 from graphkin.construction.higher_class.closure_solver import ClosureSolver

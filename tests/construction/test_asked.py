@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.pen import letter
 from graphkin.construction.core.plan_vector import plan_vector

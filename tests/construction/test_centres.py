@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from cmath import exp
 from collections import Counter
-from dataclasses import replace
 from itertools import combinations
 from math import hypot, pi
 
 import pytest
 from hypothesis import given, settings
+from msgspec.structs import replace
 
 from graphkin.construction.centres.relative_centre import LineOfCentres
 from graphkin.construction.core.program import Part

@@ -7,9 +7,9 @@ at the effect that it says it is drawn for; where both are looked at, they are h
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Plane

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.solution import PointMotion, Solution

@@ -48,7 +48,7 @@ def made_up(
             plane = Plane.MECHANISM if what == "position" else Plane.NUMBERS
             steps.append(Step(None, (), Part.POSITION, plane, name, (), Given("point", ())))
     trace = Trace(Program(tuple(steps), targets), values, {})
-    verdict = Verdict.__new__(Verdict)
+    verdict = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return Drawing("velocity", scene, trace, Scales(1.0, 1.0), verdict, words("en"))
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
 import pytest
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -95,8 +96,7 @@ CASES += [(name, None, kind) for name in OTHERS for kind in KINDS if name != "pa
 MORE = [(name, None, kind) for name in FOLLOWED for kind in KINDS]
 
 
-@dataclass(frozen=True)
-class Moved:
+class Moved(Struct, frozen=True):
     """A drawing, its marks by step, and both again after each step has been shifted."""
 
     drawing: Drawing

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.page_documents import hand_out_page
 from graphkin.documents.sheet_documents import hand_out

@@ -3,11 +3,11 @@
 import itertools
 import re
 from collections import Counter
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.solution import Verdict

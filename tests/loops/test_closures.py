@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Certifier
 from graphkin.loops.closing_groups import groups

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.solution import PointMotion, Solution
 from graphkin.loops.witness import by_loops, compare, examine

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import csv
 import io
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table

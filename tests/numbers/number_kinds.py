@@ -8,11 +8,12 @@ that enters moves by its own relative unit.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.core.program import Given, Program
@@ -39,8 +40,7 @@ Inputs = Mapping[int, tuple[Fraction, ...]]
 """Real numbers, or points by two coordinates, in place of steps."""
 
 
-@dataclass(frozen=True)
-class Work:
+class Work(Struct, frozen=True):
     """What is run: a program, the steps that are wanted, and values of the scene."""
 
     program: Program

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isfinite
 from pathlib import Path
@@ -13,6 +12,8 @@ from unittest.mock import patch
 import mpmath
 import numpy as np
 from click.testing import CliRunner, Result
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.cli.main import app
 from graphkin.construction.core.solution import Solution
@@ -39,8 +40,7 @@ units = { length = "m", angle = "deg", speed = "rad/s" }
 """
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Struct, frozen=True):
     """A mechanism whose every number is the text of an exact decimal.
 
     ``at`` is the driver's position and the parameter of batches; ``corner`` the place of its frame.
@@ -90,8 +90,7 @@ class Case:
         return f'["{east}", "{north}"]'
 
 
-@dataclass(frozen=True)
-class FourBar(Case):
+class FourBar(Case, frozen=True):
     """Crank O1A, coupler AB, rocker O2B, with O2 to the right of O1."""
 
     bars: tuple[str, str, str, str] = ("1", "3", "2", "3")
@@ -114,8 +113,7 @@ class FourBar(Case):
         return Motion({"A": a, "B": b}, links, float(sine), *span(crank, coupler, rocker, ground))
 
 
-@dataclass(frozen=True)
-class SliderCrank(Case):
+class SliderCrank(Case, frozen=True):
     """Crank OA, rod AB, and the block B on a line along x at a height above O."""
 
     bars: tuple[str, str, str] = ("1", "3", "0")
@@ -139,8 +137,7 @@ class SliderCrank(Case):
         return Motion({"A": a, "B": b}, links, float(sine), *span(crank, rod))
 
 
-@dataclass(frozen=True)
-class DrivenSlide(Case):
+class DrivenSlide(Case, frozen=True):
     """The same with the block as driver: O is the other end, A the pin that is sought."""
 
     at: str = "3"
@@ -167,8 +164,7 @@ class DrivenSlide(Case):
         return Motion({"A": a, "B": b}, links, float(sine), *span(crank, rod))
 
 
-@dataclass(frozen=True)
-class Lever(Case):
+class Lever(Case, frozen=True):
     """A crank OA whose block A slides on a lever that turns about P, at a distance right of O."""
 
     bars: tuple[str, str, str] = ("1", "2", "3")

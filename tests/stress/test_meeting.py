@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from math import inf, nextafter
 
@@ -10,6 +9,7 @@ import mpmath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from graphkin.diagnosis.exact_intersection import clearance, meet, stated_loci
 from graphkin.numbers.exact import Exact, IrrationalError, root

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism

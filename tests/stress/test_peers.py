@@ -6,11 +6,11 @@ arc cosine lose half their digits at 180°; positions found each from the last d
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.motion.cycle import cycle
 from tests.stress.cases import FourBar, SliderCrank, assert_near, assert_within, held, held_batch

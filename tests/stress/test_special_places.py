@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from math import isfinite
 
 import mpmath
 import pytest
+from msgspec.structs import replace
 
 from tests.stress.cases import (
     DRAWN,
@@ -138,8 +138,7 @@ def test_centres_of_a_link_at_rest_are_told_in_words(tmp_path):
 # --- a point of the coupler on its line, and 1e-12 beside it -------------------------------------
 
 
-@dataclass(frozen=True)
-class Plate(FourBar):
+class Plate(FourBar, frozen=True):
     """A four-bar with a point C of its coupler, in the coupler's axes."""
 
     at: str = "60"

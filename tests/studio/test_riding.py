@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.detail import with_detail

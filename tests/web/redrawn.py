@@ -7,11 +7,11 @@ steps themselves.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from math import hypot, inf, radians
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.construction.core.layout import Layout, spans
 from graphkin.construction.core.program import Program

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import cache
 from itertools import combinations
 from math import acos, degrees, hypot, isclose
@@ -13,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from msgspec.structs import replace
 
 from graphkin.construction.core.plot import above_foot
 from graphkin.drawing.areas import Rect

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
 from graphkin.tape.graph import Graph

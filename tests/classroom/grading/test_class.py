@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_marking import Class, graded_class
 from graphkin.classroom.grading.graded import Answer, Taker

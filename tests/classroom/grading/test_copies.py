@@ -5,10 +5,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_report import odds_words
 from graphkin.classroom.grading.graded import SURE, Status

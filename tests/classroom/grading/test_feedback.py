@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_report import summary
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages, notes, total

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_standards import alike, by_driving, standards
 from graphkin.classroom.grading.standard import Standard, standard

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from math import isnan, pi
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.feedback_rows import SLIPS

@@ -6,12 +6,12 @@ Answers are drawn with a pencil by the construction itself (``drawn``), or are t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
 from math import isnan
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.class_pictures import slip_counts

@@ -11,13 +11,13 @@ import shutil
 import signal
 import subprocess
 import sys
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 
 from graphkin.classroom.grading import gradebook_csv
 from graphkin.classroom.grading.class_marking import Class, graded_class

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from math import asin, degrees
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin import load
 from graphkin.classroom.lab.fairness import judged

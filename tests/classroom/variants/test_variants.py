@@ -12,12 +12,12 @@ import signal
 import subprocess
 import sys
 from base64 import b32encode
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 
 from graphkin import load
 from graphkin.classroom.lab.fairness import judged
