@@ -46,7 +46,7 @@ class MergingError(ValueError):
         super().__init__(f"closures {first} and {first + 1} merge, closure {asked} is asked")
 
 
-class Trying(Trial, frozen=True):
+class Trying(Trial, frozen=True, dict=True):
     """A trial, and where it fits."""
 
     def action(self, number: int) -> Action:
