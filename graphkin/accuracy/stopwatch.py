@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from statistics import quantiles
 from time import perf_counter
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from graphkin.construction.core.timing import Timing
 
@@ -56,8 +55,7 @@ QUICK = Effort(
 Work = Callable[[], object]
 
 
-@dataclass(slots=True)
-class TimedWork:
+class TimedWork(Struct):
     """Work on so many positions, how often it is done in a round, and the rounds' times."""
 
     work: Work

@@ -7,11 +7,10 @@ the page's own.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from html import escape
 from math import ceil, floor
 
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -52,8 +51,7 @@ class AtRest(Struct, frozen=True):
     layouts: Mapping[str, Layout]
 
 
-@dataclass
-class Memory:
+class Memory(Struct):
     """What stays from one answer to the next: scales and fields, seats of labels, edges.
 
     ``frames`` are the edges of the drawings at rest, ``edges`` those of the drawings as they move.

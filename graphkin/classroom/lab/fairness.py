@@ -8,12 +8,11 @@ sheet does not hold, or whose rays cross flatter than that, spoils nothing else:
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
 from typing import Any
 
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import astuple
 
 from graphkin.classroom.lab.demands import (
@@ -67,8 +66,7 @@ class Fault(Struct, frozen=True):
         return WORDS[self.limit]
 
 
-@dataclass
-class Fairness:
+class Fairness(Struct, dict=True):
     """What the drawings of many variants demand of a hand, an array for each thing drawn.
 
     ``form`` names the fields; ``crossings`` are in degrees by the letter of the point, ``lengths``

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import partial
 from hashlib import sha256
 from math import ceil
 from pathlib import Path
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from graphkin import __version__
 from graphkin.classroom.printing.edition import Edition, Variant
@@ -52,8 +51,7 @@ class Means(Struct, frozen=True):
     cluster: str = ""
 
 
-@dataclass
-class Outcome:
+class Outcome(Struct):
     """What came of a run: students, those made now and those that stood already, files, doubts.
 
     ``files`` are those for the printer; ``refused`` the students who got none; ``strange`` tells

@@ -7,9 +7,9 @@ null there, and told under ``undecided`` by its path.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
@@ -65,8 +65,7 @@ def certify(mechanism: Mechanism, found: Record, digits: int, targets: Any = Non
     return record | {"digits": digits, "bits": bits, "undecided": printer.undecided}
 
 
-@dataclass
-class Printer:
+class Printer(Struct):
     """Prints the numbers of a run in balls, and keeps what it cannot print by its path."""
 
     scene: Scene
