@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
+from functools import cached_property
 from pathlib import Path
 
 from msgspec import Struct, field
@@ -128,7 +129,7 @@ def is_form(sheet: Spreadsheet) -> bool:
     return len(heads) >= 2 and heads[0] in map(folded, FIELD) and heads[1] in map(folded, VALUE)
 
 
-class AnswerReading(Struct):
+class AnswerReading(Struct, dict=True):
     """Tables being read: the fields that are ``known``, the ids by all that students sign with,
     what was found, and which fields were ``seen``.
     """
@@ -139,9 +140,10 @@ class AnswerReading(Struct):
     answers: Answers = field(default_factory=Answers)
     seen: set[str] = field(default_factory=set)
 
-    def __post_init__(self) -> None:
+    @cached_property
+    def fields(self) -> dict[str, str]:
         """The fields by their names as they are compared."""
-        self.fields = {folded(name): name for name in self.known}
+        return {folded(name): name for name in self.known}
 
     def rows(self, sheet: Spreadsheet) -> None:
         """A table with a row for each student."""

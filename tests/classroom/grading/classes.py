@@ -9,6 +9,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.classroom.grading.class_marking import Book, graded_class
 from graphkin.classroom.grading.graded import Answer, Result, Taker
@@ -22,8 +23,7 @@ LABS = tuple(hand.DRAW)
 Row = dict[str, Answer]
 
 
-@dataclass(frozen=True)
-class Kind:
+class Kind(Struct, frozen=True):
     """A kind of class: between which ``sigma`` (mm) its hands are, how many times as many degrees
     they turn a direction, to how many ``step`` mm they read and how many ``digits`` they write,
     the share with one of some ``slips``; ``own`` tells that no two have the same data.

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from math import pi, radians, sqrt
 
 import numpy as np
+from msgspec import Struct
 
 SLIPS = (
     "angle_clockwise",
@@ -30,8 +31,7 @@ SLIPS = (
 """What a student may have understood wrongly, all through the drawing."""
 
 
-@dataclass(frozen=True)
-class Data:
+class Data(Struct, frozen=True):
     """What a student is given: the crank's angle in degrees, its speed in rev/min."""
 
     angle: float
