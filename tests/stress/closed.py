@@ -7,11 +7,11 @@ and velocities and accelerations follow from the components along the bars.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 import mpmath
+from msgspec import Struct
 
 EPS = 2.0**-52
 DIGITS = 90
@@ -32,8 +32,7 @@ class Turning(NamedTuple):
     epsilon: Any
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(Struct, frozen=True):
     """What is true of a mechanism in one position, and what its errors are measured by.
 
     ``sine`` is that of its flattest crossing, ``largest`` and ``least`` its lengths (m).
