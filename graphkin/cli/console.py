@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
-from typing import Any, NoReturn
+from importlib import import_module
+from typing import Any, ClassVar, NoReturn
 
 import click
 from click.exceptions import Exit
@@ -41,7 +42,12 @@ READING = "graphkin.scene"
 
 
 class CommandGroup(click.Group):
-    """A group of commands that never shows a traceback and knows mistyped commands."""
+    """A group of commands that never shows a traceback and knows mistyped commands.
+
+    ``later`` names the modules of commands that are imported when they are called.
+    """
+
+    later: ClassVar[Mapping[str, str]] = {}
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
         """Run a command and leave with its status."""
@@ -78,8 +84,15 @@ class CommandGroup(click.Group):
         return super().resolve_command(ctx, args)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """The commands in the order in which they are written."""
-        return list(self.commands)
+        """The commands in the order in which they are written, those of other modules last."""
+        return [*(name for name in self.commands if name not in self.later), *self.later]
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of a name, imported when it is one of another module."""
+        if cmd_name in self.later and cmd_name not in self.commands:
+            module, _, name = self.later[cmd_name].partition(":")
+            self.add_command(getattr(import_module(module), name), cmd_name)
+        return super().get_command(ctx, cmd_name)
 
 
 def of_scene(scene: str, problem: Problem) -> Problem:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import floor, log10
 from pathlib import Path
 from typing import Any
@@ -20,11 +20,16 @@ EUPHONIC = re.compile(r"(?<!\S)([ae]) (?=\*?(?i:\1))")
 """The Italian words for "to" and "and" before a name or word that begins with their own vowel."""
 
 
-class Words(Struct, frozen=True):
+class Words(Struct, frozen=True, dict=True):
     """The sentences of one language, and how it writes numbers."""
 
     language: str
-    sentences: Mapping[str, str]
+
+    @cached_property
+    def sentences(self) -> Mapping[str, str]:
+        """Every sentence by its key, read from its file when the first one is said."""
+        tree = tomllib.loads((HERE / f"{self.language}.toml").read_text(encoding="utf-8"))
+        return dict(flattened(tree))
 
     def __call__(self, key: str, **fields: object) -> str:
         """The sentence under a key, with its fields filled in. Raises KeyError when missing."""
@@ -62,8 +67,7 @@ def words(language: str) -> Words:
     """The sentences of a language by its code. Raises KeyError for a language without any."""
     if language not in LANGUAGES:
         raise KeyError(language)
-    tree = tomllib.loads((HERE / f"{language}.toml").read_text(encoding="utf-8"))
-    return Words(language, dict(flattened(tree)))
+    return Words(language)
 
 
 def flattened(tree: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:

@@ -172,7 +172,7 @@ def test_every_key_in_the_code_has_a_sentence():
 
 def test_every_sentence_is_used():
     USED.clear()
-    spoken = Recording("en", words("en").sentences)
+    spoken = Recording("en")
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
     every = [mechanism_named(lab, 7) for lab in SHIPPED[1:]]
     every += [mechanism_named(name) for name in (*OTHERS, *SCENES)]
