@@ -126,12 +126,13 @@ def batch() -> list[tuple[str, float, float]]:
 
 
 def start() -> list[tuple[str, float, float]]:
-    """A cold start, against an interpreter that does nothing."""
-    bare = fresh("-c", "pass")
+    """A cold start, against an interpreter that only imports numpy."""
+    numpy = fresh("-c", "import numpy")
     return [
-        ("start: python -c pass", bare, bare),
-        ("start: import graphkin", fresh("-c", "import graphkin"), bare),
-        ("start: graphkin solve pump", fresh("-m", "graphkin", "solve", "pump"), bare),
+        ("start: python -c pass", fresh("-c", "pass"), numpy),
+        ("start: import numpy", numpy, numpy),
+        ("start: import graphkin", fresh("-c", "import graphkin"), numpy),
+        ("start: graphkin solve pump", fresh("-m", "graphkin", "solve", "pump"), numpy),
     ]
 
 
