@@ -77,12 +77,18 @@ def test_names_of_vectors_without_room_are_noted():
     assert not set(names.split(", ")) & labels
 
 
+class Unfooted(FieldContent):
+    """What a field holds, without its notes."""
+
+    def footed(self, notes):
+        return []
+
+
 def test_letters_of_points_come_before_names_of_vectors_and_these_before_helping_letters():
     for width in (6.0, 9.0, 12.0, 16.0, 20.0, 30.0):
-        board = FieldContent((25 - width / 2, 4.0, 25 + width / 2, 16.0))
+        board = Unfooted((25 - width / 2, 4.0, 25 + width / 2, 16.0))
         board.labels = [HELPER, VECTOR, POINT]
         board.unnamed = "without:"
-        board.footed = lambda notes: []
         in_turn(board, [])
         kept = [label.name for label in board.labels]
         assert "A" in kept
