@@ -72,6 +72,8 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
 
     there = np.isfinite(value)
     element, at = np.nonzero(there[:, :-1] != there[:, 1:])
+    if not element.size:
+        return []
     first = there[element, at]
     inside = np.where(first, grid[element, at], grid[element, at + 1])
     start, end = inside.copy(), np.where(first, grid[element, at + 1], grid[element, at])

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.construction.core.vocabulary import Action
+from graphkin.construction.higher_class.flat_dyads import fits_beside
 from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.construction.higher_class.trial_windows import Windows, narrowed
 from graphkin.numbers.arithmetic import FLOAT, phase
@@ -150,22 +151,37 @@ class Trying(Trial):
         """
         import numpy as np
 
-        def trial(owner: Any, share: Any) -> tuple[list[Any], Any, Any]:
+        def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
             tried = share if reach is None else self.along(share, reach[owner])
-            rows = np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
             return [array[owner] for array in known], tried, rows
+
+        def alike(owner: Any) -> Any:
+            return np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
 
         k = len(signs)
         if k == len(self.signs):
             owner, places = windows
             row, share, touching = roots_and_touches(
-                lambda row, at: self.misfits(*trial(owner[row], at)), places
+                lambda row, at: self.misfits(*trial(owner[row], at, alike(row))), places
             )
-            _, tried, rows = trial(owner[row], share)
+            _, tried, rows = trial(owner[row], share, alike(row))
             yield owner[row], tried, rows, touching
             return
         if self.choices[k] is not None:
-            windows = narrowed(lambda owner, at: self.drawable(k, *trial(owner, at)), windows)
+            windows, ends = narrowed(
+                lambda owner, at: self.drawable(k, *trial(owner, at, alike(owner))), windows
+            )
+            later = np.array(sign_table(len(self.signs) - k - 1), dtype=float)
+            owner, at, beside = (np.repeat(column, len(later)) for column in ends)
+            later = np.tile(later, (len(ends.owner), 1))
+
+            def missed(row: Any, share: Any, sign: Any) -> Any:
+                rows = np.column_stack([alike(row), sign, later[row]])
+                return self.misfits(*trial(owner[row], share, rows))
+
+            row, share, sign, touching = fits_beside(missed, at, beside)
+            rows = np.column_stack([alike(row), sign, later[row]])
+            yield owner[row], trial(owner[row], share, rows)[1], rows, touching
         for sign in (1, -1):
             yield from self.fits(known, reach, (*signs, sign), windows)
 
