@@ -105,18 +105,22 @@ def touches(
 
     ``value`` are those of the functions on their grids.
     """
+    near = (least > 0) & (least < HIDDEN * largest(value)[element])
+    return element[near], best[near]
+
+
+def largest(value: Array) -> Array:
+    """The largest value of each function on its grid."""
     import numpy as np
 
-    large = np.nanmax(abs(value), axis=1, initial=0)[element]
-    near = (least > 0) & (least < HIDDEN * large)
-    return element[near], best[near]
+    return np.nanmax(abs(value), axis=1, initial=0)
 
 
 def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Array, Array, Array]:
     """Where functions turn back towards zero: which, three places about each, the least misfit.
 
-    Golden section towards it, until it crosses zero, then negative, has been found, or stands so
-    much higher than it rises on both sides that it cannot fall to zero between them.
+    Golden section towards it, until it has been found, or crosses zero by more than rounding, then
+    negative, or stands so much higher than it rises on both sides that it cannot fall to zero.
     """
     import numpy as np
 
@@ -128,9 +132,9 @@ def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Arra
     sign = near[element, at]
     low, best, high = (grid[element, at + k] for k in (0, 1, 2))
     below, least, above = (size[element, at + k] for k in (0, 1, 2))
-    ends = low.copy(), high.copy()
+    ends, hidden = (low.copy(), high.copy()), HIDDEN * largest(value)[element]
     for _ in range(ROUNDS):
-        waiting = (least > 0) & (high - low > 1e-9 * (ends[1] - ends[0]))
+        waiting = (least > -hidden) & (high - low > 1e-9 * (ends[1] - ends[0]))
         waiting &= ~(least > DEEPEST * (np.maximum(below, above) - least))
         if not (live := np.flatnonzero(waiting)).size:
             break
