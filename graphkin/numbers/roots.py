@@ -22,6 +22,8 @@ SURE = 8
 """Rounds after which a misfit that has grown is taken for a pole."""
 NEXT = 4e-16
 """How far apart two neighbouring numbers lie, in parts of their size."""
+POLE = 4 * NEXT
+"""How far from a pole its sides are looked at."""
 DEEPEST = 1e3
 """How deep a misfit may dip within three places, in parts of how far it rises at the outer two.
 
@@ -87,6 +89,33 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
     crossed = misfit(element, inside) * misfit(element, start) < 0
     low, high = np.minimum(inside, start), np.maximum(inside, start)
     return [(element[crossed], low[crossed], high[crossed])]
+
+
+def roots_beside_poles(misfit: Misfit, pole: Misfit, grid: Array) -> tuple[Array, Array]:
+    """Roots that share an interval of the grid with a pole, so that no change of sign shows them.
+
+    ``pole`` vanishes at the poles.
+    """
+    import numpy as np
+
+    size, places = grid.shape
+    value = pole(np.repeat(np.arange(size), places), grid.ravel()).reshape(grid.shape)
+    element, at = np.nonzero(value[:, :-1] * value[:, 1:] < 0)
+    ends = misfit(np.tile(element, 2), np.append(grid[element, at], grid[element, at + 1]))
+    hiding = ends[: at.size] * ends[at.size :] > 0
+    if not hiding.any():
+        return element[hiding], ends[: at.size][hiding]
+    element, at = element[hiding], at[hiding]
+    low, high = grid[element, at], grid[element, at + 1]
+    there = closed_in(pole, element, low, high)
+    gap = POLE * np.maximum(abs(there), 1)
+    which = np.concatenate([element, element])
+    start, end = np.append(low, there + gap), np.append(there - gap, high)
+    crossed = misfit(which, start) * misfit(which, end) < 0
+    which, start, end = which[crossed], start[crossed], end[crossed]
+    place = closed_in(lambda row, x: misfit(row, x) * pole(row, x), which, start, end)
+    good = np.isfinite(place)
+    return which[good], place[good]
 
 
 def beside_turns(

@@ -17,7 +17,7 @@ from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.construction.higher_class.trial_windows import Windows, narrowed
 from graphkin.numbers.arithmetic import FLOAT, phase
 from graphkin.numbers.kinds import kind_of
-from graphkin.numbers.roots import roots_and_touches
+from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
 
 DOUBLES = ("float", "batch")
 """The kinds in which closures are looked for; in the others they are refined."""
@@ -161,11 +161,21 @@ class Trying(Trial):
         k = len(signs)
         if k == len(self.signs):
             owner, places = windows
-            row, share, touching = roots_and_touches(
-                lambda row, at: self.misfits(*trial(owner[row], at, alike(row))), places
-            )
-            _, tried, rows = trial(owner[row], share, alike(row))
-            yield owner[row], tried, rows, touching
+
+            def missing(row: Any, at: Any) -> Any:
+                return self.misfits(*trial(owner[row], at, alike(row)))
+
+            found = [roots_and_touches(missing, places)]
+            for n in range(len(self.crossings)):
+
+                def parallel(row: Any, at: Any, n: int = n) -> Any:
+                    return self.crossing(n, *trial(owner[row], at, alike(row)))
+
+                row, share = roots_beside_poles(missing, parallel, places)
+                found.append((row, share, np.zeros(row.size, dtype=bool)))
+            for row, share, touching in found:
+                _, tried, rows = trial(owner[row], share, alike(row))
+                yield owner[row], tried, rows, touching
             return
         if self.choices[k] is not None:
             windows, ends = narrowed(
