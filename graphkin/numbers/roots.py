@@ -22,6 +22,8 @@ SURE = 8
 """Rounds after which a misfit that has grown is taken for a pole."""
 NEXT = 4e-16
 """How far apart two neighbouring numbers lie, in parts of their size."""
+POLE = 4 * NEXT
+"""How far from a pole its sides are looked at."""
 DEEPEST = 1e3
 """How deep a misfit may dip within three places, in parts of how far it rises at the outer two.
 
@@ -72,6 +74,8 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
 
     there = np.isfinite(value)
     element, at = np.nonzero(there[:, :-1] != there[:, 1:])
+    if not element.size:
+        return []
     first = there[element, at]
     inside = np.where(first, grid[element, at], grid[element, at + 1])
     start, end = inside.copy(), np.where(first, grid[element, at + 1], grid[element, at])
@@ -85,6 +89,33 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
     crossed = misfit(element, inside) * misfit(element, start) < 0
     low, high = np.minimum(inside, start), np.maximum(inside, start)
     return [(element[crossed], low[crossed], high[crossed])]
+
+
+def roots_beside_poles(misfit: Misfit, pole: Misfit, grid: Array) -> tuple[Array, Array]:
+    """Roots that share an interval of the grid with a pole, so that no change of sign shows them.
+
+    ``pole`` vanishes at the poles.
+    """
+    import numpy as np
+
+    size, places = grid.shape
+    value = pole(np.repeat(np.arange(size), places), grid.ravel()).reshape(grid.shape)
+    element, at = np.nonzero(value[:, :-1] * value[:, 1:] < 0)
+    ends = misfit(np.tile(element, 2), np.append(grid[element, at], grid[element, at + 1]))
+    hiding = ends[: at.size] * ends[at.size :] > 0
+    if not hiding.any():
+        return element[hiding], ends[: at.size][hiding]
+    element, at = element[hiding], at[hiding]
+    low, high = grid[element, at], grid[element, at + 1]
+    there = closed_in(pole, element, low, high)
+    gap = POLE * np.maximum(abs(there), 1)
+    which = np.concatenate([element, element])
+    start, end = np.append(low, there + gap), np.append(there - gap, high)
+    crossed = misfit(which, start) * misfit(which, end) < 0
+    which, start, end = which[crossed], start[crossed], end[crossed]
+    place = closed_in(lambda row, x: misfit(row, x) * pole(row, x), which, start, end)
+    good = np.isfinite(place)
+    return which[good], place[good]
 
 
 def beside_turns(
@@ -103,18 +134,22 @@ def touches(
 
     ``value`` are those of the functions on their grids.
     """
+    near = (least > 0) & (least < HIDDEN * largest(value)[element])
+    return element[near], best[near]
+
+
+def largest(value: Array) -> Array:
+    """The largest value of each function on its grid."""
     import numpy as np
 
-    large = np.nanmax(abs(value), axis=1, initial=0)[element]
-    near = (least > 0) & (least < HIDDEN * large)
-    return element[near], best[near]
+    return np.nanmax(abs(value), axis=1, initial=0)
 
 
 def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Array, Array, Array]:
     """Where functions turn back towards zero: which, three places about each, the least misfit.
 
-    Golden section towards it, until it crosses zero, then negative, has been found, or stands so
-    much higher than it rises on both sides that it cannot fall to zero between them.
+    Golden section towards it, until it has been found, or crosses zero by more than rounding, then
+    negative, or stands so much higher than it rises on both sides that it cannot fall to zero.
     """
     import numpy as np
 
@@ -126,9 +161,9 @@ def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Arra
     sign = near[element, at]
     low, best, high = (grid[element, at + k] for k in (0, 1, 2))
     below, least, above = (size[element, at + k] for k in (0, 1, 2))
-    ends = low.copy(), high.copy()
+    ends, hidden = (low.copy(), high.copy()), HIDDEN * largest(value)[element]
     for _ in range(ROUNDS):
-        waiting = (least > 0) & (high - low > 1e-9 * (ends[1] - ends[0]))
+        waiting = (least > -hidden) & (high - low > 1e-9 * (ends[1] - ends[0]))
         waiting &= ~(least > DEEPEST * (np.maximum(below, above) - least))
         if not (live := np.flatnonzero(waiting)).size:
             break

@@ -27,6 +27,14 @@ def test_two_roots_close_together_are_both_found(gap):
     assert place == pytest.approx([middle - gap / 2, middle + gap / 2], abs=1e-9)
 
 
+def test_two_roots_are_two_where_rounding_moves_the_sides_of_a_dip():
+    """A place that rounding alone puts below nought beside one root does not part the two."""
+    grain = 2.0**-40
+    for gap in np.linspace(5e-6, 1e-5, 200):
+        place = found(lambda x, gap=gap: np.rint(((x - 3.14) ** 2 - gap**2 / 4) / grain) * grain)
+        assert place == pytest.approx([3.14 - gap / 2, 3.14 + gap / 2], abs=gap / 4)
+
+
 @pytest.mark.parametrize("miss", [1e-3, 1e-9])
 def test_a_function_that_only_comes_near_nought_has_no_root(miss):
     assert found(lambda x: (x - 3.14) ** 2 + miss).size == 0

@@ -13,11 +13,12 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.construction.core.vocabulary import Action
+from graphkin.construction.higher_class.flat_dyads import fits_beside
 from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.construction.higher_class.trial_windows import Windows, narrowed
 from graphkin.numbers.arithmetic import FLOAT, phase
 from graphkin.numbers.kinds import kind_of
-from graphkin.numbers.roots import roots_and_touches
+from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
 
 DOUBLES = ("float", "batch")
 """The kinds in which closures are looked for; in the others they are refined."""
@@ -151,22 +152,47 @@ class Trying(Trial, frozen=True, dict=True):
         """
         import numpy as np
 
-        def trial(owner: Any, share: Any) -> tuple[list[Any], Any, Any]:
+        def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
             tried = share if reach is None else self.along(share, reach[owner])
-            rows = np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
             return [array[owner] for array in known], tried, rows
+
+        def alike(owner: Any) -> Any:
+            return np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
 
         k = len(signs)
         if k == len(self.signs):
             owner, places = windows
-            row, share, touching = roots_and_touches(
-                lambda row, at: self.misfits(*trial(owner[row], at)), places
-            )
-            _, tried, rows = trial(owner[row], share)
-            yield owner[row], tried, rows, touching
+
+            def missing(row: Any, at: Any) -> Any:
+                return self.misfits(*trial(owner[row], at, alike(row)))
+
+            found = [roots_and_touches(missing, places)]
+            for n in range(len(self.crossings)):
+
+                def parallel(row: Any, at: Any, n: int = n) -> Any:
+                    return self.crossing(n, *trial(owner[row], at, alike(row)))
+
+                row, share = roots_beside_poles(missing, parallel, places)
+                found.append((row, share, np.zeros(row.size, dtype=bool)))
+            for row, share, touching in found:
+                _, tried, rows = trial(owner[row], share, alike(row))
+                yield owner[row], tried, rows, touching
             return
         if self.choices[k] is not None:
-            windows = narrowed(lambda owner, at: self.drawable(k, *trial(owner, at)), windows)
+            windows, ends = narrowed(
+                lambda owner, at: self.drawable(k, *trial(owner, at, alike(owner))), windows
+            )
+            later = np.array(sign_table(len(self.signs) - k - 1), dtype=float)
+            owner, at, beside = (np.repeat(column, len(later)) for column in ends)
+            later = np.tile(later, (len(ends.owner), 1))
+
+            def missed(row: Any, share: Any, sign: Any) -> Any:
+                rows = np.column_stack([alike(row), sign, later[row]])
+                return self.misfits(*trial(owner[row], share, rows))
+
+            row, share, sign, touching = fits_beside(missed, at, beside)
+            rows = np.column_stack([alike(row), sign, later[row]])
+            yield owner[row], trial(owner[row], share, rows)[1], rows, touching
         for sign in (1, -1):
             yield from self.fits(known, reach, (*signs, sign), windows)
 

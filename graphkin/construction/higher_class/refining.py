@@ -7,16 +7,20 @@ the kind asked for; in balls a change of sign proves it: what is cut cannot but 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphkin.construction.higher_class.merging import Closing, closings_of, merged
-from graphkin.construction.higher_class.trial_chain import TrialChain, by_secant, proved
+from graphkin.construction.higher_class.trial_chain import TrialChain, by_secant, middle, proved
 from graphkin.numbers.arithmetic import Kind, is_ball, phase, turn_by
 
 SECANTS = 2
 """Steps along the secant that lead from a double to a longdouble."""
 APART = 2.0**-30
 """How far the second trial lies from the closure in doubles, in radians or parts of its size."""
+FLAT = 1e-6
+"""How near the end of a window a closure lies beside it, in radians or parts of its size."""
+ASIDE = 2.0**-15
+"""Root of the distance to an end at which the misfit on both signs tells its curve between."""
 CONFUSED = 0.01
 """How near another closure is that one may be taken for, in radians or parts of its size."""
 
@@ -31,10 +35,9 @@ def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tup
     if kind.name == "ball":
         return closed_in_balls(trying, known, doubles, number, kind)
     found, *signs, sine = trying.closed(doubles, number)
-    chain = TrialChain(trying, known, signs, kind)
-    return closing(
-        chain, refined(chain, kind.number(phase(found) if trying.turns else found)), sine
-    )
+    start = kind.number(phase(found) if trying.turns else found)
+    aim = aimed(TrialChain(trying, known, signs, kind), start)
+    return closing(aim.chain, refined(aim), sine)
 
 
 def closed_in_balls(
@@ -52,9 +55,10 @@ def closed_in_balls(
     chain = TrialChain(trying, known, one.signs, kind)
     if is_ball(one.tried):
         return closing(chain, one.tried, one.sine)
-    value = refined(chain, kind.number(one.tried))
-    refuse_confused(chain, value, one, closings)
-    return closing(chain, value, one.sine)
+    aim = aimed(chain, kind.number(one.tried))
+    value = refined(aim)
+    refuse_confused(aim.chain, value, one, closings)
+    return closing(aim.chain, value, one.sine)
 
 
 def closing(chain: TrialChain, value: Any, sine: Any) -> tuple[Any, ...]:
@@ -72,11 +76,11 @@ def refuse_confused(
     """
     turns, tried = chain.trying.turns, one.tried
     for each in closings:
-        if each is one or each.signs != one.signs or is_ball(each.tried):
+        if each is one or each.signs != tuple(chain.signs) or is_ball(each.tried):
             continue
         other = each.tried
         if abs(other - tried) < CONFUSED * (1 if turns else abs(tried) or 1):
-            away = refined(chain, chain.kind.number(other)) - value
+            away = refined(aimed(chain, chain.kind.number(other))) - value
             if not (away > 0 if other > tried else away < 0):
                 raise ValueError("the balls do not tell two closures apart")
 
@@ -98,12 +102,65 @@ def is_complex(value: Any) -> bool:
     return type(value).__name__.startswith(("mpc", "acb", "complex", "clongdouble"))
 
 
-def refined(chain: TrialChain, start: Any) -> Any:
-    """The trial value of a closure in the kind of a chain, from its double."""
-    turns = chain.trying.turns
+class Aim(NamedTuple):
+    """The chain whose closure is refined, where that starts, and how far the second trial lies."""
+
+    chain: TrialChain
+    start: Any
+    step: Any
+
+
+def aimed(chain: TrialChain, start: Any) -> Aim:
+    """Where the secant towards a closure starts, from its double.
+
+    Beside the end of a window, where a dyad is stretched flat and doubles do not tell its sign, the
+    curve of both signs is followed through the end.
+    """
+    turns, trying = chain.trying.turns, chain.trying
     if hasattr(start, "shape") and start.shape:
+        return Aim(chain, start, None)
+    size = 1 if turns else abs(start) or 1
+    for k, choice in enumerate(trying.choices):
+        if choice is None:
+            continue
+        here, beyond = (chain.reach(k, start + step) for step in (0, APART * size))
+        slope = (beyond - here) / (APART * size)
+        if abs(here) < FLAT * size * abs(slope):
+            return beside_flat(chain, k, start, -here / slope)
+    return Aim(chain, start, APART * size)
+
+
+def beside_flat(chain: TrialChain, k: int, start: Any, step: Any) -> Aim:
+    """As aimed, where the dyad of a sign is stretched flat a step away from a start."""
+    end = by_secant(lambda tried: chain.reach(k, tried), start, step or APART)
+    way = 1 if chain.reach(k, end + abs(step) + APART) > 0 else -1
+    sides = {
+        sign: TrialChain(
+            chain.trying,
+            tuple(chain.known.values()),
+            [*chain.signs[:k], sign, *chain.signs[k + 1 :]],
+            chain.kind,
+        )
+        for sign in (-1.0, 1.0)
+    }
+
+    def side(v: Any) -> TrialChain:
+        return sides[1.0 if v > 0 else -1.0]
+
+    def curve(v: Any) -> Any:
+        return side(v).middle_misfit(end + way * v * v)
+
+    before, after = curve(-ASIDE), curve(ASIDE)
+    v = by_secant(curve, middle((before + after) / (before - after) * ASIDE), ASIDE**2)
+    return Aim(side(v), middle(end + way * v * v), v * v * ASIDE)
+
+
+def refined(aim: Aim) -> Any:
+    """The trial value of a closure in the kind of its chain."""
+    chain, start, step = aim
+    if step is None:
+        turns = chain.trying.turns
         return start if chain.kind.name == "float32" else by_secants(chain.misfit, start, turns)
-    step = APART if turns else APART * (abs(start) or 1)
     if chain.kind.name != "ball":
         return by_secant(chain.misfit, start, step)
     return proved(chain, by_secant(chain.middle_misfit, start, step), step)

@@ -11,8 +11,10 @@ from msgspec import Struct
 from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_moving
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Values
+from graphkin.construction.core.vocabulary import meet
 from graphkin.construction.higher_class.trial_windows import REACHES
 from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.plane import cross
 
 SAMPLES = 360
 """Trial positions of a round."""
@@ -105,6 +107,31 @@ class Trial(Struct, frozen=True, dict=True):
                 ready, self.values, batch_kind(), overrides=self.overrides(known, tried, signs)
             )
             found = reaches(*(trace.values[arg] for arg in args))
+        return np.broadcast_to(found, len(tried))
+
+    @cached_property
+    def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
+        """The lines that cross in a point of the trial, made ready: parallel ones are its poles."""
+        outside = frozenset((*self.inputs, self.tried, *self.signs))
+        found: list[tuple[Ready, tuple[int, ...]]] = []
+        for number in self.program.behind((self.misfit,)):
+            step = self.program.steps[number]
+            if step.action is not None and step.action.value is meet.value:
+                needed = self.program.behind(step.args)
+                ready = made_ready(self.program, needed, self.values, step.args, outside)
+                found.append((ready, step.args))
+        return tuple(found)
+
+    def crossing(self, n: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
+        """The area of the directions of two lines that cross: zero where they are parallel."""
+        import numpy as np
+
+        ready, args = self.crossings[n]
+        overrides = self.overrides(known, tried, signs)
+        with np.errstate(all="ignore"):
+            trace = run_moving(ready, self.values, batch_kind(), overrides=overrides)
+            first, second = (trace.values[arg] for arg in args)
+            found = cross(first.along, second.along)
         return np.broadcast_to(found, len(tried))
 
     def overrides(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:

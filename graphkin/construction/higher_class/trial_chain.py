@@ -51,6 +51,11 @@ class TrialChain:
         """The point that moves as the link is tried."""
         return self.drawn(tried, (self.trying.locus,))[0]
 
+    def reach(self, k: int, tried: Any) -> Any:
+        """How far the dyad of a sign can be drawn, positive where it can: its middle, in balls."""
+        _, reaches, args = self.trying.choices[k]
+        return middle(reaches(*self.drawn(tried, args)))
+
     def drawn(
         self, tried: Any, wanted: tuple[int, ...], known: Mapping[int, Any] | None = None
     ) -> list[Any]:

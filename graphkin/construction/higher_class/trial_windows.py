@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
 from graphkin.construction.guides.swung_guide import swing
 from graphkin.construction.links.dyad_by_arcs import arcs_meet
+from graphkin.numbers.arithmetic import pick
 from graphkin.numbers.plane import Circle, Line, cross
 from graphkin.numbers.roots import Array, Misfit, roots
 
@@ -21,6 +22,8 @@ TOGETHER = 2.0**-25
 
 Beside a flat crossing rounding is as large as the root of eps.
 """
+BESIDE = 0.5
+"""How far from the end of a window its first place lies, in steps of the places before easing."""
 
 
 class Windows(NamedTuple):
@@ -30,6 +33,14 @@ class Windows(NamedTuple):
     places: Array
 
 
+class Ends(NamedTuple):
+    """Whose each end of a window is (E,), where it lies (E,), and the window's place next to it."""
+
+    owner: Array
+    at: Array
+    beside: Array
+
+
 def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
     """By how much two circles meet: positive where they cross, negative where they do not.
 
@@ -37,8 +48,9 @@ def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
     where the circles cross is then rounding.
     """
     distance, most = abs(n.centre - m.centre), m.radius + n.radius
-    least = (m.radius - n.radius) ** 2 + (TOGETHER * most) ** 2
-    return (most**2 - distance**2) * (distance**2 - least)
+    least, hidden = abs(m.radius - n.radius), TOGETHER * most
+    least = pick(least < hidden, hidden, least)
+    return (most**2 - distance**2) * (distance**2 - least**2)
 
 
 def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
@@ -60,8 +72,11 @@ REACHES: dict[Callable[..., Any], Callable[..., Any]] = {
 """For each way of drawing that may fail by what it is drawn of: positive where it succeeds."""
 
 
-def narrowed(reaches: Misfit, windows: Windows) -> Windows:
-    """The parts of windows in which a smooth function is positive."""
+def narrowed(reaches: Misfit, windows: Windows) -> tuple[Windows, Ends]:
+    """The parts of windows in which a smooth function is positive, and their ends where it is zero.
+
+    Places lead up to such an end, not into it.
+    """
     import numpy as np
 
     owner, places = windows
@@ -75,13 +90,19 @@ def narrowed(reaches: Misfit, windows: Windows) -> Windows:
     row, low, high = rows[:-1][same], marks[:-1][same], marks[1:][same]
     good = reaches(owner[row], (low + high) / 2) > 0
     row, low, high = row[good], low[good], high[good]
-    whole = (low == places[row, 0]) & (high == places[row, -1])
-    eased = low[:, None] + (high - low)[:, None] * ease(count)
-    return Windows(owner[row], np.where(whole[:, None], places[row], eased))
+    begins, ends = low != places[row, 0], high != places[row, -1]
+    eased = low[:, None] + (high - low)[:, None] * ease(np.arange(count) / (count - 1))
+    short = (high - low) * ease(BESIDE / (count - 1))
+    eased[:, 0] = np.where(begins, low + short, low)
+    eased[:, -1] = np.where(ends, high - short, high)
+    found = np.where((begins | ends)[:, None], eased, places[row])
+    sides = ((begins, low, found[:, 0]), (ends, high, found[:, -1]))
+    columns = [[owner[row[cut]], end[cut], beside[cut]] for cut, end, beside in sides]
+    return Windows(owner[row], found), Ends(*map(np.concatenate, zip(*columns, strict=True)))
 
 
-def ease(count: int) -> Array:
-    """Places from 0 to 1, close together near both ends: there a root grows steeply."""
+def ease(share: Any) -> Any:
+    """Shares from 0 to 1, closer together near both ends: there a root grows steeply."""
     import numpy as np
 
-    return (1 - np.cos(np.linspace(0, np.pi, count))) / 2
+    return (1 - np.cos(np.pi * share)) / 2
