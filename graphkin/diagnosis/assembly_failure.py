@@ -109,8 +109,7 @@ def sought(program: Program, number: int) -> str:
     if links := closed_by(step):
         return f"links {', '.join(links)}"
     kind = construction(step)
-    ends = kind.points if kind is not None else (step.says.get(key, "") for key in "pq")
-    return step.name or "-".join(filter(None, ends))
+    return step.name or ("-".join(filter(None, kind.points)) if kind is not None else "")
 
 
 def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:

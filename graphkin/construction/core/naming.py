@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -118,9 +116,3 @@ def drawn_amount(drawing: Drawing, metres: float) -> str:
 def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
     """How a vector of a given size is drawn in a plan."""
     return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
-
-
-def names_in(says: Mapping[str, str]) -> dict[str, str]:
-    """The names of a step as markup."""
-    found = {key: symbol(str(value)) for key, value in says.items()}
-    return found | {key: escape(says[key]) for key in ("j", "k", "g", "h", "l") if key in says}

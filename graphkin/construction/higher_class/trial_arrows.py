@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.bases import under
-from graphkin.construction.core.pen import Pen, Says, about, letter
+from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.vocabulary import Action
@@ -53,8 +50,8 @@ def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range)
         for pivot, pin, vector in normals_of(pen, group):
             relative_arrow(pen, pin, pivot)
             ends = pen.the("acceleration", pivot), pen.the("acceleration", pin)
-            says: Says = {"i": about(pen, pin, pivot), "q": letter(pin), "p": letter(pivot)}
-            legs(pen, "ντ", along_component, after_component, (*ends, vector), says)
+            names = about(pen, pin, pivot), letter(pin), letter(pivot)
+            legs(pen, "ντ", along_component, after_component, (*ends, vector), names)
         for number in tried:
             sliding_legs(pen, right, number)
 
@@ -65,8 +62,8 @@ def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
     if not isinstance(turned, TurnedAcceleration) or turned.image != number or number not in right:
         return
     ends = right.get(turned.start, turned.start), right[number]
-    says: Says = {"i": turned.index, "q": turned.q, "p": turned.p}
-    legs(pen, "ντ", along_way, after_way, (*ends, turned.start, turned.end), says)
+    names = turned.index, turned.q, turned.p
+    legs(pen, "ντ", along_way, after_way, (*ends, turned.start, turned.end), names)
 
 
 def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
@@ -79,13 +76,13 @@ def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
         return
     laid, component = found
     start, vector = (right.get(arg, arg) for arg in pen.steps[number].args)
-    says: Says = {"i": component.index, "q": component.point, "p": ""}
+    names = component.index, component.point, ""
     if not laid.back:
         ends = start, pen.the("acceleration", component.point)
-        legs(pen, "cr", along_component, after_component, (*ends, vector), says)
+        legs(pen, "cr", along_component, after_component, (*ends, vector), names)
     else:
         ends = pen.the("acceleration", under(component.point, component.guide)), start
-        legs(pen, "rc", before_component, last_component, (*ends, vector), says)
+        legs(pen, "rc", before_component, last_component, (*ends, vector), names)
 
 
 def legs(
@@ -94,13 +91,17 @@ def legs(
     first: Action,
     last: Action,
     args: tuple[int, ...],
-    says: Mapping[str, Any],
+    names: tuple[str, str, str],
 ) -> None:
-    """The arrows of both legs of a way in the plan, each under the sign of its component."""
+    """The arrows of both legs of a way in the plan, each under the sign of its component.
+
+    ``names`` are the index of the whole, the point that moves, and that about which it does.
+    """
+    index, of, about_which = names
     for action, sign in zip((first, last), kinds, strict=True):
-        symbol = f"a_{says['i']}^{sign}"
+        symbol = f"a_{index}^{sign}"
         if symbol not in pen.arrows:
-            pen.vector(action, *args, of=PlanVector(symbol, says["q"], says["p"], sign))
+            pen.vector(action, *args, of=PlanVector(symbol, of, about_which, sign))
 
 
 def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:
