@@ -7,6 +7,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
+from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import Driver
@@ -59,7 +60,7 @@ def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
 def segment_of(drawing: Drawing, step: Step) -> str:
     """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
     ends = [drawing.trace.program.steps[arg].name for arg in step.args]
-    if step.action is None or step.action.key != "join":
+    if step.action is not join:
         return ""  # a component, whose corner has no letter
     return "".join(symbol(end) for end in ends) if all(ends) else ""
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.construction.higher_class.trial_windows import Windows, narrowed
@@ -209,6 +210,12 @@ class Trying(Trial):
         with np.errstate(all="ignore"):
             sine = np.minimum(abs(across) / way, 1.0)
         return np.where(np.isfinite(sine), sine, 0.0)
+
+
+def closer_of(step: Step) -> ClosureSolver | None:
+    """What closes a group of higher class in a step; None for a step that closes none."""
+    value = step.action.value if step.action is not None else None
+    return value if isinstance(value, ClosureSolver) else None
 
 
 @dataclass(frozen=True, slots=True)
