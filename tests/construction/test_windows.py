@@ -5,7 +5,7 @@ import cmath
 import numpy as np
 import pytest
 
-from graphkin.construction.higher_class.trial_windows import (
+from graphkin.construction.higher_class.trial import (
     Windows,
     arcs_reach,
     line_reached,

@@ -13,8 +13,7 @@ from typing import Any
 
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import Action
-from graphkin.construction.higher_class.trial import MOST, Trial
-from graphkin.construction.higher_class.trial_windows import Windows, narrowed
+from graphkin.construction.higher_class.trial import MOST, Trial, Windows, narrowed
 from graphkin.numbers.arithmetic import FLOAT, phase
 from graphkin.numbers.kinds import kind_of
 from graphkin.numbers.roots import roots_and_touches

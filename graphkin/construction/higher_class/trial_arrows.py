@@ -8,17 +8,47 @@ from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane, Target
-from graphkin.construction.core.vocabulary import Action
+from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.sliding import slid
-from graphkin.construction.higher_class.trial_actions import (
-    after_component,
-    after_way,
-    along_component,
-    along_way,
-    before_component,
-    last_component,
-)
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Vector
 from graphkin.structure.groups import Higher
+
+
+@action("to-corner")
+def along_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The first leg of a way from one point of a plan to another: a component laid off."""
+    return Vector(start, start + component)
+
+
+@action("from-corner")
+def after_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The last leg of a way between two points of a plan, from the end of a component laid off."""
+    return Vector(start + component, tip)
+
+
+@action("to-corner")
+def along_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
+    """The first leg of such a way: as long as the one from a foot to a corner elsewhere."""
+    return Vector(start, start + (corner - foot))
+
+
+@action("from-corner")
+def after_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
+    """The last leg of such a way."""
+    return Vector(start + (corner - foot), tip)
+
+
+@action("to-corner")
+def before_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The first leg of a way whose last one is a component, laid off backwards from its tip."""
+    return Vector(start, tip - component)
+
+
+@action("from-corner")
+def last_component(start: Point, tip: Point, component: Point) -> Vector:
+    """A component as the last leg of a way between two points of a plan."""
+    return Vector(tip - component, tip)
 
 
 def relative_arrows(pen: Pen, name: str) -> None:
@@ -98,10 +128,10 @@ def legs(
     ``names`` are the index of the whole, the point that moves, and that about which it does.
     """
     index, of, about_which = names
-    for action, sign in zip((first, last), kinds, strict=True):
+    for leg, sign in zip((first, last), kinds, strict=True):
         symbol = f"a_{index}^{sign}"
         if symbol not in pen.arrows:
-            pen.vector(action, *args, of=PlanVector(symbol, of, about_which, sign))
+            pen.vector(leg, *args, of=PlanVector(symbol, of, about_which, sign))
 
 
 def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:
