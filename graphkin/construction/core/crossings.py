@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import asin, inf, sin
+
+from msgspec import Struct
 
 from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.kind import construction
@@ -14,8 +15,7 @@ FAR = 1e-3
 """Sine below which the lines to a centre are parallel on paper: it is at infinity."""
 
 
-@dataclass(frozen=True, slots=True)
-class Crossing:
+class Crossing(Struct, frozen=True):
     """A crossing of two lines or arcs: its step, its letter, its part of the work, its angle.
 
     ``angle`` is the one of the two angles that is not obtuse, in radians.
