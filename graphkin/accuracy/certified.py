@@ -16,7 +16,7 @@ from msgspec import Struct, field
 
 from graphkin.construction.core.program import Step, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.refining import in_doubles
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import is_ball
@@ -159,7 +159,7 @@ def formal_value(step: Step, args: Iterable[Any], values: Mapping[str, Any], bal
     try:
         if step.given is not None:
             return as_formal(step.given.value(values, FORMAL))
-        if step.action is None or isinstance(step.action.value, ClosureSolver):
+        if step.action is None or closer_of(step) is not None:
             return unknown(ball)
         return as_formal(step.action.value(*args, *step.extra))
     except IRRATIONAL:

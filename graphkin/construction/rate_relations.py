@@ -54,9 +54,9 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
         if value is None or number not in drawing.trace.values:
             continue
         step = program.steps[number]
-        name, action = symbol(f"{letter}_{link}"), step.action.key if step.action else ""
+        name = symbol(f"{letter}_{link}")
         tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
-        if action and step.name != link:
+        if step.action is not None and step.name != link:
             yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
         elif isinstance(kind := construction(step), TurningOfLink):
             yield kind.relation(drawing, tail)

@@ -11,8 +11,10 @@ from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.coriolis.coriolis import CoriolisComponent
 from graphkin.construction.higher_class.two_trials import with_trials_together
 from graphkin.construction.links.placed_point import with_starts_together
-from graphkin.construction.normal_component.component_words import with_normals_together
-from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.normal_component.normal_component import (
+    NormalComponent,
+    with_normals_together,
+)
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)

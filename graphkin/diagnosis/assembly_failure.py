@@ -11,8 +11,8 @@ from graphkin.construction.core.program import Part, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate
 from graphkin.construction.higher_class.closure_solver import (
     ClosingError,
-    ClosureSolver,
     MergingError,
+    closer_of,
     sign_table,
 )
 from graphkin.construction.higher_class.settling import BITS
@@ -109,8 +109,7 @@ def sought(program: Program, number: int) -> str:
     if links := closed_by(step):
         return f"links {', '.join(links)}"
     kind = construction(step)
-    ends = kind.points if kind is not None else (step.says.get(key, "") for key in "pq")
-    return step.name or "-".join(filter(None, ends))
+    return step.name or ("-".join(filter(None, kind.points)) if kind is not None else "")
 
 
 def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
@@ -159,9 +158,9 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
     """By how much a group of higher class fails to close, at the trial that comes nearest."""
     import numpy as np
 
-    action = failed.step.action
-    assert action is not None and isinstance(action.value, ClosureSolver)
-    trying = action.value.trying
+    closer = closer_of(failed.step)
+    assert closer is not None
+    trying = closer.trying
     if trying.facing is not None:
         return ""
     known = [np.atleast_1d(value) for value in failed.args_found]

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.branches import has_two_ways
 from graphkin.construction.core.program import Part, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.settling import run_settled, ways
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
@@ -84,7 +84,7 @@ def picks(program: Program, number: int, *, closing: bool) -> bool:
     if step.part is not Part.POSITION or step.hand or step.action is None:
         return False
     if closing:
-        return isinstance(step.action.value, ClosureSolver)
+        return closer_of(step) is not None
     return len(step.extra) in (1, 2) and step.extra[0] in (1, -1)
 
 
@@ -119,8 +119,8 @@ def dyad_closure(
 def numbered(scene: Scene, program: Program, number: int, point: str) -> tuple[GroupClosure, ...]:
     """All closures of a group of higher class, in the order of their numbers."""
     step = program.steps[number]
-    assert step.action is not None and isinstance(step.action.value, ClosureSolver)
-    closer = step.action.value
+    closer = closer_of(step)
+    assert closer is not None and step.action is not None
     alone = replace(program, targets={("", str(arg)): arg for arg in step.args})
     try:
         known = run_positions(scene, alone, alone.needed(alone.targets)).values

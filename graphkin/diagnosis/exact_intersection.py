@@ -17,7 +17,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, evaluate
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.numbers.exact import RATIONAL, Exact, IrrationalError
 from graphkin.numbers.kinds import ball_kind
 from graphkin.numbers.plane import Circle, Line
@@ -176,9 +176,7 @@ def proved_clearance(scene: Scene, program: Program, number: int) -> float | Non
     they do not, as at a touch, and behind a group of higher class."""
     step = program.steps[number]
     needed = program.behind(step.args)
-    if any(
-        isinstance(getattr(program.steps[n].action, "value", None), ClosureSolver) for n in needed
-    ):
+    if any(closer_of(program.steps[n]) is not None for n in needed):
         return None
     for bits in BITS:
         kind = ball_kind(bits)
@@ -218,6 +216,6 @@ def exact_value(
     if step.given is not None:
         return step.given.value(values, RATIONAL)
     assert step.action is not None
-    if step.action.margin is not None or isinstance(step.action.value, ClosureSolver):
+    if step.action.margin is not None or closer_of(step) is not None:
         raise IrrationalError(f"the crossing {step.name}")
     return step.action.value(*(found[arg] for arg in step.args), *step.extra)

@@ -21,7 +21,7 @@ from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.rate_relations import of_sum, of_turning
 from graphkin.construction.registry import COMPONENTS
-from graphkin.construction.rolling.contact_velocities import of_contacts
+from graphkin.construction.rolling.contact_points import of_contacts
 from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, symbol

@@ -22,7 +22,7 @@ from graphkin.web.body_binding import told
 from graphkin.web.body_pose import BodyPose, unit
 from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
 from graphkin.web.field_extents import must_be_seen
-from graphkin.web.step_binding import BEYOND_BOTH, FAR, Steps
+from graphkin.web.step_binding import FAR, Steps
 
 LABELS = ("label", "number", "leader")
 """The classes of a letter and of the circle and the leader that go with it."""
@@ -227,6 +227,6 @@ class MarkBindings(Struct, frozen=True, dict=True):
             return only_at_start
         low, high = binder.places.span(number, binder.field.mm)
         way = binder.places.way(number).conjugate()
-        near_low = abs(low) < abs(high) if self.steps.key(number) in BEYOND_BOTH else low < high
+        near_low = abs(low) < abs(high) if self.steps.part_of(number).is_locus else low < high
         end = pick(near_low, high, low)
         return binder.beside(BodyPose(binder.page(line.point) + way * end, way))

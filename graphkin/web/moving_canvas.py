@@ -31,6 +31,8 @@ class MovingCanvas(Struct):
     faces: Any = None
     swung: Ends | None = None
     is_beyond: bool = False
+    is_locus: bool = False
+    is_side: bool = False
     is_end: bool = False
     stands: Any = None
     is_cut: bool = False
@@ -97,7 +99,8 @@ class MovingCanvas(Struct):
     # --- plans -------------------------------------------------------------------------------
 
     def locus(self, name: str, text: str) -> None:
-        """The step's own line."""
+        """The step's own line beyond the points on it."""
+        self.is_locus = True
 
     def image(self) -> None:
         """The step's own point."""
@@ -107,6 +110,7 @@ class MovingCanvas(Struct):
 
     def side(self, start: Any, end: Any) -> None:
         """A side of the image of a link."""
+        self.is_side = True
         self.segment(start, end)
 
     def image_aside(self) -> None:

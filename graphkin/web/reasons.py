@@ -9,13 +9,11 @@ from graphkin.construction.core.auxiliary_plan import falls
 from graphkin.construction.core.component import is_hidden
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.link_poses import lettered
-from graphkin.construction.core.naming import names_in
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import TURNING
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import Words
 from graphkin.web.label_names import as_labelled
 
@@ -97,9 +95,4 @@ def fields(step: Step) -> dict[str, str]:
     kind = construction(step)
     if kind is not None:
         known |= kind.symbols()
-    says = {key: lettered(str(name)) for key, name in step.says.items() if name}
-    known |= names_in(says)
-    if "p" in says and "q" in says:
-        known["bar"] = bar(says["p"], says["q"])
-        known["letter"] = symbol(says["q"].lower())
     return known | {"name": symbol(step.name) if step.name else ""}

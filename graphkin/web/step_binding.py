@@ -30,8 +30,6 @@ from graphkin.web.visible_steps import ALIKE, VisibleSteps
 
 FULL, NEAR, FAR, LAST = 0, 1, 2, 3
 """The parts of a construction line: all of it, before its first point, after its last, its end."""
-BEYOND_BOTH = ("square-to", "parallel-to", "along-bar")
-"""The lines of a plan of which only the parts beyond their points are drawn."""
 SQUARE, ROOMY = 2.0, 6.0
 """Side of the mark of a right angle, and of a triangle that has room for one, in mm."""
 
@@ -153,7 +151,7 @@ class Steps(VisibleSteps, frozen=True, dict=True):
             return self.endless(*part.endless)
         for start, end in self.legs(number):
             if self.is_at(mark, start, end):
-                is_leg = cls in AUXILIARY or self.key(number) == "similar-point"
+                is_leg = cls in AUXILIARY or self.part_of(number).is_side
                 shown = self.apart(end, start) - SHORTEST if is_leg else self.seen(number)
                 return self.binder.between(start, end, shown=shown)
         if isinstance(self.drawn(number), Carrier) and number in self.layout.spans:
@@ -193,7 +191,7 @@ class Steps(VisibleSteps, frozen=True, dict=True):
     def is_short(self, mark: LineMark) -> bool:
         """Whether a mark is all there is of a line of which only the ends are drawn elsewhere."""
         number = mark.step
-        if number is None or self.key(number) not in BEYOND_BOTH:
+        if number is None or not self.part_of(number).is_locus:
             return False
         if number in self.binder.places.drawing.auxiliary or number not in self.layout.spans:
             return False
@@ -224,7 +222,7 @@ class Steps(VisibleSteps, frozen=True, dict=True):
         """Which part of its line a mark is."""
         if self.part_of(number).is_end:
             return LAST
-        if self.key(number) not in BEYOND_BOTH or number in self.binder.places.drawing.auxiliary:
+        if not self.part_of(number).is_locus or number in self.binder.places.drawing.auxiliary:
             return FULL
         low, high = self.layout.spans[number]
         if high - low <= 2 * BEYOND + TINY:

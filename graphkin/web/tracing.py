@@ -11,6 +11,7 @@ from msgspec import Struct, field
 
 from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.construction.core.run import Trace
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.mechanism import Mechanism
 from graphkin.motion.pieces import followed, through
@@ -183,6 +184,6 @@ class Tracing(Struct, frozen=True, dict=True):
 def closing_steps(trace: Trace) -> Iterator[tuple[int, Any]]:
     """The steps that close groups of higher class, in order, each with what closes it."""
     for number in sorted(trace.values):
-        action = trace.program.steps[number].action
-        if action is not None and action.key == "close":
-            yield number, action.value
+        closer = closer_of(trace.program.steps[number])
+        if closer is not None:
+            yield number, closer

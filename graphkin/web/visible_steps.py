@@ -38,11 +38,6 @@ class VisibleSteps(Struct, frozen=True):
         """A step of the program."""
         return self.binder.places.trace.program.steps[number]
 
-    def key(self, number: int) -> str:
-        """The key of its action."""
-        action = self.step(number).action
-        return action.key if action else "given"
-
     def value(self, number: int) -> Any:
         """Its value while it moves."""
         return self.binder.places.values[number]

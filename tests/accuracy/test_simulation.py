@@ -10,8 +10,9 @@ from graphkin.accuracy.pencil import Pencil, drawn, simulated
 from graphkin.accuracy.pencil.drawn_closing import followed
 from graphkin.accuracy.pencil.pencil import RADIAL
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark
-from graphkin.accuracy.pencil.redrawing import closer_of, read_off, redrawn
+from graphkin.accuracy.pencil.redrawing import read_off, redrawn
 from graphkin.construction.core.program import Plane
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
 from tests.accuracy.originals import D_AWAY, pump, scene

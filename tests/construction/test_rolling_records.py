@@ -43,12 +43,6 @@ def test_each_contact_has_one_record_with_its_wheel_and_what_that_rolls_on(name)
 
 
 @EVERY
-def test_steps_of_records_leave_their_words_to_them(name):
-    for step in mechanism(name).program.steps:
-        assert construction(step) is None or not step.says
-
-
-@EVERY
 def test_a_rolling_point_is_accelerated_along_the_radius_by_the_square_of_the_relative_rate(name):
     made = mechanism(name)
     trace = made.trace(made.asked())

@@ -7,7 +7,7 @@ import pytest
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.drivers.driver_relations import of_driver
-from graphkin.construction.rolling.contact_velocities import of_contacts
+from graphkin.construction.rolling.contact_points import of_contacts
 from graphkin.construction.vector_equations import of_equations
 from graphkin.drawing.symbol_markup import symbol
 from tests.chosen import CHOSEN

@@ -76,9 +76,9 @@ def built(name: str) -> tuple[nk.Work, dict[int, str]]:
     extra: list[Any] = []
     for parameter in inspect.signature(action.value).parameters.values():
         if parameter.kind is parameter.VAR_POSITIONAL:
-            many = "rrpp" if name == "trial_actions.reach" else "pp"
+            many = "rrpp" if name == "higher.reach" else "pp"
             args += [builder.leaf(shape) for shape in many]
-            extra += [2] if name == "trial_actions.reach" else []
+            extra += [2] if name == "higher.reach" else []
         elif parameter.annotation in ("int", "float"):
             extra.append(EXTRA[parameter.name])
         else:
@@ -152,7 +152,7 @@ def every(room: str) -> list[tuple[Any, ...]]:
 def test_the_vocabulary_is_there():
     assert len(STEPS) > 110
     assert {"vocabulary.meet", "coriolis.coriolis", "contact_points.rack_at"} <= set(STEPS)
-    assert "trial_actions.share" in STEPS
+    assert "two_trials.share" in STEPS
 
 
 @every_room

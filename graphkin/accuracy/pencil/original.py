@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Protocol
 
 from msgspec import Struct
 
@@ -13,11 +13,10 @@ from graphkin.construction.core.component import TriangleChoice, component_of
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import Trace
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 
-READ = {"omega", "epsilon"}
-"""Actions by which a hand divides a length that it reads off a plan by the length of a bar."""
 SAME = 1e-9
 """Share by which an arrow may differ from the vector that is read and still be it."""
 
@@ -103,7 +102,7 @@ class Original(Struct, frozen=True, dict=True):
         found = {}
         for number, value in self.trace.values.items():
             step = self.program.steps[number]
-            if step.action is not None and step.action.key == "epsilon" and step.args:
+            if isinstance(step.of, TurningOfLink) and step.of.quantity == "epsilon":
                 for tail in self.tangential_tails(step.args[3]):
                     if self.reads_alike(number, tail, value):
                         found[number] = tail
@@ -131,8 +130,3 @@ def original(
     trace = mechanism.trace(wanted, by_hand=True, seconds=scales.seconds)
     paper = Paper(scales.kL, scales.kv, scales.ka)
     return Original(trace, paper, wanted, scales.triangles, scales.apart > 0)
-
-
-def is_read(action: Any) -> bool:
-    """Whether an action divides a read length by a bar."""
-    return action is not None and action.key in READ

@@ -10,7 +10,7 @@ from msgspec import Struct
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Plane, Step
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.numbers.arithmetic import Point, Real, turn_by
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
@@ -42,7 +42,7 @@ LAID = {
 
 def mark_of(step: Step, value: Any) -> PencilMark | None:
     """The mark that a step puts on paper; None where it puts none, or only joins what is there."""
-    if step.action is not None and isinstance(step.action.value, ClosureSolver):
+    if closer_of(step) is not None:
         return PencilMark.CLOSING
     if step.plane is Plane.NUMBERS or isinstance(value, Vector):
         return None

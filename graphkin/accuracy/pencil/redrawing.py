@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from graphkin.accuracy.pencil.drawn_closing import followed
-from graphkin.accuracy.pencil.original import Original, is_read
+from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark, marked
-from graphkin.construction.core.program import Step
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.numbers.plane import cross
 
 Errors = Callable[[int, PencilMark], Any]
@@ -56,7 +56,7 @@ def unmarked(original: Original, number: int, found: Mapping[int, Any]) -> Any:
     if step.given is not None:
         return original.trace.values[number]
     assert step.action is not None
-    if is_read(step.action) and len(step.args) == 4:
+    if isinstance(step.of, TurningOfLink):
         return read_off(original, number, found)
     return step.action.value(*(found[arg] for arg in step.args), *step.extra)
 
@@ -79,10 +79,6 @@ def closed(original: Original, number: int, found: Mapping[int, Any], shift: Any
     step = original.program.steps[number]
     known = [found[arg] for arg in step.args]
     exact = original.trace.values[number]
-    return followed(closer_of(step), exact, known, shift)
-
-
-def closer_of(step: Step) -> ClosureSolver:
-    """What closes a group in a step that does."""
-    assert step.action is not None and isinstance(step.action.value, ClosureSolver)
-    return step.action.value
+    closer = closer_of(step)
+    assert closer is not None
+    return followed(closer, exact, known, shift)

@@ -8,6 +8,7 @@ from math import degrees, pi
 from graphkin.classroom.grading.slips import Slip, differs, unit_ratios
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.program import Plane
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 
 POWERS = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
 
@@ -99,14 +100,14 @@ def of_unit(standard: Standard, field: str) -> Iterator[Way]:
 def rates_of(standard: Standard, number: int) -> Iterator[Way]:
     """Rates that are reckoned from another vector than the one that is square to the bar."""
     step, values = standard.mechanism.program.steps[number], standard.exact.trace.values
-    if len(step.args) != 4 or step.action is None:
+    if not isinstance(step.of, TurningOfLink):
         return
     p, q, tail, tip = (values[arg] for arg in step.args)
     bar = abs(q - p)
-    if step.action.key == "omega":
+    if step.of.quantity == "omega":
         yield "absolute_for_relative", "tip", abs(tip) / bar
         yield "absolute_for_relative", "tail", abs(tail) / bar
-    elif step.action.key == "epsilon":
+    else:
         whole = (tip - tail) / (q - p)
         yield "normal_for_tangential", "", abs(whole.real)
         yield "whole_for_tangential", "", abs(whole)

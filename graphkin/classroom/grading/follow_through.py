@@ -20,6 +20,8 @@ from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.quantities import TURNING
+from graphkin.construction.core.vocabulary import part_along
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 
 EASY = 0.1
 """Part of the right value below which an own value, or what follows from it, is too easy."""
@@ -184,12 +186,12 @@ def closing(
     """
     probe = standard.by_field[field]
     step = standard.mechanism.program.steps[probe.step]
-    key = step.action.key if step.action is not None else ""
-    if probe.vector or probe.item.what != "value" or key not in (*TURNING, "part-along"):
+    turns = isinstance(step.of, TurningOfLink)
+    if probe.vector or probe.item.what != "value" or not (turns or step.action is part_along):
         return
     *line, tail, tip = step.args
     start = standard.exact.tails.get(probe.step, tail)
-    bar = abs(found[line[1]] - found[line[0]]) if key in TURNING else 1.0
+    bar = abs(found[line[1]] - found[line[0]]) if turns else 1.0
     length = float(abs(found[tip] - found[start]) / bar)
     yield length if told >= 0 else -length
 

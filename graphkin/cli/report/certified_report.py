@@ -26,7 +26,7 @@ from graphkin.construction.core.solution import (
     Solution,
     Verdict,
 )
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.diagnosis.assembly_failure import not_found, why
 from graphkin.documents.centre_tables import carried, with_pole
 from graphkin.mechanism import Mechanism
@@ -142,9 +142,8 @@ def place_of(ratio: Ratio) -> Any:
 def singular_words(scene: Scene, program: Program, failed: StepFailed) -> str:
     """Why a step cannot be drawn in balls, in the words of a step that fails in floats."""
     action, reason = failed.step.action, "the ball does not tell where"
-    if action is not None and (
-        action.margin is not None or isinstance(action.value, ClosureSolver)
-    ):
+    crosses = action is not None and action.margin is not None
+    if crosses or closer_of(failed.step) is not None:
         reason = why(scene, program, failed)
     problem = not_found(program, failed.number, reason, "")
     return f"singular within the ball: {problem.place}: {problem.found}"

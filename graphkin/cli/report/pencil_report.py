@@ -9,7 +9,13 @@ from typing import Any
 from graphkin.accuracy.pencil import Forecast
 from graphkin.accuracy.pencil.forecast import Expected
 from graphkin.cli.report.solution_record import real
-from graphkin.construction.core.crossings import CLOSED, Crossing, crossings, flattest, letter_of
+from graphkin.construction.core.crossings import (
+    Crossing,
+    crossings,
+    flattest,
+    is_found_by_closing,
+    letter_of,
+)
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Program, Step
@@ -220,8 +226,7 @@ def line_words(program: Program, step: Step) -> str:
 
 def lines_words(program: Program, number: int) -> str:
     """The two lines or arcs of a crossing; nothing where they are not told."""
-    action = program.steps[number].action
-    if action is not None and action.key == CLOSED:
+    if is_found_by_closing(program.steps[number]):
         return "the locus and what was cut"
     both = [line_words(program, program.steps[arg]) for arg in program.steps[number].args[:2]]
     return " and ".join(both) if len(both) == 2 and all(both) else ""

@@ -7,13 +7,12 @@ from math import asin, inf, sin
 from msgspec import Struct
 
 from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.run import Trace
 
 FAR = 1e-3
 """Sine below which the lines to a centre are parallel on paper: it is at infinity."""
-CLOSED = "part"
-"""The action that takes a value from what closes a group; its first one is where loci cross."""
 
 
 class Crossing(Struct, frozen=True):
@@ -49,16 +48,16 @@ def crossings(trace: Trace) -> tuple[Crossing, ...]:
 
 def is_drawn(step: Step, sine: float) -> bool:
     """Whether a step with a margin is a crossing on paper."""
-    key = step.action.key if step.action is not None else ""
     centre = step.part in (Part.CENTRE, Part.POLE)
-    first = key != CLOSED or step.extra == (0,)
+    first = not is_found_by_closing(step) or step.role == "tried"
     angle = not isinstance(step.of, Determined) or step.of.has_angle
     return step.part is not Part.SHAPE and angle and first and not (centre and sine < FAR)
 
 
 def is_found_by_closing(step: Step) -> bool:
     """Whether a step holds a value at which a group of higher class was found to close."""
-    return step.action is not None and step.action.key == CLOSED
+    kind = construction(step)
+    return kind is not None and bool(kind.closes) and step.role != "closing"
 
 
 def flattest(found: tuple[Crossing, ...]) -> Crossing | None:

@@ -15,6 +15,7 @@ from graphkin.construction.core.program import Part, PlanAside, Plane, Step
 from graphkin.construction.core.quantities import MOTION, PLANES, RATE, SLIDING, MotionQuantity
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
+from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.scale import Extent, Scales, extent_of
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.scene.model import FRAME, Scene, Slide
@@ -182,7 +183,7 @@ class Drawing(Struct, frozen=True, dict=True):
         return {
             (step.args[0], step.args[1]): step
             for step in self.trace.program.steps
-            if step.arrow and step.action is not None and step.action.key == "join"
+            if step.arrow and step.action is join
         }
 
     @cached_property

@@ -154,9 +154,7 @@ def construction(step: Step) -> Construction | None:
 def lies_along(step: Step) -> str:
     """The guide, track or bar along which a line lies, in a report; nothing for other steps."""
     kind = construction(step)
-    if kind is not None:
-        return kind.lies_along
-    return f"the guide of {step.says['g']}" if "g" in step.says else ""
+    return kind.lies_along if kind is not None else ""
 
 
 def constructions(program: Program, kind: type[K]) -> Iterator[K]:

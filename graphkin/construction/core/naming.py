@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
+from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import Driver
@@ -61,7 +60,7 @@ def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
 def segment_of(drawing: Drawing, step: Step) -> str:
     """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
     ends = [drawing.trace.program.steps[arg].name for arg in step.args]
-    if step.action is None or step.action.key != "join":
+    if step.action is not join:
         return ""  # a component, whose corner has no letter
     return "".join(symbol(end) for end in ends) if all(ends) else ""
 
@@ -118,9 +117,3 @@ def drawn_amount(drawing: Drawing, metres: float) -> str:
 def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
     """How a vector of a given size is drawn in a plan."""
     return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
-
-
-def names_in(says: Mapping[str, str]) -> dict[str, str]:
-    """The names of a step as markup."""
-    found = {key: symbol(str(value)) for key, value in says.items()}
-    return found | {key: escape(says[key]) for key in ("j", "k", "g", "h", "l") if key in says}

@@ -35,9 +35,6 @@ from graphkin.structure.pairs import Sliding, turns
 from graphkin.structure.turn_counting import counted_near
 from graphkin.text.errors import ClosureError
 
-Says = dict[str, Any]
-"""The names that a sentence needs."""
-
 R = TypeVar("R", bound=Roles)
 
 PRIME = "\N{PRIME}"
@@ -101,7 +98,6 @@ class Pen:
         name: str = "",
         extra: tuple[float, ...] = (),
         by_hand: int | None = None,
-        **says: Any,
     ) -> int:
         """Add a step that follows from earlier ones."""
         aside = self.auxiliary if self.plane in (Plane.VELOCITIES, Plane.ACCELERATIONS) else None
@@ -118,7 +114,6 @@ class Pen:
                 None,
                 by_hand,
                 self.hand,
-                says=says,
                 effect=self.effect,
                 aside=aside,
             )
@@ -130,9 +125,9 @@ class Pen:
             self.steps[number] = replace(self.steps[number], of=construction, role=role)
         return construction
 
-    def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **says: Any) -> int:
+    def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **more: Any) -> int:
         """Add a step that others will ask for again under a key."""
-        self.shared[key] = self.draw(action, *args, **says)
+        self.shared[key] = self.draw(action, *args, **more)
         return self.shared[key]
 
     def choice(self, dyad: Dyad) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -147,14 +142,12 @@ class Pen:
         stays = dyad.type == "RRP" and block_of(dyad) not in dyad.links
         return (), (-way_of(self.scene, dyad) if stays else way_of(self.scene, dyad),)
 
-    def arrow(self, action: Action, *args: int, name: str, **says: Any) -> int:
+    def arrow(self, action: Action, *args: int, name: str) -> int:
         """Add an arrow: drawn where its ends are, used by no other step, in no auxiliary plan."""
         if self.layer is not None:
             return -1
         self.arrows.add(name)
-        return self._add(
-            Step(action, args, self.part, self.plane, name, hand=True, arrow=True, says=says)
-        )
+        return self._add(Step(action, args, self.part, self.plane, name, hand=True, arrow=True))
 
     def vector(self, action: Action, *args: int, of: PlanVector, name: str = "") -> None:
         """Add the arrow of a vector, under its own symbol unless another name is told."""

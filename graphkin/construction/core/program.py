@@ -6,7 +6,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from typing import Any, ClassVar
 
-from msgspec import Struct, field
+from msgspec import Struct
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.vocabulary import Action
@@ -94,11 +94,11 @@ class PlanAside:
 
 
 class Step(Struct, frozen=True):
-    """One step: an action on earlier steps, or a given value, with the words its sentence needs.
+    """One step: an action on earlier steps, or a given value.
 
     ``by_hand`` is the step that gives the same value in the hand's way; ``hand`` marks steps that
     only that way uses, ``arrow`` those that are only drawn. ``name`` is the letter on
-    the drawing, ``says`` the names in the sentence. ``effect`` is what of the motion the step is
+    the drawing. ``effect`` is what of the motion the step is
     drawn for, None where its part of the work says it. ``of`` is the construction that it is part
     of, ``role`` what it is there, ``aside`` the auxiliary plan in which it is drawn.
     """
@@ -113,7 +113,6 @@ class Step(Struct, frozen=True):
     by_hand: int | None = None
     hand: bool = False
     arrow: bool = False
-    says: Mapping[str, str] = field(default_factory=dict)
     effect: Effect | None = None
     of: Roles | None = None
     role: str = ""

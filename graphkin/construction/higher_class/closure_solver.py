@@ -12,6 +12,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.flat_dyads import fits_beside
 from graphkin.construction.higher_class.trial import MOST, Trial
@@ -236,6 +237,12 @@ class Trying(Trial, frozen=True, dict=True):
         with np.errstate(all="ignore"):
             sine = np.minimum(abs(across) / way, 1.0)
         return np.where(np.isfinite(sine), sine, 0.0)
+
+
+def closer_of(step: Step) -> ClosureSolver | None:
+    """What closes a group of higher class in a step; None for a step that closes none."""
+    value = step.action.value if step.action is not None else None
+    return value if isinstance(value, ClosureSolver) else None
 
 
 class ClosureSolver(Struct, frozen=True):

@@ -6,37 +6,26 @@ Once the place of one link is known the others follow as dyads.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from msgspec import Struct
 
 from graphkin.construction.core.bases import Base, bases, ending, trial_base
 from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import coordinate
+from graphkin.construction.core.program import Given, Part, Plane, Step
+from graphkin.construction.core.vocabulary import action, coordinate
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
 from graphkin.construction.guides.guides import axis, known_guide, path_of, standing_guide
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
-from graphkin.construction.higher_class.trial_actions import (
-    beside_line,
-    cosine_between,
-    excess,
-    from_to,
-    inverse,
-    less,
-    on_line,
-    part,
-    product,
-    reach,
-    sine_between,
-)
-from graphkin.construction.higher_class.trial_pen import TrialPen
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import plate_points
 from graphkin.construction.links.position import set_on_guide
 from graphkin.construction.rolling import rolling
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, TriedLink
 from graphkin.structure.joints import partner
@@ -44,6 +33,79 @@ from graphkin.structure.pairs import Contact, Pin, Sliding
 
 Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 """How one group is put down: the function of the compiler for one of the three plans."""
+
+
+@action("part", margin=lambda closing, place: closing[-1])
+def part(closing: tuple[Any, ...], place: int) -> Any:
+    """One of the values that close a group: the tried one, or a dyad's sign."""
+    return closing[place]
+
+
+@action("excess")
+def excess(p: Point, q: Point, length: Real) -> Real:
+    """By how much two points stand farther apart than a bar is long."""
+    return abs(q - p) - length
+
+
+@action("from-to")
+def from_to(p: Point, q: Point) -> Point:
+    """The way from one point to another."""
+    return q - p
+
+
+@action("on-line")
+def on_line(line: Line, point: Point) -> Point:
+    """A point in the axes of a line: how far along it, and how far to its left."""
+    return (point - line.point) * line.along.conjugate() / abs(line.along)
+
+
+@action("beside-line")
+def beside_line(line: Line, point: Point) -> Real:
+    """How far a point stands to the left of a line."""
+    return cross(line.along, point - line.point) / abs(line.along)
+
+
+@action("less")
+def less(a: Real, b: Real) -> Real:
+    """What a number has too much."""
+    return a - b
+
+
+@action("sine-between")
+def sine_between(axis: Point, other: Point) -> Real:
+    """Sine of the angle from one direction to another; nought where they agree or are opposed."""
+    return cross(other, axis)
+
+
+@action("cosine-between")
+def cosine_between(axis: Point, other: Point) -> Real:
+    """Cosine of the angle between two directions: positive where they agree."""
+    return dot(other, axis)
+
+
+@action("inverse")
+def inverse(seconds: Real) -> Real:
+    """The rate of one radian in a time."""
+    return 1 / seconds
+
+
+@action("product")
+def product(a: Real, b: Real) -> Real:
+    """The product of two numbers."""
+    return a * b
+
+
+@action("reach")
+def reach(line: Line, *rest: Any) -> Real:
+    """How far from a line's own point the bars of a group allow: ``rest`` are so many lengths,
+    then the known points, then how many lengths there are."""
+    *values, count = rest
+    total: Real = 0.0
+    for length in values[:count]:
+        total = total + abs(length)
+    for place in values[count:]:
+        total = total + abs(place - line.point)
+    return 1.01 * total
 
 
 def position(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
@@ -254,3 +316,54 @@ def known_points(pen: Pen, group: Higher) -> list[str]:
     parent = pen.parent if isinstance(pen, TrialPen) else pen
     points = dict.fromkeys(p for name in group.links for p in pen.scene.link(name).points)
     return [point for point in points if parent.has("position", point)]
+
+
+class TrialPen(Pen):
+    """Writes a program of its own; ``inputs`` maps each of its inputs to the real pen's step."""
+
+    def __init__(self, parent: Pen) -> None:
+        super().__init__(parent.scene)
+        self.parent = parent
+        self.bases |= parent.bases
+        self.leads |= parent.leads
+        self.turning = parent.turning
+        self.inputs: dict[int, int] = {}
+
+    def input_step(self) -> int:
+        """A step whose value comes from outside."""
+        return self._add(Step(None, (), Part.POSITION, Plane.NUMBERS, given=Given("input", ())))
+
+    def given(
+        self, form: str, *quantities: Any, name: str = "", of: int | str | None = None
+    ) -> int:
+        """A value that the scene states comes in too, so that it may vary in a batch."""
+        number = self.parent.given(form, *quantities, name=name, of=of)
+        key = ("given", number)
+        if key not in self.shared:
+            self.shared[key] = self.input_step()
+            self.inputs[self.shared[key]] = number
+        return self.shared[key]
+
+    def keep_inputs(self, *results: int | None) -> None:
+        """Let go of the inputs that neither a step nor a result uses, such as a driver's speed."""
+        used = {*results, *(arg for step in self.steps for arg in step.args)}
+        self.inputs = {own: known for own, known in self.inputs.items() if own in used}
+
+    def peek(self, number: int) -> Any:
+        """Value of a step at the scene's own numbers; None where it hangs on what is tried."""
+        for step, known in self.inputs.items():
+            if step not in self.peeked:
+                self.peeked[step] = self.parent.peek(known)
+        return super().peek(number)
+
+    def has(self, quantity: str, of: str) -> bool:
+        """True when a quantity has been constructed here, or by the real pen."""
+        return super().has(quantity, of) or self.parent.has(quantity, of)
+
+    def the(self, quantity: str, of: str) -> int:
+        """The step that carries a quantity; one of the real pen's comes in as an input."""
+        if not super().has(quantity, of):
+            number = self.input_step()
+            self.inputs[number] = self.parent.the(quantity, of)
+            self.targets[quantity, of] = number
+        return super().the(quantity, of)

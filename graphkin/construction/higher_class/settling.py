@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.program import Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, run
-from graphkin.construction.higher_class.closure_solver import ClosureSolver, MergingError
+from graphkin.construction.higher_class.closure_solver import MergingError, Trying, closer_of
 from graphkin.construction.higher_class.merging import merged
 from graphkin.construction.higher_class.refining import in_doubles
 from graphkin.numbers.arithmetic import FLOAT
@@ -42,7 +42,7 @@ def ways(scene: Scene, program: Program, number: int, known: Sequence[Any]) -> i
     """In how many ways a step closes its group on known floats; how many of them are sure to come
     before two that merge, where balls do not decide whether these have."""
     step = program.steps[number]
-    trying = closer_of(step).trying
+    trying = trying_of(step)
     closures = trying.closures_of(known)
     sure = closures.before(0)
     if closures.merging_at(sure + 1) is None:
@@ -52,15 +52,16 @@ def ways(scene: Scene, program: Program, number: int, known: Sequence[Any]) -> i
     return sure if found is None else len(found)
 
 
-def closer_of(step: Step) -> ClosureSolver:
-    """What closes the group of a step."""
-    assert step.action is not None and isinstance(step.action.value, ClosureSolver)
-    return step.action.value
+def trying_of(step: Step) -> Trying:
+    """The trial by which a step closes a group."""
+    closer = closer_of(step)
+    assert closer is not None
+    return closer.trying
 
 
 def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
     """Whether balls now tell the closures of a group and were not asked before."""
-    known, settled = failed.args_found, closer_of(failed.step).trying.settled
+    known, settled = failed.args_found, trying_of(failed.step).settled
     if known in settled:
         return False
     settle(scene, program, failed.step, known)
@@ -69,7 +70,7 @@ def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
 
 def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -> None:
     """Let the trial of a step keep what balls tell of its closures on known floats."""
-    trying = closer_of(step).trying
+    trying = trying_of(step)
     closures, found = trying.closures_of(known), None
     before = replace(program, targets={("", str(n)): n for n in step.args})
     needed = before.needed(before.targets)

@@ -2,26 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.bases import under
-from graphkin.construction.core.pen import Pen, Says, about, letter
+from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane, Target
-from graphkin.construction.core.vocabulary import Action
+from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.sliding import slid
-from graphkin.construction.higher_class.trial_actions import (
-    after_component,
-    after_way,
-    along_component,
-    along_way,
-    before_component,
-    last_component,
-)
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Vector
 from graphkin.structure.groups import Higher
+
+
+@action("to-corner")
+def along_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The first leg of a way from one point of a plan to another: a component laid off."""
+    return Vector(start, start + component)
+
+
+@action("from-corner")
+def after_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The last leg of a way between two points of a plan, from the end of a component laid off."""
+    return Vector(start + component, tip)
+
+
+@action("to-corner")
+def along_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
+    """The first leg of such a way: as long as the one from a foot to a corner elsewhere."""
+    return Vector(start, start + (corner - foot))
+
+
+@action("from-corner")
+def after_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
+    """The last leg of such a way."""
+    return Vector(start + (corner - foot), tip)
+
+
+@action("to-corner")
+def before_component(start: Point, tip: Point, component: Point) -> Vector:
+    """The first leg of a way whose last one is a component, laid off backwards from its tip."""
+    return Vector(start, tip - component)
+
+
+@action("from-corner")
+def last_component(start: Point, tip: Point, component: Point) -> Vector:
+    """A component as the last leg of a way between two points of a plan."""
+    return Vector(tip - component, tip)
 
 
 def relative_arrows(pen: Pen, name: str) -> None:
@@ -53,8 +80,8 @@ def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range)
         for pivot, pin, vector in normals_of(pen, group):
             relative_arrow(pen, pin, pivot)
             ends = pen.the("acceleration", pivot), pen.the("acceleration", pin)
-            says: Says = {"i": about(pen, pin, pivot), "q": letter(pin), "p": letter(pivot)}
-            legs(pen, "ντ", along_component, after_component, (*ends, vector), says)
+            names = about(pen, pin, pivot), letter(pin), letter(pivot)
+            legs(pen, "ντ", along_component, after_component, (*ends, vector), names)
         for number in tried:
             sliding_legs(pen, right, number)
 
@@ -65,8 +92,8 @@ def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
     if not isinstance(turned, TurnedAcceleration) or turned.image != number or number not in right:
         return
     ends = right.get(turned.start, turned.start), right[number]
-    says: Says = {"i": turned.index, "q": turned.q, "p": turned.p}
-    legs(pen, "ντ", along_way, after_way, (*ends, turned.start, turned.end), says)
+    names = turned.index, turned.q, turned.p
+    legs(pen, "ντ", along_way, after_way, (*ends, turned.start, turned.end), names)
 
 
 def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
@@ -79,13 +106,13 @@ def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
         return
     laid, component = found
     start, vector = (right.get(arg, arg) for arg in pen.steps[number].args)
-    says: Says = {"i": component.index, "q": component.point, "p": ""}
+    names = component.index, component.point, ""
     if not laid.back:
         ends = start, pen.the("acceleration", component.point)
-        legs(pen, "cr", along_component, after_component, (*ends, vector), says)
+        legs(pen, "cr", along_component, after_component, (*ends, vector), names)
     else:
         ends = pen.the("acceleration", under(component.point, component.guide)), start
-        legs(pen, "rc", before_component, last_component, (*ends, vector), says)
+        legs(pen, "rc", before_component, last_component, (*ends, vector), names)
 
 
 def legs(
@@ -94,13 +121,17 @@ def legs(
     first: Action,
     last: Action,
     args: tuple[int, ...],
-    says: Mapping[str, Any],
+    names: tuple[str, str, str],
 ) -> None:
-    """The arrows of both legs of a way in the plan, each under the sign of its component."""
-    for action, sign in zip((first, last), kinds, strict=True):
-        symbol = f"a_{says['i']}^{sign}"
+    """The arrows of both legs of a way in the plan, each under the sign of its component.
+
+    ``names`` are the index of the whole, the point that moves, and that about which it does.
+    """
+    index, of, about_which = names
+    for leg, sign in zip((first, last), kinds, strict=True):
+        symbol = f"a_{index}^{sign}"
         if symbol not in pen.arrows:
-            pen.vector(action, *args, of=PlanVector(symbol, says["q"], says["p"], sign))
+            pen.vector(leg, *args, of=PlanVector(symbol, of, about_which, sign))
 
 
 def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:

@@ -24,7 +24,10 @@ from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.result_tables import sense
 from graphkin.construction.step_sentences import point_sentence
+from graphkin.construction.velocity.crossed_image import CrossedImage
+from graphkin.construction.velocity.image_of_link import ImageOfLink
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffAboutPivot, LaidOffByRate
+from graphkin.construction.velocity.translated_image import TranslatedImage
 from graphkin.drawing.style import OWN_LINES
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Line as Carrier
@@ -64,7 +67,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         """
         steps = drawing.trace.program.steps
         step = steps[number]
-        if step.action is not None and step.action.key == "alike":
+        if isinstance(step.of, TranslatedImage):
             return ""
         before = list(drawn_from(drawing, number))
         apart = (drawn_between(drawing, other, number, step.plane) for other in before)
@@ -239,7 +242,7 @@ def amount(drawing: Drawing, size: float, unit: str) -> str:
 
 def leg_start(drawing: Drawing, step: Step) -> int | None:
     """The step from which one lays off a vector of the plan; None where two lines cross."""
-    if step.action is None or step.action.key in ("meet", "similar-point", "alike"):
+    if step.action is None or isinstance(step.of, CrossedImage | ImageOfLink | TranslatedImage):
         return None
     start = step.args[0]
     return start if drawing.trace.program.steps[start].plane is drawing.plane else None

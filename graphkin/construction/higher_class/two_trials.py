@@ -23,7 +23,7 @@ from graphkin.construction.core.pen import Pen, image, second_image
 from graphkin.construction.core.program import Part, Plane, Program, Target
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.sentence import Sentence, in_one, together
-from graphkin.construction.core.vocabulary import distance, part_along, sum_of
+from graphkin.construction.core.vocabulary import action, distance, part_along, sum_of
 from graphkin.construction.guides.coincident_points import image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
@@ -35,7 +35,7 @@ from graphkin.construction.higher_class.divided_point import (
     crossed_point,
     crossing,
 )
-from graphkin.construction.higher_class.higher import Each, slide_of
+from graphkin.construction.higher_class.higher import Each, inverse, less, product, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
     DrivenMisclosure,
@@ -44,14 +44,6 @@ from graphkin.construction.higher_class.misclosure import (
     lacks,
     lacks_across,
 )
-from graphkin.construction.higher_class.trial_actions import (
-    far,
-    inverse,
-    less,
-    product,
-    share,
-    share_on_line,
-)
 from graphkin.construction.higher_class.trial_arrows import components, relative_arrows
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -59,6 +51,8 @@ from graphkin.construction.normal_component.normal_component import normal_compo
 from graphkin.construction.velocity import velocity as velocities
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.joints import partner
@@ -68,6 +62,28 @@ TAGS = tuple(MARKED)
 """What the points of the two plans bear behind their names."""
 GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
 """What two trial plans miss."""
+
+
+@action("far")
+def far(p: Point, *others: Point) -> Real:
+    """How far some points lie from a point in the mean."""
+    total: Real = 0.0
+    for other in others:
+        total = total + abs(other - p)
+    return total / len(others)
+
+
+@action("share")
+def share(first: Real, second: Real) -> Real:
+    """Where between two trials the misfit vanishes: it grows in proportion."""
+    return first / (first - second)
+
+
+@action("share-on-line")
+def share_on_line(first: Point, second: Point, found: Point) -> Real:
+    """The same share as it is measured on the line of the two trials of a point."""
+    way = second - first
+    return dot(way, found - first) / dot(way, way)
 
 
 class TwoTrials(Construction, frozen=True):

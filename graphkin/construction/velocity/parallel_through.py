@@ -82,7 +82,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         for child in drawing.children.get(self.line, ()):
             user = steps[drawing.results.get(child, child)]
             kind = construction(user)
-            if found := kind.sought if kind else user.says.get("q", ""):
+            if found := kind.sought if kind else "":
                 return found
         return ""
 
