@@ -15,7 +15,7 @@ from itertools import islice, takewhile
 from graphkin.construction.core.component import as_drawn, may_give_way
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, Target
-from graphkin.construction.core.quantities import SHEETS, is_found_on
+from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.solution import Curve, Solution, Verdict
 from graphkin.documents.scale_check import refuse_dots
@@ -64,7 +64,7 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
     asked = [target for target in mechanism.asked() if is_found_on(kind, target)]
     if kind == "velocity":
         later = targets_of(mechanism, "acceleration")
-        asked += mechanism.program.also_found(later, ("velocity", "omega"), asked)
+        asked += mechanism.program.also_found(later, ("velocity", OMEGA), asked)
     if not asked and not (kind == "velocity" and (ask.curves or ask.centrodes)):
         return ()
     positions = [

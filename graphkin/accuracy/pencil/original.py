@@ -11,12 +11,11 @@ from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
 from graphkin.construction.core.component import TriangleChoice, component_of
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.quantities import EPSILON, TURNING
 from graphkin.construction.core.run import Trace
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 
-READ = {"omega", "epsilon"}
-"""Actions by which a hand divides a length that it reads off a plan by the length of a bar."""
 SAME = 1e-9
 """Share by which an arrow may differ from the vector that is read and still be it."""
 
@@ -103,7 +102,7 @@ class Original:
         found = {}
         for number, value in self.trace.values.items():
             step = self.program.steps[number]
-            if step.action is not None and step.action.key == "epsilon" and step.args:
+            if step.action is not None and step.action.key == EPSILON and step.args:
                 for tail in self.tangential_tails(step.args[3]):
                     if self.reads_alike(number, tail, value):
                         found[number] = tail
@@ -134,5 +133,5 @@ def original(
 
 
 def is_read(action: Any) -> bool:
-    """Whether an action divides a read length by a bar."""
-    return action is not None and action.key in READ
+    """Whether a hand divides a length that it reads off a plan by the length of a bar."""
+    return action is not None and action.key in TURNING

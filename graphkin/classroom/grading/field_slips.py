@@ -8,6 +8,7 @@ from math import degrees, pi
 from graphkin.classroom.grading.slips import Slip, differs, unit_ratios
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 
 POWERS = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
 
@@ -79,7 +80,7 @@ def of_rate(standard: Standard, field: str) -> Iterator[Way]:
     yield "length_not_scaled", "", right * standard.paper.mechanism
     yield "wrong_scale", "without lengths", right / standard.paper.mechanism
     yield from rates_of(standard, number)
-    if standard.by_field[field].item.quantity == "omega":
+    if standard.by_field[field].item.quantity == OMEGA:
         yield "rate_in_degrees", "", degrees(right)
         yield "rate_in_turns", "", right * 30 / pi
 
@@ -103,10 +104,10 @@ def rates_of(standard: Standard, number: int) -> Iterator[Way]:
         return
     p, q, tail, tip = (values[arg] for arg in step.args)
     bar = abs(q - p)
-    if step.action.key == "omega":
+    if step.action.key == OMEGA:
         yield "absolute_for_relative", "tip", abs(tip) / bar
         yield "absolute_for_relative", "tail", abs(tail) / bar
-    elif step.action.key == "epsilon":
+    elif step.action.key == EPSILON:
         whole = (tip - tail) / (q - p)
         yield "normal_for_tangential", "", abs(whole.real)
         yield "whole_for_tangential", "", abs(whole)
