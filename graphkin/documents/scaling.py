@@ -73,6 +73,14 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
     return (*positions, *asked)
 
 
+def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
+    """What is drawn on each sheet; everything on both where nothing is asked."""
+    asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
+    if not any(asked.values()):
+        return dict.fromkeys(SHEETS, mechanism.program.answers)
+    return {kind: found for kind, found in asked.items() if found}
+
+
 def shown(mechanism: Mechanism) -> Solution:
     """The motion that the sheets show: where everything stands, and of the rest what is asked."""
     targets = dict.fromkeys(t for kind in SHEETS for t in targets_of(mechanism, kind))
@@ -242,14 +250,10 @@ def extents(trials: list[Drawing]) -> list[tuple[Extent, Extent]]:
 
 def trials_of(mechanism: Mechanism, curves: tuple[Curve, ...], scales: Scales) -> list[Drawing]:
     """The material of each sheet at full size, a velocity drawn as its way in some time."""
-    asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
-    if not any(asked.values()):
-        asked = dict.fromkeys(SHEETS, mechanism.program.answers)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return [
         drawing(mechanism, kind, found, replace(scales, kL=1.0), nobody, words("en"), curves)
-        for kind, found in asked.items()
-        if found
+        for kind, found in sheet_targets(mechanism).items()
     ]
 
 

@@ -17,6 +17,7 @@ from graphkin.accuracy.pencil.forecast import BENT, JOINT, NORMAL_95, SEED, WEIG
 from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark
+from graphkin.accuracy.pencil.read_off import bar_of
 from graphkin.accuracy.pencil.redrawing import redrawn
 from graphkin.accuracy.pencil.simulation import COMMON
 from graphkin.classroom.grading.probes import Probe
@@ -198,16 +199,7 @@ def ruler_unit(reading: Reading) -> float:
     mm = exact.paper.millimetre(probe.plane)
     if not probe.item.unit.startswith("rad"):
         return mm
-    return mm / bar_length(exact, probe.step)
-
-
-def bar_length(exact: Original, number: int) -> float:
-    """The length of the bar over which a rate is reckoned; infinite where none is."""
-    step = exact.program.steps[number]
-    if len(step.args) != 4:
-        return inf
-    p, q = (exact.trace.values[arg] for arg in step.args[:2])
-    return abs(q - p) if isinstance(p, complex) and isinstance(q, complex) else inf
+    return mm / bar_of(exact, exact.program.steps[probe.step])
 
 
 def extent(exact: Original) -> float:

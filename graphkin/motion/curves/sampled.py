@@ -8,7 +8,6 @@ import numpy as np
 
 from graphkin.construction.core.solution import Solution
 from graphkin.motion.cycle import Cycle
-from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import SI
 
@@ -130,9 +129,3 @@ def turning_links(scene: Scene, solution: Solution) -> list[str]:
         for name, motion in solution.links.items()
         if name not in driven and motion.omega is not None and np.any(motion.omega)
     ]
-
-
-def centre_of(ratio: Ratio) -> np.ndarray:
-    """The places of a centre; inf or NaN where it is far away."""
-    with np.errstate(all="ignore"):
-        return np.asarray(ratio.start + ratio.shift / ratio.size)
