@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -120,6 +120,64 @@ class Original:
         p, q, _, tip = (self.trace.values[arg] for arg in self.program.steps[number].args)
         read = cross(q - p, tip - self.trace.values[tail]) / abs(q - p) ** 2
         return bool(abs(read - value) <= SAME * max(abs(value), abs(tip) / abs(q - p)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Originals(Original):
+    """The constructions of several variants that draw the same: each value holds a row for each
+    variant, or stands alone where all share it; ``like`` is the first of them.
+    """
+
+    like: Original
+
+    @cached_property
+    def marks(self) -> Mapping[int, PencilMark]:
+        """Those of the first."""
+        return self.like.marks
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """That of the first."""
+        return self.like.order
+
+    @cached_property
+    def tails(self) -> Mapping[int, int]:
+        """Those of the first."""
+        return self.like.tails
+
+
+def together(every: Sequence[Original]) -> Original:
+    """The constructions of several variants as one."""
+    first = every[0]
+    if len(every) == 1:
+        return first
+    values = {
+        number: stacked([each.trace.values[number] for each in every])
+        for number in first.trace.values
+        if number not in first.skipped
+    }
+    paper = Paper(
+        *(
+            stacked([getattr(each.paper, name) for each in every])
+            for name in ("mechanism", "velocities", "accelerations")
+        )
+    )
+    trace = Trace(first.program, values, {})
+    return Originals(trace, paper, first.targets, first.triangles, like=first)
+
+
+def stacked(values: Sequence[Any]) -> Any:
+    """One value of each variant as a column, by the parts of a line or circle; what all share
+    stays alone."""
+    import numpy as np
+
+    first = values[0]
+    if isinstance(first, tuple):
+        parts = [stacked(part) for part in zip(*values, strict=True)]
+        return type(first)(*parts) if hasattr(first, "_fields") else tuple(parts)
+    if all(value == first for value in values):
+        return first
+    return np.array(values)[:, None]
 
 
 def original(
