@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
 from graphkin.construction.core.component import TriangleChoice, component_of
@@ -37,8 +38,7 @@ class DrawingScales(Protocol):
     def apart(self) -> float: ...  # noqa: D102
 
 
-@dataclass(frozen=True)
-class Original:
+class Original(Struct, frozen=True, dict=True):
     """One construction by hand without errors: its trace at some scales, and what is read off."""
 
     trace: Trace
@@ -122,8 +122,7 @@ class Original:
         return bool(abs(read - value) <= SAME * max(abs(value), abs(tip) / abs(q - p)))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Originals(Original):
+class Originals(Original, frozen=True, kw_only=True, dict=True):
     """The constructions of several variants that draw the same: each value holds a row for each
     variant, or stands alone where all share it; ``like`` is the first of them.
     """

@@ -8,9 +8,10 @@ with a pencil are made for as many variants at once as go into a block, an axis 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import original
 from graphkin.accuracy.pencil.pencil import Pencil
@@ -37,8 +38,7 @@ DRAWINGS = 8_192
 Settings = Mapping[str, str]
 
 
-@dataclass(frozen=True)
-class VariantMechanism(Mechanism):
+class VariantMechanism(Mechanism, frozen=True, dict=True):
     """A mechanism with other data than one that is ready, whose construction has the same steps."""
 
     like: Mechanism
