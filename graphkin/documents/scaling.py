@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.component import as_drawn, may_give_way
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, Target
-from graphkin.construction.core.quantities import SHEETS, is_found_on
+from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.solution import Curve, Solution, Verdict
 from graphkin.documents.scale_check import refuse_dots
@@ -65,13 +65,21 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
     asked = [target for target in mechanism.asked() if is_found_on(kind, target)]
     if kind == "velocity":
         later = targets_of(mechanism, "acceleration")
-        asked += mechanism.program.also_found(later, ("velocity", "omega"), asked)
+        asked += mechanism.program.also_found(later, ("velocity", OMEGA), asked)
     if not asked and not (kind == "velocity" and (ask.curves or ask.centrodes)):
         return ()
     positions = [
         target for target in mechanism.program.targets if target[0] in ("position", *PLACES)
     ]
     return (*positions, *asked)
+
+
+def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
+    """What is drawn on each sheet; everything on both where nothing is asked."""
+    asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
+    if not any(asked.values()):
+        return dict.fromkeys(SHEETS, mechanism.program.answers)
+    return {kind: found for kind, found in asked.items() if found}
 
 
 def shown(mechanism: Mechanism) -> Solution:
@@ -243,14 +251,10 @@ def extents(trials: list[Drawing]) -> list[tuple[Extent, Extent]]:
 
 def trials_of(mechanism: Mechanism, curves: tuple[Curve, ...], scales: Scales) -> list[Drawing]:
     """The material of each sheet at full size, a velocity drawn as its way in some time."""
-    asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
-    if not any(asked.values()):
-        asked = dict.fromkeys(SHEETS, mechanism.program.answers)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return [
         drawing(mechanism, kind, found, replace(scales, kL=1.0), nobody, words("en"), curves)
-        for kind, found in asked.items()
-        if found
+        for kind, found in sheet_targets(mechanism).items()
     ]
 
 

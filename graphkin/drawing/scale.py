@@ -11,6 +11,7 @@ from math import floor, log10
 
 from msgspec import Struct
 
+from graphkin.numbers.arithmetic import Real
 from graphkin.text.errors import PageError, Problem
 
 STEPS = (1.0, 2.0, 5.0)
@@ -76,20 +77,23 @@ def digits(number: float) -> str:
 
 
 class Extent(Struct, frozen=True):
-    """The upright box that a set of points takes up, in metres of the mechanism."""
+    """The upright box that a set of points takes up, in metres of the mechanism.
 
-    left: float
-    bottom: float
-    right: float
-    top: float
+    Of many variants the boxes, each side an array.
+    """
+
+    left: Real
+    bottom: Real
+    right: Real
+    top: Real
 
     @property
-    def width(self) -> float:
+    def width(self) -> Real:
         """From left to right."""
         return self.right - self.left
 
     @property
-    def height(self) -> float:
+    def height(self) -> Real:
         """From bottom to top."""
         return self.top - self.bottom
 
@@ -120,16 +124,26 @@ def preferred(smallest: float, digits: Sequence[float] = STEPS) -> Iterator[floa
         power += 1
 
 
+def lengths_needed(
+    needs: Sequence[tuple[Extent, Extent]], width: float, height: float
+) -> Iterator[Real]:
+    """The scales that each side of a room asks for on each sheet, of which the largest holds all.
+
+    They are numbers, or arrays with an element for each variant.
+    """
+    for mechanism, plan in needs:
+        yield 1000 * ((mechanism.width + plan.width) / width)
+        yield 1000 * (mechanism.width / (width - NARROW))
+        yield from (1000 * (box.height / height) for box in (mechanism, plan))
+
+
 def fitting_scale(needs: Sequence[tuple[Extent, Extent]], width: float, height: float) -> float:
     """The smallest preferred kL at which mechanism and plan stand side by side on every sheet.
 
     ``needs`` holds, for each sheet, the extents of its mechanism and of its plan drawn at the
     mechanism's scale; the room's width and height are in mm. A plan takes up NARROW at least.
     """
-    across = max((mechanism.width + plan.width) / width for mechanism, plan in needs)
-    beside = max(mechanism.width for mechanism, _ in needs) / (width - NARROW)
-    down = max(max(mechanism.height, plan.height) for mechanism, plan in needs) / height
-    least = 1000 * max(across, beside, down)
+    least = max(lengths_needed(needs, width, height))
     if not least > 0:
         raise PageError(Problem("scale", "the mechanism has no extent", "points apart"))
     return next(preferred(least))

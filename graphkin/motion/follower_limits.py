@@ -9,6 +9,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.construction.core.program import Target
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN
@@ -113,9 +114,9 @@ def movers_of(cycle: Cycle) -> Iterator[Mover]:
             continue
         if ("slide", name) in targets and ("slide speed", name) in targets:
             yield Mover(name, None, (("slide", name),), ("slide speed", name))
-        elif (line := swinging_line(cycle.scene, link)) and ("omega", name) in targets:
+        elif (line := swinging_line(cycle.scene, link)) and (OMEGA, name) in targets:
             start, end = line
-            yield Mover(name, line, (("position", start), ("position", end)), ("omega", name))
+            yield Mover(name, line, (("position", start), ("position", end)), (OMEGA, name))
 
 
 def swinging_line(scene: Scene, link: Link) -> tuple[str, str] | None:

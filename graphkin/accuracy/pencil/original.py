@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import Protocol
+from typing import Any, Protocol
 
 from msgspec import Struct
 
@@ -12,6 +12,7 @@ from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
 from graphkin.construction.core.component import TriangleChoice, component_of
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.run import Trace
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.mechanism import Mechanism
@@ -102,7 +103,7 @@ class Original(Struct, frozen=True, dict=True):
         found = {}
         for number, value in self.trace.values.items():
             step = self.program.steps[number]
-            if isinstance(step.of, TurningOfLink) and step.of.quantity == "epsilon":
+            if isinstance(step.of, TurningOfLink) and step.of.quantity == EPSILON:
                 for tail in self.tangential_tails(step.args[3]):
                     if self.reads_alike(number, tail, value):
                         found[number] = tail
@@ -120,6 +121,63 @@ class Original(Struct, frozen=True, dict=True):
         p, q, _, tip = (self.trace.values[arg] for arg in self.program.steps[number].args)
         read = cross(q - p, tip - self.trace.values[tail]) / abs(q - p) ** 2
         return bool(abs(read - value) <= SAME * max(abs(value), abs(tip) / abs(q - p)))
+
+
+class Originals(Original, frozen=True, kw_only=True, dict=True):
+    """The constructions of several variants that draw the same: each value holds a row for each
+    variant, or stands alone where all share it; ``like`` is the first of them.
+    """
+
+    like: Original
+
+    @cached_property
+    def marks(self) -> Mapping[int, PencilMark]:
+        """Those of the first."""
+        return self.like.marks
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """That of the first."""
+        return self.like.order
+
+    @cached_property
+    def tails(self) -> Mapping[int, int]:
+        """Those of the first."""
+        return self.like.tails
+
+
+def together(every: Sequence[Original]) -> Original:
+    """The constructions of several variants as one."""
+    first = every[0]
+    if len(every) == 1:
+        return first
+    values = {
+        number: stacked([each.trace.values[number] for each in every])
+        for number in first.trace.values
+        if number not in first.skipped
+    }
+    paper = Paper(
+        *(
+            stacked([getattr(each.paper, name) for each in every])
+            for name in ("mechanism", "velocities", "accelerations")
+        )
+    )
+    trace = Trace(first.program, values, {})
+    return Originals(trace, paper, first.targets, first.triangles, like=first)
+
+
+def stacked(values: Sequence[Any]) -> Any:
+    """One value of each variant as a column, by the parts of a line or circle; what all share
+    stays alone."""
+    import numpy as np
+
+    first = values[0]
+    if isinstance(first, tuple):
+        parts = [stacked(part) for part in zip(*values, strict=True)]
+        return type(first)(*parts) if hasattr(first, "_fields") else tuple(parts)
+    if all(value == first for value in values):
+        return first
+    return np.array(values)[:, None]
 
 
 def original(

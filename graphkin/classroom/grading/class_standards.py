@@ -13,23 +13,14 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.forecast import sources
-from graphkin.accuracy.pencil.original import Original, original
+from graphkin.accuracy.pencil.original import original
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark
-from graphkin.accuracy.pencil.redrawing import redrawn
+from graphkin.accuracy.pencil.pencil_marks import PencilMark
 from graphkin.classroom.grading.standard import FormLayout, Standard, layout
-from graphkin.classroom.grading.tolerance import (
-    Errors,
-    added,
-    covariance,
-    joint_errors,
-    readings_of,
-)
+from graphkin.classroom.grading.tolerance import pencil_errors
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.lab.variant_scales import by_arrays, empty, scaled
 from graphkin.construction.core.program import Program, Step
-from graphkin.construction.core.run import Trace
 from graphkin.documents.scaling import scales, the_crank
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
@@ -83,7 +74,7 @@ def standards(
     ]
     pencil = Pencil(rubric.point, rubric.line)
     for places in alike(found):
-        errors = errors_of([found[i] for i in places], pencil)
+        errors = pencil_errors([found[i].readings for i in places], pencil)
         for i, each in zip(places, errors, strict=True):
             found[i] = replace(found[i], errors=each)
     return found
@@ -204,29 +195,6 @@ def as_sheet(mechanism: Mechanism, kL: float, seconds: float, triangles: bool) -
 # --- the pencil -------------------------------------------------------------------------------
 
 
-class Originals(Original, frozen=True, kw_only=True, dict=True):
-    """The constructions of several variants that draw the same: each value holds a row for each
-    variant, or stands alone where all share it; ``like`` is the first of them.
-    """
-
-    like: Original
-
-    @cached_property
-    def marks(self) -> Mapping[int, PencilMark]:
-        """Those of the first."""
-        return self.like.marks
-
-    @cached_property
-    def order(self) -> tuple[int, ...]:
-        """That of the first."""
-        return self.like.order
-
-    @cached_property
-    def tails(self) -> Mapping[int, int]:
-        """Those of the first."""
-        return self.like.tails
-
-
 def alike(found: Sequence[Standard]) -> list[list[int]]:
     """The places of variants that draw the same, in groups that make few enough drawings.
 
@@ -245,61 +213,3 @@ def alike(found: Sequence[Standard]) -> list[list[int]]:
         size = max(1, DRAWINGS // (2 * sum(mark.errors for mark in first.marks.values()) or 1))
         parts += [places[i : i + size] for i in range(0, len(places), size)]
     return parts
-
-
-def errors_of(found: Sequence[Standard], pencil: Pencil) -> list[Errors]:
-    """The 95th percentile of the error of each field but senses, for variants that draw alike."""
-    import numpy as np
-
-    many = together([each.exact for each in found])
-    fields = [probe for probe in found[0].probes if probe.item.what != "sense"]
-    if not fields:
-        return [Errors((), np.zeros((0, 0)))] * len(found)
-    owners, errors = sources(many)
-    drawings = redrawn(many, pencil, errors)
-    size = len(found), 2 * len(owners)
-    off = np.empty((len(found), len(fields), len(owners), 2))
-    for place, probe in enumerate(fields):
-        key = np.array([[each.key[probe.item.field]] for each in found])
-        error = np.broadcast_to(probe.error(drawings, many.paper, key), size)
-        off[:, place] = error.reshape(len(found), -1, 2)
-    added_up, bent = added(off)
-    for i in np.flatnonzero(bent.any(axis=1)).tolist():
-        readings = readings_of(found[i].probes, found[i].key, found[i].exact)
-        added_up[i] = np.where(bent[i], joint_errors(readings, found[i].exact, pencil), added_up[i])
-    spread = covariance(off, added_up, bent)
-    return [
-        Errors(tuple(map(float, row)), each) for row, each in zip(added_up, spread, strict=True)
-    ]
-
-
-def together(every: Sequence[Original]) -> Originals:
-    """The constructions of several variants as one."""
-    first = every[0]
-    values = {
-        number: stacked([each.trace.values[number] for each in every])
-        for number in first.trace.values
-        if number not in first.skipped
-    }
-    paper = Paper(
-        *(
-            stacked([getattr(each.paper, name) for each in every])
-            for name in ("mechanism", "velocities", "accelerations")
-        )
-    )
-    trace = Trace(first.program, values, {})
-    return Originals(trace, paper, first.targets, first.triangles, like=first)
-
-
-def stacked(values: Sequence[Any]) -> Any:
-    """One value of each variant as a column, by the parts of a line or circle; what all share
-    stays alone."""
-    import numpy as np
-
-    first = values[0]
-    if isinstance(first, tuple):
-        parts = [stacked(part) for part in zip(*values, strict=True)]
-        return type(first)(*parts) if hasattr(first, "_fields") else tuple(parts)
-    if all(value == first for value in values):
-        return first
-    return np.array(values)[:, None]

@@ -8,6 +8,7 @@ from math import degrees, pi
 from graphkin.classroom.grading.slips import Slip, differs, unit_ratios
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 
 POWERS = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
@@ -80,7 +81,7 @@ def of_rate(standard: Standard, field: str) -> Iterator[Way]:
     yield "length_not_scaled", "", right * standard.paper.mechanism
     yield "wrong_scale", "without lengths", right / standard.paper.mechanism
     yield from rates_of(standard, number)
-    if standard.by_field[field].item.quantity == "omega":
+    if standard.by_field[field].item.quantity == OMEGA:
         yield "rate_in_degrees", "", degrees(right)
         yield "rate_in_turns", "", right * 30 / pi
 
@@ -104,7 +105,7 @@ def rates_of(standard: Standard, number: int) -> Iterator[Way]:
         return
     p, q, tail, tip = (values[arg] for arg in step.args)
     bar = abs(q - p)
-    if step.of.quantity == "omega":
+    if step.of.quantity == OMEGA:
         yield "absolute_for_relative", "tip", abs(tip) / bar
         yield "absolute_for_relative", "tail", abs(tail) / bar
     else:

@@ -17,6 +17,7 @@ from graphkin.classroom.grading.probes import Probe
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.component import Component, component_of
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 
 ROUNDED = 0.005
 """Share by which a value that is only computed may be rounded."""
@@ -114,7 +115,7 @@ def rates(standard: Standard, own: Values, probe: Probe) -> Iterator[FormRelatio
     p, q, tail, tip = step.args
     bar = length(standard, p, q)
     tails = {tail, standard.exact.tails.get(probe.step, tail)}
-    if probe.item.quantity == "epsilon" and len(tails) > 1:
+    if probe.item.quantity == EPSILON and len(tails) > 1:
         tails -= {tail}
     for start in sorted(tails):
         yield from (
@@ -159,7 +160,7 @@ class OwnLengths(Struct, frozen=True):
         steps = self.standard.mechanism.program.steps
         for field, omega in self.own.items():
             probe = self.standard.by_field[field]
-            if probe.item.quantity == "omega" and steps[probe.step].args == ends:
+            if probe.item.quantity == OMEGA and steps[probe.step].args == ends:
                 yield omega
 
     def turnings(self, rate: int) -> Iterator[Own]:
@@ -175,7 +176,7 @@ def turnings(standard: Standard, own: Values, rate: int) -> Iterator[Own]:
     """The own angular velocities of what guides, from own velocities too; then the key's."""
     for field, value in own.items():
         probe = standard.by_field[field]
-        if probe.item.quantity == "omega" and probe.step == rate:
+        if probe.item.quantity == OMEGA and probe.step == rate:
             yield value
     args = standard.mechanism.program.steps[rate].args
     if len(args) == 4:

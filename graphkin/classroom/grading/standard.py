@@ -16,6 +16,7 @@ from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.grading.probes import Probe, probes, targets_of
 from graphkin.classroom.grading.tolerance import (
     Errors,
+    Reading,
     Tolerance,
     pencil_errors,
     readings_of,
@@ -136,18 +137,22 @@ class Standard(Struct, frozen=True, dict=True):
         return self.read(self.exact.trace.values)
 
     @cached_property
+    def readings(self) -> list[Reading]:
+        """The fields but senses, each with its key."""
+        return readings_of(self.probes, self.key, self.exact)
+
+    @cached_property
     def tolerance(self) -> Mapping[str, Tolerance]:
         """How far each field but senses may be off."""
-        readings = readings_of(self.probes, self.key, self.exact)
-        return tolerances(readings, self.pencil.each, self.rubric, self.computed)
+        return tolerances(self.readings, self.pencil.each, self.rubric, self.computed)
 
     @cached_property
     def pencil(self) -> Errors:
         """What a pencil makes of the fields but senses."""
         if self.errors is not None:
             return self.errors
-        readings = readings_of(self.probes, self.key, self.exact)
-        return pencil_errors(readings, self.exact, Pencil(self.rubric.point, self.rubric.line))
+        (found,) = pencil_errors([self.readings], Pencil(self.rubric.point, self.rubric.line))
+        return found
 
     @cached_property
     def expectation(self) -> Expectation:

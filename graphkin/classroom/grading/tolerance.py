@@ -15,9 +15,10 @@ from typing import Any, NamedTuple
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.forecast import BENT, JOINT, NORMAL_95, SEED, WEIGHT, sources
-from graphkin.accuracy.pencil.original import Original
+from graphkin.accuracy.pencil.original import Original, together
 from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark
+from graphkin.accuracy.pencil.read_off import bar_of
 from graphkin.accuracy.pencil.redrawing import redrawn
 from graphkin.accuracy.pencil.simulation import COMMON
 from graphkin.classroom.grading.probes import Probe
@@ -91,22 +92,31 @@ def tolerances(
     }
 
 
-def pencil_errors(readings: Sequence[Reading], exact: Original, pencil: Pencil) -> Errors:
-    """The 95th percentile of the error of each field over drawings with a pencil."""
+def pencil_errors(variants: Sequence[Sequence[Reading]], pencil: Pencil) -> list[Errors]:
+    """The 95th percentile of the error of each field over drawings with a pencil, of variants that
+    draw the same; a single one is a batch of one.
+    """
     import numpy as np
 
-    if not readings:
-        return Errors((), np.zeros((0, 0)))
-    owners, errors = sources(exact)
-    drawings = redrawn(exact, pencil, errors)
-    count = 2 * len(owners)
-    off = np.array([np.broadcast_to(each.error(drawings), count) for each in readings])
-    single = off.reshape(len(readings), -1, 2)
-    found, bent = added(single)
-    if bent.any():
-        joint = joint_errors(readings, exact, pencil)
-        found = np.where(bent, joint, found)
-    return Errors(tuple(float(error) for error in found), covariance(single, found, bent))
+    fields = variants[0]
+    if not fields:
+        return [Errors((), np.zeros((0, 0)))] * len(variants)
+    many = together([readings[0].exact for readings in variants])
+    owners, errors = sources(many)
+    drawings = redrawn(many, pencil, errors)
+    size = len(variants), 2 * len(owners)
+    off = np.empty((len(variants), len(fields), len(owners), 2))
+    for place, each in enumerate(fields):
+        key = np.array([[readings[place].value] for readings in variants])
+        error = np.broadcast_to(each.probe.error(drawings, many.paper, key), size)
+        off[:, place] = error.reshape(len(variants), -1, 2)
+    found, bent = added(off)
+    for i in np.flatnonzero(bent.any(axis=1)).tolist():
+        found[i] = np.where(bent[i], joint_errors(variants[i], pencil), found[i])
+    return [
+        Errors(tuple(map(float, row)), spread)
+        for row, spread in zip(found, covariance(off, found, bent), strict=True)
+    ]
 
 
 def covariance(off: Any, errors: Any, bent: Any) -> Any:
@@ -145,11 +155,11 @@ def added(off: Any) -> tuple[Any, Any]:
         return np.where(size > 0, np.sqrt(size * share), 0.0), bent & ~(size == 0)
 
 
-def joint_errors(readings: Sequence[Reading], exact: Original, pencil: Pencil) -> list[float]:
+def joint_errors(readings: Sequence[Reading], pencil: Pencil) -> list[float]:
     """The same from drawings in which every mark is off."""
     import numpy as np
 
-    drawings = joint_drawings(exact, pencil, JOINT, SEED)
+    drawings = joint_drawings(readings[0].exact, pencil, JOINT, SEED)
     found = []
     for reading in readings:
         off = np.broadcast_to(abs(reading.error(drawings)), JOINT)
@@ -197,16 +207,7 @@ def ruler_unit(reading: Reading) -> float:
     mm = exact.paper.millimetre(probe.plane)
     if not probe.item.unit.startswith("rad"):
         return mm
-    return mm / bar_length(exact, probe.step)
-
-
-def bar_length(exact: Original, number: int) -> float:
-    """The length of the bar over which a rate is reckoned; infinite where none is."""
-    step = exact.program.steps[number]
-    if len(step.args) != 4:
-        return inf
-    p, q = (exact.trace.values[arg] for arg in step.args[:2])
-    return abs(q - p) if isinstance(p, complex) and isinstance(q, complex) else inf
+    return mm / bar_of(exact, exact.program.steps[probe.step])
 
 
 def extent(exact: Original) -> float:

@@ -15,9 +15,10 @@ from msgspec import Struct
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.core.component import TriangleChoice, as_drawn
 from graphkin.construction.core.program import Part, Plane, Step, Target
-from graphkin.construction.core.quantities import PLANES, SHEETS
+from graphkin.construction.core.quantities import PLANES
 from graphkin.construction.core.run import Trace
-from graphkin.documents.scaling import targets_of
+from graphkin.documents.scaling import sheet_targets
+from graphkin.drawing.scale import Extent
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
@@ -28,25 +29,6 @@ ON_MECHANISM = {
 }
 """The parts of the work that each sheet draws on the mechanism, but centres and poles."""
 Array = Any
-
-
-class Boxes(Struct, frozen=True):
-    """The upright boxes around points, one for each variant; what is not drawn does not count."""
-
-    left: Array
-    bottom: Array
-    right: Array
-    top: Array
-
-    @property
-    def width(self) -> Array:
-        """From left to right."""
-        return self.right - self.left
-
-    @property
-    def height(self) -> Array:
-        """From bottom to top."""
-        return self.top - self.bottom
 
 
 class VariantSheet(Struct, frozen=True, dict=True):
@@ -68,7 +50,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
                 yield step, value
 
     @cached_property
-    def mechanism_box(self) -> Boxes:
+    def mechanism_box(self) -> Extent:
         """The box of the mechanism and what is drawn on it, in metres."""
         points = list(self.positions())
         for step, value in self.steps(Plane.MECHANISM):
@@ -77,7 +59,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
         return boxes(points, len(self.seconds))
 
     @cached_property
-    def plan_box(self) -> Boxes:
+    def plan_box(self) -> Extent:
         """The box of the plan at the mechanism's scale, in metres."""
         scale = self.plan_seconds
         points = [p * scale for _, v in self.steps(PLANES[self.kind]) for p in ends(v)]
@@ -130,7 +112,7 @@ def ends(value: Any) -> tuple[Any, ...]:
     return (value,) if is_point else ()
 
 
-def boxes(points: Sequence[Array], size: int) -> Boxes:
+def boxes(points: Sequence[Array], size: int) -> Extent:
     """The boxes around points, each an array or one for all; the origin where there are none."""
     import numpy as np
 
@@ -141,15 +123,7 @@ def boxes(points: Sequence[Array], size: int) -> Boxes:
         x, y = (np.where(drawn, part, np.nan) for part in (np.real(point), np.imag(point)))
         low_x, high_x = np.fmin(low_x, x), np.fmax(high_x, x)
         low_y, high_y = np.fmin(low_y, y), np.fmax(high_y, y)
-    return Boxes(*(np.nan_to_num(side) for side in (low_x, low_y, high_x, high_y)))
-
-
-def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
-    """What is drawn on each sheet; everything on both where nothing is asked."""
-    asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
-    if not any(asked.values()):
-        return dict.fromkeys(SHEETS, mechanism.program.answers)
-    return {kind: found for kind, found in asked.items() if found}
+    return Extent(*(np.nan_to_num(side) for side in (low_x, low_y, high_x, high_y)))
 
 
 def drawn_steps(

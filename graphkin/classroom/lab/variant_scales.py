@@ -16,7 +16,7 @@ from graphkin.construction.core.component import may_give_way
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.scaling import HEADROOM, LITTLE, SMALL, larger_plans, scales
 from graphkin.drawing.areas import HEIGHT, WIDTH
-from graphkin.drawing.scale import NARROW, preferred
+from graphkin.drawing.scale import lengths_needed, preferred
 from graphkin.mechanism import Mechanism
 from graphkin.motion.motion_curves import is_closer
 from graphkin.numbers.arithmetic import batch_kind
@@ -207,11 +207,8 @@ def fitting(trials: list[VariantSheet], height: float) -> Array:
     """The smallest preferred kL at which mechanism and plan stand side by side on every sheet."""
     import numpy as np
 
-    across = np.max([t.mechanism_box.width + t.plan_box.width for t in trials], axis=0)
-    beside = np.max([t.mechanism_box.width for t in trials], axis=0)
-    down = np.max([np.maximum(t.mechanism_box.height, t.plan_box.height) for t in trials], axis=0)
-    wide = np.maximum(across / WIDTH, beside / (WIDTH - NARROW))
-    return first_preferred(1000 * np.maximum(wide, down / height))
+    needs = [(trial.mechanism_box, trial.plan_box) for trial in trials]
+    return first_preferred(np.max(list(lengths_needed(needs, WIDTH, height)), axis=0))
 
 
 def first_preferred(least: Array) -> Array:

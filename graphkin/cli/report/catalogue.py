@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from graphkin.construction.core.quantities import RATES, VECTORS
 from graphkin.scene import scene_files
 from graphkin.scene.model import Ask, Parameter, Scene
 from graphkin.scene.parameters import range_words
 from graphkin.text.plain_table import labelled, listed
 
 ASKED = (
-    ("velocity", "velocity of"),
-    ("acceleration", "acceleration of"),
-    ("omega", "ω of"),
-    ("epsilon", "ε of"),
+    *((each.target, f"{each.words} of") for each in (*VECTORS, *RATES)),
     ("slides", "sliding of"),
     ("centres", "instantaneous centres of"),
     ("pairs", "relative centres of"),

@@ -12,6 +12,7 @@ from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
@@ -43,7 +44,7 @@ def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
     """Acceleration of a driven tip: from tip to pivot, and square to the bar if it speeds up."""
     tip, driver = crank_tip(pen.scene, group), group.driver
     rate = pen.drive(driver).acceleration
-    pen.want("epsilon", group.link, driven_rate(pen, group, "epsilon", rate))
+    pen.want(EPSILON, group.link, driven_rate(pen, group, EPSILON, rate))
     if tip is not None:
         steady = driver.acceleration.is_zero() and not pen.turns(other_of(driver, group.link))
         turn_tip(pen, group.link, group.pivot, tip, steady=steady)
@@ -187,8 +188,8 @@ def led_points(pen: Pen, base: Base) -> None:
         if pen.has("acceleration", point):
             continue
         if pen.turns(base.link):
-            omega_of(pen, base.link), omega_of(pen, base.link, "epsilon")
-            steady = pen.is_nought(pen.the("epsilon", base.link))
+            omega_of(pen, base.link), omega_of(pen, base.link, EPSILON)
+            steady = pen.is_nought(pen.the(EPSILON, base.link))
             turn_tip(pen, base.link, base.start, point, steady=steady)
             continue
         start = pen.the("acceleration", base.start)
@@ -213,4 +214,4 @@ def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str,
 
 def turning(pen: Pen, base: Base) -> None:
     """Angular acceleration of a link: tangential component over length, with its sense."""
-    omega_of(pen, base.link, "epsilon")
+    omega_of(pen, base.link, EPSILON)

@@ -12,6 +12,7 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.naming import has_no_length, is_driven, rate_symbol
 from graphkin.construction.core.pen import Pen, about, letter, owned
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action, difference, sum_of
 from graphkin.construction.rolling.wheel_actions import speed_rolled
@@ -161,14 +162,14 @@ def turned_image(
     """
     pivot, pin = points
     places = pen.the("position", pivot), pen.the("position", pin)
-    omega = pen.the("omega", link)
+    omega = pen.the(OMEGA, link)
     with pen.calls_for(Effect.NORMAL):
         end = pen.draw(centripetal, start, *places, omega, name=name if steady else "")
     if not steady or start != pen.pole(Plane.ACCELERATIONS):
         component_arrow(pen, start, end, "ν", pin, pivot)
     epsilon, image = None, None
     if not steady:
-        epsilon = pen.the("epsilon", link)
+        epsilon = pen.the(EPSILON, link)
         with pen.calls_for(tangential_effect(pen, epsilon)):
             image = pen.draw(driven_tangential, end, *places, epsilon, name=name)
         component_arrow(pen, end, image, "τ", pin, pivot)

@@ -15,6 +15,7 @@ from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.drawing.symbol_markup import symbol
@@ -118,7 +119,7 @@ def draw_pole(pen: Pen, base: Base) -> None:
 def by_turning(pen: Pen, base: Base) -> int:
     """The pole of a link that turns and of which one point is known: by its ω and ε."""
     ends = [pen.the(what, base.start) for what in ("position", "acceleration")]
-    rates = omega_of(pen, base.link), omega_of(pen, base.link, "epsilon")
+    rates = omega_of(pen, base.link), omega_of(pen, base.link, EPSILON)
     name = centre_name("J", base.link)
     with pen.on(Part.POLE, Plane.MECHANISM):
         found = pen.draw(turned_pole, *ends, *rates, name=name)

@@ -28,6 +28,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
@@ -218,7 +219,7 @@ def draw_circle(pen: Pen, base: Base) -> None:
     place, image, second = (
         pen.the(what, base.start) for what in ("position", "velocity", "acceleration")
     )
-    turning, o = pen.the("omega", base.link), pen.pole(Plane.VELOCITIES)
+    turning, o = pen.the(OMEGA, base.link), pen.pole(Plane.VELOCITIES)
     names = {"name": centre_name("W", base.link), "centre_letter": centre_name("I", base.link)}
     with pen.on(Part.POLE, Plane.MECHANISM):
         centre, crossing, ways = None, None, tuple[InflectionPoint, ...]()
@@ -229,7 +230,7 @@ def draw_circle(pen: Pen, base: Base) -> None:
                 centre = pen.arrow(normals_meet, *lines, name=names["centre_letter"])
                 ways = tuple(point_on(pen, base.link, ray, rays) for ray in rays)
                 crossing = pen.draw(inflection_meet, *(way.line for way in ways))
-        rates = turning, pen.the("epsilon", base.link)
+        rates = turning, pen.the(EPSILON, base.link)
         ends = place, image, second, *rates
         found = pen.draw(inflection_pole, *ends, name=names["name"], by_hand=crossing)
         called = f"inflection {base.link}"

@@ -23,6 +23,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
@@ -143,7 +144,7 @@ def draw_centre(pen: Pen, base: Base) -> None:
     points = two_points(pen, base)
     if points is not None:
         pen.want("centre", base.link, InstantCentre.draw(pen, base, points))
-    elif pen.has("omega", base.link) and pen.has("velocity", base.start):
+    elif pen.has(OMEGA, base.link) and pen.has("velocity", base.start):
         pen.want("centre", base.link, by_turning(pen, base))
 
 
@@ -152,7 +153,7 @@ def by_turning(pen: Pen, base: Base) -> int:
     o, zero, name = pen.pole(Plane.VELOCITIES), pen.given("nought"), centre_name("I", base.link)
     ends = [pen.the(what, base.start) for what in ("position", "velocity")]
     with pen.on(Part.CENTRE, Plane.MECHANISM):
-        turning = pen.the("omega", base.link)
+        turning = pen.the(OMEGA, base.link)
         found = pen.draw(relative_centre, *ends, turning, o, o, zero, name=name)
     kind = RelativeCentre(name=name, first=FRAME, link=base.link, point=base.start, found=found)
     return pen.make(kind).found

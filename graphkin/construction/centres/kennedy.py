@@ -28,6 +28,7 @@ from graphkin.construction.centres.relative_centre import (
 )
 from graphkin.construction.core.pen import Pen, named
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import Ratio
@@ -60,7 +61,7 @@ class Finder:
 
     def moves(self, link: str) -> bool:
         """True for the frame, and for a link whose velocities are constructed."""
-        return link == FRAME or (self.pen.has("omega", link) and bool(self.points(link)))
+        return link == FRAME or (self.pen.has(OMEGA, link) and bool(self.points(link)))
 
     def points(self, link: str) -> list[str]:
         """The points of a link whose velocities are constructed."""
@@ -109,7 +110,7 @@ class Finder:
     def here(self) -> Trace | None:
         """All velocities at the scene's own numbers; None where the mechanism does not close."""
         program = self.pen.program()
-        wanted = [t for t in program.targets if t[0] in ("position", "velocity", "omega", "guide")]
+        wanted = [t for t in program.targets if t[0] in ("position", "velocity", OMEGA, "guide")]
         try:
             return run(program, program.needed(wanted), self.pen.scene.values, FLOAT)
         except (StepFailed, ClosureError):
@@ -127,7 +128,7 @@ class Finder:
         spots = [self.here.value("position", p) for link in links for p in self.points(link)]
         middle = sum(spots) / len(spots)
         breadth = max(abs(spot - middle) for spot in spots) or 1.0
-        fastest = max(abs(self.here.value("omega", link)) for link in links[1:]) or 1.0
+        fastest = max(abs(self.here.value(OMEGA, link)) for link in links[1:]) or 1.0
         found: dict[Pair, Spot] = {}
         for pair in combinations(links, 2):
             ratio = self.ratio(pair, self.here)
@@ -170,7 +171,7 @@ class Finder:
             return (self.pen.the("position", point) if point else o), o, self.pen.given("nought")
         point = point or self.points(link)[0]
         place, image = self.pen.the("position", point), self.pen.the("velocity", point)
-        return place, image, self.pen.the("omega", link)
+        return place, image, self.pen.the(OMEGA, link)
 
     def centre(self, pair: Pair) -> int:
         """The step of the centre of two links."""

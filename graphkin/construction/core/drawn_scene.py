@@ -121,7 +121,7 @@ class Drawing(Struct, frozen=True, dict=True):
     def reach(self) -> float:
         """The largest distance in the mechanism, in metres."""
         box = extent_of([*self.positions.values(), *self.corners()])
-        return max(box.width, box.height)
+        return float(max(box.width, box.height))
 
     @property
     def positions(self) -> Mapping[str, complex]:

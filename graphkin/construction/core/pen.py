@@ -25,6 +25,7 @@ from graphkin.construction.core.program import (
     Step,
     Target,
 )
+from graphkin.construction.core.quantities import TURNING
 from graphkin.construction.core.run import StepFailed, evaluate
 from graphkin.construction.core.vocabulary import Action, pole
 from graphkin.numbers.arithmetic import FLOAT
@@ -216,12 +217,11 @@ class Pen:
             turning = driver.kind == "turn"
             form = "direction" if turning else "length"
             with self.on(Part.SHAPE, Plane.NUMBERS):
+                names = ("phi", *TURNING) if turning else ("s", "v", "a")
                 position, speed, acceleration = (
-                    self.given(form, driver.position, name="phi" if turning else "s", of=number),
-                    self.given("number", driver.speed, name="omega" if turning else "v", of=number),
-                    self.given(
-                        "number", driver.acceleration, name="epsilon" if turning else "a", of=number
-                    ),
+                    self.given(form, driver.position, name=names[0], of=number),
+                    self.given("number", driver.speed, name=names[1], of=number),
+                    self.given("number", driver.acceleration, name=names[2], of=number),
                 )
             self.drives[number] = self.make(Drive(number, position, speed, acceleration))
         return self.drives[number]

@@ -129,7 +129,7 @@ RATES = those(Whose.LINK, Sort.NUMBER)
 CENTRES = those(Whose.LINK, Sort.PLACE)
 OF_SLIDES = those(Whose.SLIDE, *Sort)
 MOTION = {each.kind: each for each in OF_POINTS}
-TURNING = tuple(each.target for each in RATES)
+TURNING = OMEGA, EPSILON = tuple(each.target for each in RATES)
 RATE = {each.kind: each for each in RATES}
 SLIDING = {each.kind: each for each in OF_SLIDES if each.sort is Sort.NUMBER}
 """The quantity of points, of links and of blocks that each sheet is about."""

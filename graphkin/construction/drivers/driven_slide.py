@@ -10,6 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.naming import driver_of_rate, has_no_length, vector_of
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.along_guide import AlongGuide
@@ -19,9 +20,9 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 
-LETTERS = {"omega": "ω", "v": "v", "epsilon": "ε", "a": "a"}
+LETTERS = {each.target: each.letter for each in RATES} | {"v": "v", "a": "a"}
 """The letters of the given rates of drivers by their names."""
-SPEEDS = {"epsilon": "ω", "a": "v"}
+SPEEDS = {EPSILON: "ω", "a": "v"}
 """The letter of the speed of which each acceleration is the rate."""
 
 

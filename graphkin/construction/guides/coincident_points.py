@@ -15,6 +15,7 @@ from graphkin.construction.core.pen import (
     second_image,
 )
 from graphkin.construction.core.program import ContactName, Part, Plane
+from graphkin.construction.core.quantities import BY_TARGET, EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import in_proportion
 from graphkin.construction.velocity.image_of_link import image_of_link
 from graphkin.construction.velocity.translated_image import translated_image
@@ -22,11 +23,8 @@ from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.scene.model import FRAME
 
-PLANS = {"omega": "velocity", "epsilon": "acceleration"}
-"""What of points each rate of links is found from."""
 
-
-def omega_of(pen: Pen, link: str, quantity: str = "omega") -> int:
+def omega_of(pen: Pen, link: str, quantity: str = OMEGA) -> int:
     """Angular velocity (or acceleration) of a link: from its base, or as the link it is led by."""
     if link == FRAME:
         return pen.given("nought")
@@ -42,7 +40,7 @@ def rate_of(pen: Pen, link: str, quantity: str) -> int:
     base = pen.bases[link]
     if base.end is None:
         return omega_of(pen, pen.leads[link], quantity)
-    plan = PLANS[quantity]
+    plan = BY_TARGET[quantity].kind
     index = (against if plan == "velocity" else about)(pen, base.end, base.start)
     places = pen.the("position", base.start), pen.the("position", base.end)
     images = pen.the(plan, base.start), pen.the(plan, base.end)
@@ -138,7 +136,7 @@ def found_by_turning(pen: Pen, link: str, point: str, quantity: str) -> int:
         letters, called = (base.start, letter(name)), image(name)
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             return turned_image(pen, link, letters, start, places, name=called, omega=turning)
-    steady = pen.is_nought(omega_of(pen, link, "epsilon"))
+    steady = pen.is_nought(omega_of(pen, link, EPSILON))
     points, called = (base.start, name), second_image(name)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         return turned_acceleration.turned_image(

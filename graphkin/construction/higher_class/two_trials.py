@@ -21,6 +21,7 @@ from graphkin.construction.core.kind import Construction, construction, construc
 from graphkin.construction.core.naming import drawn_between, scale_of, way_of
 from graphkin.construction.core.pen import Pen, image, second_image
 from graphkin.construction.core.program import Part, Plane, Program, Target
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.sentence import Sentence, in_one, together
 from graphkin.construction.core.vocabulary import action, distance, part_along, sum_of
@@ -264,9 +265,9 @@ class TrialQuantity(Struct, frozen=True):
     named: Callable[[str], str]
 
 
-VELOCITY = TrialQuantity("velocity", "omega", Part.VELOCITY, Plane.VELOCITIES, image)
+VELOCITY = TrialQuantity("velocity", OMEGA, Part.VELOCITY, Plane.VELOCITIES, image)
 ACCELERATION = TrialQuantity(
-    "acceleration", "epsilon", Part.ACCELERATION, Plane.ACCELERATIONS, second_image
+    "acceleration", EPSILON, Part.ACCELERATION, Plane.ACCELERATIONS, second_image
 )
 
 

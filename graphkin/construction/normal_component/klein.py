@@ -20,6 +20,7 @@ from graphkin.construction.core.component import Measured, TriangleChoice
 from graphkin.construction.core.naming import plan_amount, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, owned
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -230,7 +231,7 @@ def klein_component(
     (pivot,) = (pair.point for pair, _ in sides if isinstance(pair, Pin))
     (slide,) = (pair for pair, _ in sides if isinstance(pair, Sliding))
     places = pen.the("position", pivot), pen.the("position", pin)
-    centre, omega = pen.the("position", crank.start), pen.the("omega", crank.link)
+    centre, omega = pen.the("position", crank.start), pen.the(OMEGA, crank.link)
     guide, small = known_guide(pen, shapes, slide), bare(letter(pin))
 
     def drawn(index: str) -> dict[str, int]:

@@ -13,6 +13,7 @@ from graphkin.construction.core.naming import arrow_of, drawn_amount, way_of
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
@@ -269,6 +270,8 @@ def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], s
                 pole = number
             case PerpendicularThrough(contact=contact, p=p, start=start) if contact:
                 yield p, p, (pole, start), "no_slip"
-            case TurningOfLink(quantity="omega", places=(_, place)) as turning if place in contacts:
+            case TurningOfLink(places=(_, place)) as turning if (
+                place in contacts and turning.quantity == OMEGA
+            ):
                 key = "contact_rests_opposite" if turning.images[1] == pole else "no_slip"
                 yield turning.q, turning.index, turning.images, key

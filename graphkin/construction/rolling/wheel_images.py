@@ -27,6 +27,7 @@ from graphkin.construction.core.pen import (
     second_image,
 )
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import in_proportion
 from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
 from graphkin.construction.guides.guides import known_guide
@@ -124,8 +125,8 @@ def geared(pen: Pen, group: Geared) -> None:
             index = against(pen, names[1], names[0])
             with pen.on(Part.RESULT, Plane.NUMBERS):
                 steps = ends, (first, start)
-                turning = turning_of_link(pen, "omega", link, letters, index, steps)
-            pen.want("omega", link, turning)
+                turning = turning_of_link(pen, OMEGA, link, letters, index, steps)
+            pen.want(OMEGA, link, turning)
 
 
 @by_contact
@@ -245,7 +246,7 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     rates, rim = (omega_of(pen, wheel), omega_of(pen, link)), under(name, link)
     corner = rolled_image(pen, start, rim, (centre, name), rates)
     ends = pen.the("position", name), pen.the("position", point)
-    turning, twist = omega_of(pen, link), omega_of(pen, link, "epsilon")
+    turning, twist = omega_of(pen, link), omega_of(pen, link, EPSILON)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         end = pen.draw(centripetal, corner, *ends, turning)
         found = pen.draw(driven_tangential, end, *ends, twist, name=second_image(point))
@@ -296,5 +297,5 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
     index = about(pen, rims[1], rims[0])
     with pen.on(Part.RESULT, Plane.NUMBERS):
         steps = ends, (first, second)
-        turning = turning_of_link(pen, "epsilon", link, letters, index, steps)
-    pen.want("epsilon", link, turning)
+        turning = turning_of_link(pen, EPSILON, link, letters, index, steps)
+    pen.want(EPSILON, link, turning)

@@ -9,6 +9,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_no_length, is_driven, rate_symbol, vector_of
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.laid_off_by_rate import (
@@ -104,7 +105,7 @@ def turned_image(
     another step is told.
     """
     p, q = letters
-    rate = pen.the("omega", link) if omega is None else omega
+    rate = pen.the(OMEGA, link) if omega is None else omega
     image = pen.draw(turned_velocity, start, *places, rate, name=name)
     index = index or q + ("" if p in pen.scene.frame.points else p)
     names = {"p": p, "q": q, "index": index, "whole": q, "base": p}

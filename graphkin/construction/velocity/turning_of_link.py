@@ -9,6 +9,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation, figure, length_of
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -16,21 +17,21 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import cross, dot
 
 
-@action("omega")
+@action(OMEGA)
 def omega(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
     """Angular velocity of a link from the relative velocity of two of its points."""
     bar = q - p
     return cross(bar, image_q - image_p) / dot(bar, bar)
 
 
-@action("epsilon")
+@action(EPSILON)
 def epsilon(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
     """Angular acceleration from the tangential part of a relative acceleration, with its sense."""
     bar = q - p
     return cross(bar, image_q - image_p) / dot(bar, bar)
 
 
-ACTIONS = {"omega": omega, "epsilon": epsilon}
+ACTIONS = {OMEGA: omega, EPSILON: epsilon}
 """How each rate follows from the bar and its image."""
 
 
@@ -41,7 +42,7 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("rate",)
-    vectors: ClassVar[Mapping[str, str]] = {"omega": "v_{}", "epsilon": "a_{}^τ"}
+    vectors: ClassVar[Mapping[str, str]] = {OMEGA: "v_{}", EPSILON: "a_{}^τ"}
 
     quantity: str
     link: str

@@ -6,6 +6,7 @@ from graphkin.construction.core.arrows import arrow_between, velocity_arrows
 from graphkin.construction.core.bases import Base, crank_tip, sides_of, under
 from graphkin.construction.core.pen import Pen, image, letter
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import difference, join, part_along
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.drivers.summed_rate import summed_rate
@@ -39,7 +40,7 @@ def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
     """Image of a driven tip: omega times the bar, square to it, in the sense of omega."""
     pivot, tip = group.pivot, crank_tip(pen.scene, group)
     speed = pen.drive(group.driver).speed
-    pen.want("omega", group.link, driven_rate(pen, group, "omega", speed))
+    pen.want(OMEGA, group.link, driven_rate(pen, group, OMEGA, speed))
     if tip is not None:
         turn_tip(pen, group.link, pivot, tip)
 
