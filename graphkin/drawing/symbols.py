@@ -9,6 +9,7 @@ from math import atan2, cos, degrees, hypot, radians, sin
 from graphkin.drawing.field import XY, Carried
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, polygon
 from graphkin.drawing.style import BRIEF
+from graphkin.numbers.arithmetic import pick
 
 HEAD, SHARE = 3.2, 0.4
 """Length of an arrowhead in mm, and of that of a short vector in parts of it."""
@@ -161,16 +162,23 @@ def turned_arrow(
     """
     angle, back = end
     yield Arc(*centre, radius, angle + back, angle, cls)
-    yield sense_head(centre, radius, way, (1 if back > 0 else -1) * 2.2 / radius, cls)
+    yield sense_head(centre, radius, way, pick(back > 0, 1, -1), cls)
 
 
-def sense_head(centre: XY, radius: float, way: XY, before: float, cls: str) -> Mark:
-    """The head of a turning arrow at the end of a way, along the chord from an angle before."""
-    (x0, y0), (x1, y1) = ((radius * cos(t), -radius * sin(t)) for t in (before, 0.0))
-    length = hypot(x1 - x0, y1 - y0)
-    u, v = (x1 - x0) / length, (y1 - y0) / length
-    half = 0.45
-    corners = ((x1, y1), (x0 - half * v, y0 + half * u), (x0 + half * v, y0 - half * u))
+def sense_head(centre: XY, radius: float, way: XY, side: float, cls: str) -> Mark:
+    """The head of a turning arrow at the end of a way, along the chord from an angle before.
+
+    ``side`` is 1 where the arc comes from greater angles, -1 where it comes from smaller ones.
+    """
+    before = 2.2 / radius
+    x0, y0 = radius * cos(before), radius * sin(before)
+    length, half = hypot(radius - x0, y0), 0.45
+    u, v = (radius - x0) / length, side * y0 / length
+    corners = (
+        (radius, 0.0),
+        (x0 - half * v, half * u - side * y0),
+        (x0 + half * v, -side * y0 - half * u),
+    )
     return polygon(tuple(across(centre, way, *c) for c in corners), f"arrowhead {cls}")
 
 

@@ -73,6 +73,8 @@ class MovingPlace(Carried):
             pose, here = BodyPose(self.local.on_page, way.way), 0j
         if isinstance(along, TracedNumber):
             pose, along = BodyPose(pose.origin + way.way * (along * way.sense), way.way), 0.0
+        if isinstance(aside, TracedNumber):
+            pose, aside = BodyPose(pose.origin + way.way * (aside * (1j * way.sense)), way.way), 0.0
         return MovingPlace(Local(pose, here + way.sense * complex(along, aside)))
 
 

@@ -6,15 +6,15 @@ steps themselves.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from math import hypot, inf, radians
+from collections.abc import Callable, Mapping, Sequence
+from math import hypot, inf, radians, sqrt
 from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
 
 from graphkin.construction.core.layout import Layout, spans
-from graphkin.construction.core.program import Program
+from graphkin.construction.core.program import Program, Step
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.drawing.field import Field
@@ -24,7 +24,6 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Course
 from graphkin.motion.sweep import names, sweep_of
 from graphkin.numbers.arithmetic import FLOAT
-from graphkin.scene.model import Closure
 from graphkin.web.field_extents import room_of
 from graphkin.web.page_driver import PageDriver
 from graphkin.web.screen_sheets import ScreenSheet
@@ -77,18 +76,31 @@ def redrawn_near(
     pins: Mapping[str, Sequence[float]],
 ) -> Fields:
     """The same in the closure of a group of class III whose pins stand nearest to given ones."""
-    scene, found = mechanism.scene, []
-    numbered = [name for name, branch in scene.branches.items() if isinstance(branch, Closure)]
-    if not numbered:
-        return redrawn(mechanism, driven, sheet, x, sheet.drawing.trace.program)
+    program, found = sheet.drawing.trace.program, []
+    closing = next((n for n, step in enumerate(program.steps) if is_closing(step)), None)
+    if closing is None:
+        return redrawn(mechanism, driven, sheet, x, program)
     for number in CLOSURES:
-        branches = {**scene.branches, numbered[0]: Closure(number)}
-        program = Mechanism(replace(scene, branches=branches)).program
         try:
-            found.append(redrawn(mechanism, driven, sheet, x, program))
+            here = in_closure(program, closing, number)
+            found.append(redrawn(mechanism, driven, sheet, x, here))
         except StepFailed:
             continue
     return min(found, key=lambda fields: farthest(fields[0], pins), default=([], []))
+
+
+def is_closing(step: Step) -> bool:
+    """Whether a step closes a group of class III."""
+    return step.action is not None and step.action.key == "close"
+
+
+def in_closure(program: Program, closing: int, number: int) -> Program:
+    """The same steps, of which one closes its group in the closure of a number."""
+    step = program.steps[closing]
+    assert step.action is not None
+    action = replace(step.action, value=replace(step.action.value, number=number))
+    steps = (*program.steps[:closing], replace(step, action=action), *program.steps[closing + 1 :])
+    return replace(program, steps=steps)
 
 
 def farthest(left: Sequence[Mark], pins: Mapping[str, Sequence[float]]) -> float:
@@ -128,7 +140,38 @@ def apart(one: Sequence[float], other: Sequence[float]) -> float:
     return max(abs(a - b) for a, b in zip(one, other, strict=True))
 
 
+def off_by(kind: str, cls: str) -> Callable[[Sequence[float], Sequence[float]], float]:
+    """What tells how far marks of a kind and a class lie apart."""
+    if cls == "plate":
+        return around_apart
+    if kind == "Polyline":
+        return round_apart
+    return strokes_apart if cls == "ground" else apart
+
+
 def around_apart(one: Sequence[float], other: Sequence[float]) -> float:
     """The same of two polygons, whose corners may be counted from any one."""
     turned = (apart([*one[i:], *one[:i]], other) for i in range(0, len(one), 2))
     return min(turned, default=0.0)
+
+
+def round_apart(one: Sequence[float], other: Sequence[float]) -> float:
+    """The same of two broken lines, or of one and a circle, given by its centre and radius."""
+    circle, line = sorted((one, other), key=len)
+    if len(circle) != 3 or len(line) == 3:
+        return apart(one, other)
+    return float(abs(abs(places(line) - complex(*circle[:2])) - circle[2]).max())
+
+
+def strokes_apart(one: Sequence[float], other: Sequence[float]) -> float:
+    """The same of two strokes of a hatching, which stays with what bears it while its guide is
+    drawn from another end: how far they lie across the guide, and how far from parallel."""
+    (start, end), (first, last) = places(one), places(other)
+    way, along = (each / abs(each) for each in (end - start, last - first))
+    across = ((start - first) * (along * (-1 - 1j) / sqrt(2)).conjugate()).imag
+    return float(max(abs(across), abs(way - along)))
+
+
+def places(at: Sequence[float]) -> Any:
+    """The corners of a mark as complex numbers."""
+    return np.array(at[::2]) + 1j * np.array(at[1::2])

@@ -26,11 +26,11 @@ from graphkin.text import words
 from graphkin.web.moving import Moving, moving, still
 from graphkin.web.page_driver import driven_by, window
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from tests.chosen import CHOSEN
+from tests.chosen import CHOSEN, EVERY
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.web.laid import laid
-from tests.web.redrawn import apart, around_apart, kind_of, numbers, redrawn_near
+from tests.web.redrawn import apart, kind_of, numbers, off_by, redrawn_near
 
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
 CENTRES = ", all its centres"
@@ -39,20 +39,19 @@ ENDLESS = tuple(f"{name}{CENTRES}" for name in ("slider-crank", "crank-fixed-slo
 WHICH = tuple(dict.fromkeys((*LABS, *CHOSEN, "gears-planet", "oscillating-slide", *ENDLESS[1:])))
 LIMIT = 0.01
 """Millimetres within which a page draws as Python does."""
-SHIFTED = ("ground", "gear", "gear-disc", "fixed-pivot", "detail", "square-mark", "drive")
-"""Marks that are not drawn alike elsewhere: strokes and teeth stay with what bears them, a pivot
-does not grow where a block covers it, a dimension stands on the side where it was drawn."""
+TEETH = ("gear", "gear-disc")
+"""The outlines of gears."""
+CURVES = ("trajectory", "fixed-centrode", "moving-centrode", "locus")
+"""Curves of the whole motion: they are drawn once, and carried with what bears them."""
 OTHERWISE = {
     ("four-bar-change-point", "ray"): "a link that only shifts: rounding says which end is far",
-    ("excavator-absolute", "sense"): "the arrow of a sense stays when a law of time turns back",
-    ("excavator-relative", "sense"): "the arrow of a sense stays when a law of time turns back",
-    ("jumper", "sense"): "the arrow of a sense stays when a law of time turns back",
+    ("excavator-absolute", "sense"): "the place of the arrow is chosen where the scene stands",
+    ("excavator-relative", "sense"): "the place of the arrow is chosen where the scene stands",
+    ("jumper", "sense"): "the place of the arrow is chosen where the scene stands",
     ("rod-and-wheel", ""): "the construction has other steps in a closure of another number",
 }
 """What is not compared, and why: marks of a class, or a whole scene."""
-CARRIED = ("arrowhead", "block", "slider", "plate", "slot", "weld", "fixed-pivot")
-"""The broken lines that a body or a vector carries along."""
-PLACES = (0.07, 0.38, 0.72)
+PLACES = tuple((k + 0.5) / 24 for k in range(24)) if EVERY else (0.07, 0.38, 0.72)
 """The places looked at, in parts of the range."""
 
 
@@ -133,13 +132,13 @@ def is_nothing(at: Sequence[float]) -> bool:
 def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
     """What a page draws otherwise than Python at a place of the driver."""
     (sheets, found), mechanism = page_of(name), named(name)
-    left = {*SHIFTED, *(cls for scene, cls in OTHERWISE if scene == name)}
+    left = {cls for scene, cls in OTHERWISE if scene == name}
     here = defaultdict(list)
     drawn: dict[Any, int] = defaultdict(int)
     places = {mark_id: (mark, s, side) for mark_id, mark, s, side in fields(sheets)}
     for mark_id, mark, s, side in fields(sheets):
         first = mark.cls.split()[0]
-        if isinstance(mark, Text) or first in ("label", "number", "leader", *left):
+        if isinstance(mark, Text) or first in ("label", "number", "leader"):
             continue
         drawn[s, side, *kind_of(mark)] += 1
         at = marks.get(mark_id, numbers(mark))
@@ -161,21 +160,24 @@ def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
         for side, there in enumerate(redrawn_near(mechanism, found.driven, sheet, x, pins)):
             wanted = defaultdict(list)
             for mark in there:
-                if mark.cls.split()[0] not in left:
-                    wanted[s, side, *kind_of(mark)].append(numbers(mark))
+                wanted[s, side, *kind_of(mark)].append(numbers(mark))
             mine = {key: at for key, at in here.items() if key[:2] == (s, side)}
-            yield from differences(mine, wanted, drawn, x)
+            yield from differences(mine, wanted, drawn, x, left)
 
 
 def differences(
-    mine: dict[Any, list[Any]], wanted: dict[Any, list[Any]], drawn: dict[Any, int], x: float
+    mine: dict[Any, list[Any]],
+    wanted: dict[Any, list[Any]],
+    drawn: dict[Any, int],
+    x: float,
+    left: set[str],
 ) -> Iterator[str]:
     """Marks of one that no mark of the other lies at; those that were not drawn cannot follow."""
     for key in {*mine, *wanted}:
-        if is_broken(key):
+        if is_left(key) or key[3].removeprefix("arrowhead ") in left:
             continue
         a, b = mine.get(key, []), wanted.get(key, [])
-        off = around_apart if key[2:4] == ("Polyline", "plate") else apart
+        off = off_by(*key[2:4])
         for at in (each for each in a if not is_nothing(each)):
             if min((off(at, other) for other in b), default=9.0) > LIMIT:
                 yield f"at {x:g} {key}: {at} is not drawn by Python, which has {b}"
@@ -185,12 +187,13 @@ def differences(
                     yield f"at {x:g} {key}: {at} is not on the page, which has {a}"
 
 
-def is_broken(key: tuple[Any, ...]) -> bool:
-    """Curves as broken lines are cut elsewhere; arrows to what is far and of a dimension stay."""
+def is_left(key: tuple[Any, ...]) -> bool:
+    """Curves of the whole motion; teeth, which mesh by a law of their own; auxiliary circles, which
+    may leave the page; the head of a ray to what is far, which lies off it."""
     kind, cls, name = key[2:5]
-    arrow = cls.startswith("arrowhead")
-    far = arrow and name[:1] in "IJW" and not name.startswith("W_")
-    return (kind == "Polyline" and not cls.startswith(CARRIED)) or far or name.startswith("s ")
+    far = cls.startswith("arrowhead") and name[:1] in "IJW" and not name.startswith("W_")
+    is_curve = kind == "Polyline" and cls.split()[0] in (*CURVES, "construction")
+    return is_curve or (kind == "Polyline" and cls in TEETH) or (bool(name) and far)
 
 
 @pytest.mark.parametrize("name", [name for name in WHICH if (name, "") not in OTHERWISE])

@@ -112,10 +112,10 @@ def draw_sense(
 ) -> None:
     """A turning arrow beyond the crank at an angle, in the sense of its angular velocity."""
     centre = field(drawing.positions[pivot_of(drawing, driver)])
-    omega = float(driver.speed.si(drawing.scene.values))
-    if not omega:
+    omega = speed_of(drawing, driver)
+    if omega == 0:
         return
-    sign = 1 if omega > 0 else -1
+    sign = pick(omega > 0, 1, -1)
     near, long = clear_of(drawing, driver, end, sign)
     tip = end + sign * (near + long)
     way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
@@ -125,7 +125,15 @@ def draw_sense(
     board.labels.append(Label(f"*ω*_{{{index}}}", "", at, 2.5, f"omega {driver.link}"))
 
 
-def clear_of(drawing: Drawing, driver: Driver, end: Real, sign: int) -> tuple[Real, float]:
+def speed_of(drawing: Drawing, driver: Driver) -> Real:
+    """The driver's speed, of which the sense is drawn, in rad/s or m/s."""
+    for each, drive in zip(drawing.scene.drivers, drawing.trace.program.drives, strict=True):
+        if each is driver and drive.speed in drawing.trace.values:
+            return drawing.trace.values[drive.speed]
+    return float(driver.speed.si(drawing.scene.values))
+
+
+def clear_of(drawing: Drawing, driver: Driver, end: Real, sign: Real) -> tuple[Real, float]:
     """How far beyond its crank a turning arrow begins and how long it is, in degrees in its sense.
 
     Further on where the velocity of its pivot, which is set there, or a bar would cut it.
@@ -203,9 +211,9 @@ def draw_way(
     else:
         at = across(field(drawn), way, 0, side * BLOCK[1] / 2)
         board.labels.append(Label(text, "", at, 2.5, name, away=across((0.0, 0.0), way, 0, side)))
-    speed = float(driver.speed.si(drawing.scene.values))
-    if speed:
-        ahead = HALF if speed > 0 else -HALF
+    speed = speed_of(drawing, driver)
+    if speed != 0:
+        ahead = pick(speed > 0, HALF, -HALF)
         tail, tip = (across(field(moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
         board.marks += arrow(tail, tip, "sense", f"speed {driver.link}")
         index = driver_index(driver)
