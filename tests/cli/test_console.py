@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from graphkin import __version__
 from graphkin.cli.console import BROKEN_PIPE
 from tests.cli.conftest import ROOT, Run, command
 
@@ -29,17 +28,6 @@ def test_each_command_has_help(run: Run, name: str) -> None:
     result = run(name, "--help")
     assert result.exit_code == 0
     assert "Usage:" in result.stdout
-
-
-def test_the_version_is_the_packages(run: Run) -> None:
-    assert __version__ in run("--version").stdout
-
-
-def test_list_names_labs_parameters_and_what_is_asked(run: Run) -> None:
-    result = run("list")
-    assert result.exit_code == 0
-    for expected in ("pump", "Pump mechanism", "n from 1 to 30 in steps of 1", "velocity of D"):
-        assert expected in result.stdout
 
 
 @pytest.mark.parametrize(
@@ -88,12 +76,6 @@ def test_unreadable_scenes_are_told_in_lines(run: Run, tmp_path: Path, data: byt
         assert all(line.startswith("graphkin: ") for line in result.stderr.splitlines())
 
 
-def test_a_folder_without_a_scene_is_told(run: Run, tmp_path: Path) -> None:
-    result = run("check", tmp_path)
-    assert result.exit_code == 2
-    assert result.stderr.startswith(f"graphkin: {tmp_path}: is a folder without scene.toml; ")
-
-
 def test_every_problem_of_a_scene_names_its_file_once(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,18 +113,6 @@ def test_a_fault_of_our_own_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatc
     assert result.exit_code == 2
     assert result.stderr.startswith("graphkin: a fault in graphkin itself (ZeroDivisionError")
     assert len(result.stderr.splitlines()) == 1
-
-
-def test_an_unreadable_file_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin.scene import scene_files
-
-    def refused(name: str) -> Path:
-        raise PermissionError(13, "Permission denied", name)
-
-    monkeypatch.setattr(scene_files, "find", refused)
-    result = run("solve", "pump")
-    assert result.exit_code == 2
-    assert result.stderr == "graphkin: pump: Permission denied\n"
 
 
 def test_control_c_gives_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -143,7 +143,7 @@ MERGES = (
 
 
 @pytest.mark.parametrize("merge", MERGES, ids=lambda merge: merge.scene)
-@pytest.mark.parametrize("offset", [sign + each for sign in "+-" for each in OFFSETS])
+@pytest.mark.parametrize("offset", [s + x for s, x in zip("+-+-+-+", OFFSETS, strict=True)])
 def test_the_last_closures_have_their_numbers(merge, offset):
     angle = merge.at + MP.mpf(offset)
     trials = merge.trials(angle)

@@ -25,7 +25,6 @@ from graphkin.diagnosis.effects import (
     parted,
 )
 from graphkin.mechanism import Mechanism
-from graphkin.scene.expression import TIME
 from graphkin.scene.model import Ask
 from graphkin.scene.read_scene import read_text
 from tests.chosen import CHOSEN
@@ -172,26 +171,6 @@ def test_rolling_and_gears_only_where_wheels_touch(name):
         assert effect_of(step) in (Effect.ROLLING, Effect.GEARS), step.action
 
 
-def test_wheels_on_their_pins_are_gears_and_others_roll():
-    kinds = {
-        name: {e for e in (Effect.ROLLING, Effect.GEARS) if drawn_for(asking(name, Ask()))[e]}
-        for name in FILES
-    }
-    of_gears = {name for name, found in kinds.items() if found == {Effect.GEARS}}
-    of_rolling = {name for name, found in kinds.items() if found == {Effect.ROLLING}}
-    assert of_gears == {"gears-pair", "gears-planet", "gears-rack", "gears-ring"}
-    assert of_rolling == {"centrodes-roller", "rod-and-wheel", "roller", "roller-plates"}
-
-
-@EVERY
-def test_laws_of_time_only_where_a_driver_is_written_in_t(name):
-    mechanism = asking(name, Ask())
-    timed = any(TIME in driver.position.uses() for driver in mechanism.scene.drivers)
-    assert bool(drawn_for(mechanism)[Effect.TIME]) == timed
-    in_t = [s for s in steps(mechanism) if s.given and TIME in s.given.uses()]
-    assert len(in_t) == drawn_for(mechanism)[Effect.TIME]
-
-
 @EVERY
 def test_an_accelerated_driver_only_where_one_is(name):
     mechanism = asking(name, Ask())
@@ -225,22 +204,6 @@ def test_only_what_is_named_has_centres_and_poles(name):
             assert not alone[Effect.CENTRE]
 
 
-def test_centrodes_have_the_centres_that_nothing_else_asks_for():
-    alone = asking("centrodes-four-bar", Ask(centrodes=("2",)))
-    both = asking("centrodes-four-bar", Ask(centrodes=("2",), centres=("2",)))
-    assert drawn_for(alone)[Effect.CENTRODE] == drawn_for(both)[Effect.CENTRE] == 1
-    assert drawn_for(alone)[Effect.CENTRE] == drawn_for(both)[Effect.CENTRODE] == 0
-    assert rows(alone)[Effect.CENTRODE.value].included
-    assert rows(both)[Effect.CENTRODE.value].included
-    assert "asked anyway" in rows(both)[Effect.CENTRODE.value].reason
-
-
-def test_what_only_a_command_asks_for_is_out_of_every_scene():
-    for name in FILES:
-        found = rows(shipped(name))
-        assert not any(found[each].included or found[each].steps for each in BY_COMMAND)
-
-
 CRANK = """
 graphkin = 1
 title = "Crank and slot"
@@ -269,15 +232,6 @@ acceleration = ["B"]
 def slot(driver: str, time: str = "") -> Mechanism:
     """A crank that drives a slotted lever."""
     return Mechanism(read_text(CRANK.format(driver=driver, time=time), "slot"))
-
-
-def test_a_driver_that_gathers_speed_costs_one_step():
-    steady = drawn_for(slot("angle = 40\nspeed = 3"))
-    faster = drawn_for(slot("angle = 40\nspeed = 3\nacceleration = 5"))
-    assert faster[Effect.DRIVER] == 1
-    more = {effect: faster[effect] - steady[effect] for effect in Effect}
-    given = {Effect.DRIVER: 1, Effect.SHAPE: 1}
-    assert {effect: n for effect, n in more.items() if n} == given
 
 
 def test_a_law_of_time_takes_the_place_of_the_numbers_that_it_gives():
@@ -350,12 +304,6 @@ def test_what_an_effect_is_needed_for_is_found_by_taking_it_away(name):
                 for of in names.split(", ")
             }
             assert named == needs
-
-
-def test_a_scene_that_asks_nothing_is_asked_everything():
-    mechanism = asking("pump", Ask())
-    everything = len(mechanism.program.needed(mechanism.program.answers))
-    assert sum(drawn_for(mechanism).values()) == everything
 
 
 def test_nothing_is_out_for_what_a_mutilated_program_still_has():

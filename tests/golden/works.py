@@ -34,6 +34,7 @@ HEAD = """graphkin = 1
 title = "Small"
 units = { length = "mm", angle = "deg", speed = "rad/s" }
 """
+MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
 SAID = (
     "solve",
     "solve --json",
@@ -64,7 +65,8 @@ def works() -> dict[str, list[str]]:
     for subject, folder in SMALL.items():
         stems = sorted(path.stem for path in folder.glob("*.toml"))
         found[subject] = [f"{work} of {stem}" for stem in stems for work in ("check", small(stem))]
-    return found | {subject: ["grade", "print"] for subject in CLASSES}
+    said = [f"{wrong.get('command', 'check')} of {name}" for name, wrong in MISTAKES.items()]
+    return found | {"mistakes": said} | {subject: ["grade", "print"] for subject in CLASSES}
 
 
 def small(stem: str) -> str:
@@ -77,9 +79,10 @@ def outputs(subject: str, work: str) -> Files:
     with TemporaryDirectory() as name:
         if subject in SCENES:
             said, files = ran(SCENES[subject], work, Path(name))
-        elif subject in SMALL:
+        elif subject not in CLASSES:
             command, _, stem = work.rpartition(" of ")
-            scene = whole(SMALL[subject] / f"{stem}.toml", Path(name))
+            scene = Path(name) / f"{stem}.toml"
+            scene.write_text(small_text(subject, stem), encoding="utf-8")
             said, files = ran(str(scene), command, Path(name) / "sheets")
         else:
             said, files = (graded if work == "grade" else printed)(subject, Path(name))
@@ -88,13 +91,22 @@ def outputs(subject: str, work: str) -> Files:
     )
 
 
-def whole(path: Path, folder: Path) -> Path:
-    """A small scene with its head, in a folder."""
+def small_text(subject: str, stem: str) -> str:
+    """A small scene with its head; or one with a mistake, made of another."""
+    if subject in SMALL:
+        return whole(SMALL[subject] / f"{stem}.toml")
+    wrong = MISTAKES[stem]
+    text = whole(ROOT / f"{wrong['of']}.toml")
+    for old, new in wrong.get("changes", [[wrong["old"], wrong["new"]]] if "old" in wrong else []):
+        assert old in text, stem
+        text = text.replace(old, new, 1)
+    return text
+
+
+def whole(path: Path) -> str:
+    """The text of a scene with its head."""
     text = path.read_text(encoding="utf-8")
-    (folder / path.name).write_text(
-        text if "graphkin = 1" in text else HEAD + text, encoding="utf-8"
-    )
-    return folder / path.name
+    return text if "graphkin = 1" in text else HEAD + text
 
 
 def graphkin(*words: object) -> str:

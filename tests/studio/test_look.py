@@ -11,15 +11,11 @@ from threading import Thread
 import pytest
 
 from graphkin.construction.core.solution import Verdict
-from graphkin.documents.flattest import crossings_on
-from graphkin.documents.scaling import shown
-from graphkin.documents.sheet_documents import drawings_of, hand_out
-from graphkin.drawing.style import INKS, STYLES, style_of
+from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
 from graphkin.studio.panels import Memory, StaleError, around
-from graphkin.studio.result_panel import FLATTEST
-from graphkin.text import LANGUAGES, words
+from graphkin.text import LANGUAGES
 from graphkin.text.errors import WitnessError
 from tests.scene_files import scene_text
 from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
@@ -50,24 +46,6 @@ def test_the_numbers_are_those_of_the_solution():
     assert found["verdict"]["agrees"]
 
 
-def test_the_flattest_crossings_come_first_with_what_a_pencil_makes_of_them():
-    found = rows(seen()["margins"])[1:]
-    mechanism = load("pump")
-    drawings = drawings_of(mechanism, mechanism.witness(shown(mechanism)), words("en"))
-    worst = sorted(c.angle for d in drawings for c in crossings_on(d))[:FLATTEST]
-    angles = [float(row[2].partition("°")[0]) for row in found]
-    assert angles == pytest.approx([57.29578 * angle for angle in worst], abs=0.06)
-    factors = [float(row[3].removesuffix(" mm")) for row in found]
-    assert factors == sorted(factors, reverse=True)
-
-
-@pytest.mark.parametrize("mechanism", ["velocity", "acceleration"])
-def test_the_mechanism_bears_the_construction_that_is_chosen(mechanism):
-    svg = svgs(seen(mechanism=mechanism))["mechanism"]
-    assert ('data-name="J3"' in svg) == (mechanism == "acceleration")
-    assert ('data-name="I3"' in svg) == (mechanism == "velocity")
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("name", scene_files.names())
 def test_every_lab_is_seen_in_every_language(name, language):
@@ -93,18 +71,6 @@ def test_every_mistake_is_told_and_sliders_stay_where_the_text_can_be_read():
     assert problem["line"] == 42
 
 
-def test_a_slider_out_of_range_is_told_of_the_slider():
-    (problem,) = seen(settings={"n": "31"})["problems"]
-    assert problem["setting"] == "n"
-    assert problem["line"] == 11
-
-
-def test_a_parameter_that_the_text_has_no_longer_is_forgotten():
-    found = seen(settings={"gone": "5", "n": "8"})
-    assert not found["problems"]
-    assert found["sliders"][0]["value"] == "8"
-
-
 def test_a_nearly_singular_position_is_shown_with_a_warning():
     found = seen(SINGULAR)
     assert any("flattest crossing" in problem["found"] for problem in found["problems"])
@@ -116,18 +82,6 @@ def test_a_scene_that_asks_nothing_shows_everything():
     found = seen(text)
     assert not found["problems"]
     assert found["kinds"] == ["velocity", "acceleration"]
-
-
-def test_a_scene_that_asks_only_velocities_has_no_acceleration_plan():
-    text = PUMP[: PUMP.index("[ask]")] + "[ask]\nvelocity = ['D']\n"
-    assert set(svgs(seen(text, mechanism="acceleration"))) == {"mechanism", "velocity"}
-
-
-def test_every_colour_of_the_sheets_has_one_on_the_page():
-    known = {style_of(cls, "colour").colour for cls in STYLES}
-    known |= {style_of(cls, "colour").fill for cls in STYLES} - {""}
-    assert known <= set(INKS)
-    assert not re.search("#[0-9a-f]", seen()["style"])
 
 
 HOSTILE = "<img src=x onerror=alert(1)>\"'&</script><script>alert(2)</script>"
@@ -186,15 +140,6 @@ def test_what_is_being_drawn_ends_when_something_newer_is_asked_for(tmp_path):
     assert len(calls) == 1
 
 
-def test_pages_not_heard_of_for_long_are_forgotten(tmp_path):
-    session = desk_in(tmp_path)
-    for page in range(30):
-        session.arrived(str(page), 1)
-        session.memory(str(page))
-    assert len(session.newest) == len(session.memories) == 8
-    assert "29" in session.memories
-
-
 def test_a_route_that_does_not_agree_is_said_aloud_and_nothing_is_handed_out(monkeypatch):
     def doubting(self, solution):
         return Verdict(False, 0.25, "velocity of D", 1e-9, 0.0, 0.0, ("B",))
@@ -235,14 +180,6 @@ def test_the_frame_holds_what_is_drawn_and_never_shrinks_while_a_slider_moves():
             assert top < y < bottom, at
         assert around(frame, before) == frame
         before = frame
-
-
-def test_another_text_is_drawn_at_its_own_scale():
-    memory = Memory()
-    seen(memory=memory)
-    small = PUMP.replace('length = "cm"', 'length = "mm"')
-    assert svgs(seen(small, memory, quick=True))["mechanism"].count("<line")
-    assert memory.held(small) != memory.held(PUMP) is None
 
 
 ENDS = ("x1", "y1", "x2", "y2")

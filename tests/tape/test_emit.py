@@ -17,7 +17,7 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind, pick
 from graphkin.numbers.plane import Line, Ratio
-from graphkin.tape.batch_runner import COMPILED_FROM, EMITTED_FROM, BatchRunner, best_way
+from graphkin.tape.batch_runner import EMITTED_FROM, BatchRunner
 from graphkin.tape.emit import loop_source, numpy_source
 from graphkin.tape.emitted import BLOCK, loop_names, sin45
 from graphkin.tape.graph import COMMUTING, Graph
@@ -172,14 +172,6 @@ def test_a_scene_that_can_be_followed_runs_the_same_by_source(name):
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_margins_come_with_the_values(tmp_path, way):
-    mechanism, arrays = case(tmp_path, "pump")
-    ours, plain = both(mechanism, arrays, way=way, margins=True)
-    assert len(plain) > len(mechanism.program.answers if way == "numpy" else mechanism.asked())
-    assert_same(ours, plain, mechanism.program.steps)
-
-
-@pytest.mark.parametrize("way", WAYS)
 def test_what_cannot_be_drawn_is_nan_in_both(tmp_path, way):
     """A coupler too short to reach round: the linkage closes only on a part of the turn."""
     mechanism, arrays = case(tmp_path, "crank-rocker")
@@ -304,20 +296,6 @@ def test_a_root_that_need_not_exist_keeps_its_nan():
     assert rule(lambda x, y: np.sqrt(x) * np.sqrt(x)) == "mul(sqrt(x), sqrt(x))"
 
 
-def test_what_is_not_asked_is_not_emitted():
-    program = load("pump").program
-    arrays = {"n": np.linspace(1, 30, SIZE)}
-
-    def lines(*targets):
-        press, keep = BatchRunner(program), [program.targets[target] for target in targets]
-        press.run(program.needed(targets), arrays, keep, way="numpy")
-        (emitted,) = press.kept.values()
-        return numpy_source(emitted.graph, emitted.outputs)[0].count("\n")
-
-    counts = [lines((what, "B")) for what in ("position", "velocity", "acceleration")]
-    assert counts[0] < 0.8 * counts[1] < 0.8 * 0.8 * counts[2]
-
-
 @pytest.mark.parametrize(
     "looks",
     [
@@ -389,14 +367,6 @@ def test_source_is_written_when_it_pays():
     for size in (EMITTED_FROM, EMITTED_FROM + 1):
         mechanism.batch(n=np.linspace(1, 30, size))
         assert len(mechanism.press.kept) == 1
-
-
-def test_the_way_is_chosen_by_the_number_of_variants(monkeypatch):
-    assert best_way(EMITTED_FROM - 1) == "steps"
-    monkeypatch.setattr("graphkin.tape.batch_runner.find_spec", lambda name: name)
-    assert (best_way(COMPILED_FROM - 1), best_way(COMPILED_FROM)) == ("numpy", "numba")
-    monkeypatch.setattr("graphkin.tape.batch_runner.find_spec", lambda name: None)
-    assert best_way(COMPILED_FROM) == "numpy"
 
 
 def test_records_of_lines_come_back_as_records():

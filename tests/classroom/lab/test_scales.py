@@ -69,11 +69,3 @@ def with_sheet(tmp_path: Path, line: str) -> Path:
 @pytest.mark.parametrize("line", ["scale = 10", "ka = 20", "enlarge = 2"])
 def test_what_the_scene_states_holds_for_a_batch(tmp_path, line):
     held(with_sheet(tmp_path, line), "n", range(1, 31, 7))
-
-
-def test_a_stated_scale_that_is_too_large_fits_no_page(tmp_path):
-    mechanism = load(with_sheet(tmp_path, "scale = 2"))
-    values = {**mechanism.scene.values, "n": np.array([1.0, 7.0])}
-    many = [{"n": Fraction(1)}, {"n": Fraction(7)}]
-    found = scaling(mechanism, values, 2, loader(lab_of(mechanism.scene.source), many))
-    assert np.isnan(found.kL).all()
