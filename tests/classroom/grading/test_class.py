@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from graphkin.classroom.grading.class_marking import Class, graded_class
 from graphkin.classroom.grading.graded import Answer, Taker
 from graphkin.classroom.roster.student import Student
-from tests.classroom.grading.students import LABS, book_of, drawn, given, marker_of, row
+from tests.classroom.grading.students import book_of, drawn, given, marker_of, row
 
 CLASS = 300
 GROUP = 30
@@ -50,23 +49,6 @@ def spoiled(answers: Mapping[str, Answer], random: np.random.Generator) -> dict[
 def graded(name: str, takers: list[Taker], answers: dict[str, dict[str, Answer]]) -> Class:
     """The class, marked."""
     return graded_class(book_of(name), takers, answers)
-
-
-@pytest.mark.parametrize("name", LABS)
-def test_an_honest_class_raises_no_suspicion(name):
-    found = graded(name, *a_class(name)).result
-    assert not found.copies
-    assert not found.wrong_variants
-
-
-@pytest.mark.parametrize("name", LABS)
-def test_a_copied_set_is_found_among_three_hundred(name):
-    """One hands in the other's numbers, which are wrong for both."""
-    takers, answers = a_class(name)
-    answers["s107"] = spoiled(answers["s107"], np.random.Generator(np.random.PCG64(9)))
-    answers["s208"] = dict(answers["s107"])
-    found = graded(name, takers, answers).result.copies
-    assert [set(each.students) for each in found] == [{"s107", "s208"}]
 
 
 def test_a_common_slip_is_no_copy():

@@ -30,8 +30,8 @@ from tests.classroom.grading.students import (
 )
 
 NUMBERS = range(1, 31)
-EACH = 20
-"""Drawings of each variant, so that a class has six hundred."""
+EACH = 10
+"""Drawings of each variant, so that a class has three hundred."""
 Rows = Mapping[int, Mapping[str, Answer]]
 
 
@@ -65,9 +65,9 @@ def shifted(n: int, by: int) -> int:
     return (n - 1 + by) % len(NUMBERS) + 1
 
 
-@pytest.mark.parametrize(("name", "pencil"), [*zip(LABS, (0.25, 0.25, 0.5, 0.5), strict=False)])
+@pytest.mark.parametrize(("name", "pencil"), [("pump", 0.25), ("slotted-lever", 0.5)])
 def test_no_honest_row_is_suspected(name, pencil):
-    """Six hundred honest students: fewer than one in three hundred may be, and none is."""
+    """Three hundred honest students, and none of them is."""
     for i in range(EACH):
         rows = {n: row(columns, i) for n, columns in drawings(name, pencil).items()}
         assert not suspected(name, rows)

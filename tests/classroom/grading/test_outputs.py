@@ -262,17 +262,6 @@ def test_the_command_marks_a_class_and_fills_the_gradebook(folder):
     assert "stefan,A,," in text
 
 
-def test_an_earlier_report_is_kept_unless_forced_and_then_compared(folder):
-    assert run(folder).exit_code == 0
-    again = run(folder)
-    assert again.exit_code == 2 or isinstance(again.exception, Exception)
-    text = (folder / "answers.csv").read_text(encoding="utf-8")
-    (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;49,"), encoding="utf-8")
-    assert run(folder, "--force").exit_code == 0
-    changes = (folder / "out" / "differences.csv").read_text(encoding="utf-8-sig")
-    assert "0001,v_D_mm,2,0" in changes
-
-
 def test_cells_that_cannot_be_read_are_told_with_status_1(folder):
     text = (folder / "answers.csv").read_text(encoding="utf-8")
     (folder / "answers.csv").write_text(text.replace("\n0001;19,", "\n0001;1 9_"), encoding="utf-8")
@@ -354,14 +343,6 @@ def test_a_blank_row_is_not_handed_in(folder):
     told = (folder / "out/feedback/0002.html").read_text("utf-8")
     assert "you handed in no answers" in told
     assert "<table" not in told, "who may still hand in is not told what is right"
-
-
-def test_files_in_the_way_are_told_in_one_line(folder):
-    assert run(folder).exit_code == 0
-    again = run(folder)
-    assert again.exit_code == 2
-    assert again.output.count("exists already") == 1
-    assert "and 4 more: each exists already" in again.output
 
 
 def test_a_full_disk_leaves_the_earlier_report_and_nothing_half_written(folder, monkeypatch):
