@@ -39,8 +39,7 @@ def test_nobody_of_an_honest_class_is_named(place, kind):
 
 
 @pytest.mark.parametrize(("lab", "way", "least"), [
-    ("offset-slider-crank", 0, 10), ("pump", 0, 10), ("slotted-lever", 1, 8), ("pump", 2, 6),
-    ("pump", 3, 8),
+    ("offset-slider-crank", 0, 10), ("slotted-lever", 1, 8), ("pump", 2, 6), ("pump", 3, 8),
 ])  # fmt: skip
 def test_who_copies_is_found_and_nobody_else(lab, way, least):
     """Of twelve pairs: all of another's answers, another's data drawn again, half of another's

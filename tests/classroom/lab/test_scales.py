@@ -46,7 +46,9 @@ def held(name: str | Path, parameter: str, values: range) -> None:
             assert found.stands(kind)[i] == pytest.approx(stands, rel=1e-12)
 
 
-@pytest.mark.parametrize(("name", "parameter", "values"), BY_ARRAYS, ids=lambda v: str(v)[-22:])
+@pytest.mark.parametrize(
+    ("name", "parameter", "values"), BY_ARRAYS[::2], ids=lambda v: str(v)[-22:]
+)
 def test_a_cranks_batch_has_the_scales_of_its_sheets(name, parameter, values):
     assert by_arrays(load(name))
     held(name, parameter, values)
