@@ -86,8 +86,8 @@ def otherwise(node: ast.AST) -> ast.expr | None:
 
 
 def idle(tree: ast.AST) -> set[ast.AST]:
-    """What nothing runs, or what only refuses wrong programs: annotations, FLAGS of calls; and
-    f-strings, in which a node's place may be that of the whole."""
+    """What nothing runs or only refuses wrong programs: annotations, FLAGS; and what lies in
+    f-strings, where the place of a node may be that of the whole."""
     roots = [
         getattr(node, name, None) for node in ast.walk(tree) for name in ("annotation", "returns")
     ]

@@ -11,7 +11,7 @@ import pytest
 
 from graphkin.text.errors import PageError
 from graphkin.writers import files
-from graphkin.writers.files import file_part, file_stem, write_all
+from graphkin.writers.files import file_stem, write_all
 
 FILES = {"a.txt": b"one", "b.txt": b"two", "c.txt": b"three"}
 
@@ -31,18 +31,6 @@ def test_every_file_in_the_way_is_told(tmp_path: Path) -> None:
     assert names(tmp_path) == ["a.txt", "c.txt"]
 
 
-def test_many_files_in_the_way_are_one_line(tmp_path: Path) -> None:
-    for number in range(63):
-        (tmp_path / f"{number}.txt").write_text("mine")
-    new = {f"{number}.txt": b"new" for number in range(63)}
-    with pytest.raises(PageError) as raised:
-        write_all(tmp_path, new, force=False)
-    (problem,) = raised.value.problems
-    assert problem.place.endswith(" and 60 more")
-    assert problem.found == "each exists already"
-    assert (tmp_path / "0.txt").read_text() == "mine"
-
-
 @pytest.mark.parametrize("broken", [1, 2, 3])
 def test_a_failing_rename_leaves_nothing_new(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: int
@@ -60,26 +48,6 @@ def test_a_failing_rename_leaves_nothing_new(
     with pytest.raises(PageError, match="cannot be written: permission denied"):
         write_all(tmp_path, FILES, force=False)
     assert names(tmp_path) == []
-
-
-@pytest.mark.parametrize(
-    ("text", "part"),
-    [
-        ("n7", "n7"),
-        ("n1/2", "n1_2"),
-        ("r0.25", "r0.25"),
-        ("a-3", "a-3"),
-        ("../../etc", "etc"),
-        ("Pompă", "Pompă"),
-        ('a:b*c?"<>|\\', "a_b_c"),
-        ("...", "_"),
-        ("", "_"),
-        ("con", "_con"),
-        ("COM1.x", "_COM1.x"),
-    ],
-)
-def test_parts_of_names_suit_every_file_system(text: str, part: str) -> None:
-    assert file_part(text) == part
 
 
 def test_long_stems_are_cut_and_kept_apart() -> None:

@@ -13,8 +13,6 @@ import pytest
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.links import counted_turn
-from graphkin.construction.rolling import contact_points, wheel_actions
 from graphkin.diagnosis.effects import (
     BY_COMMAND,
     BY_HAND,
@@ -43,7 +41,6 @@ from tests.diagnosis.scope import (
 
 EVERY = pytest.mark.parametrize("name", ["pump", *CHOSEN])
 CORIOLIS = {"coriolis", "lay-off-coriolis", "lay-back-coriolis"}
-OF_WHEELS = {room.__name__ for room in (contact_points, counted_turn, wheel_actions)}
 OF_ACCELERATION = {"centripetal", "driven-tangential", "normal", "epsilon", "rolling-normal"}
 OF_ACCELERATION |= CORIOLIS | {"acceleration-pole", "turned-pole"}
 OUT_WITH_ACCELERATION = (
@@ -155,23 +152,6 @@ def loops_of(name):
 
 
 @EVERY
-def test_rolling_and_gears_only_where_wheels_touch(name):
-    mechanism = asking(name, Ask())
-    scene = mechanism.scene
-    has_wheels = any(link.rolls for link in scene.links.values())
-    counts = drawn_for(mechanism)
-    of_wheels = [
-        step
-        for step in mechanism.program.steps
-        if step.action and step.action.value.__module__ in OF_WHEELS
-    ]
-    assert bool(counts[Effect.ROLLING] or counts[Effect.GEARS]) == has_wheels
-    assert bool(of_wheels) == has_wheels
-    for step in of_wheels:
-        assert effect_of(step) in (Effect.ROLLING, Effect.GEARS), step.action
-
-
-@EVERY
 def test_an_accelerated_driver_only_where_one_is(name):
     mechanism = asking(name, Ask())
     accelerated = [d for d in mechanism.scene.drivers if not d.acceleration.is_zero()]
@@ -247,17 +227,6 @@ def test_a_driver_whose_acceleration_is_a_parameter_keeps_its_step_at_nought():
     driver = 'angle = 40\nspeed = 3\nacceleration = "e"'
     mechanism = Mechanism(read_text(text.format(driver=driver, time=""), "slot"))
     assert drawn_for(mechanism)[Effect.DRIVER] == 1
-
-
-def test_a_crank_without_a_second_pin_costs_nothing_more_at_constant_speed():
-    """The points that blocks carry on a driven slot need no tangential component."""
-    for name in ("crank-slot", "oldham", "gears-pair"):
-        mechanism = accelerations(name)
-        program = mechanism.program
-        for number, drive in enumerate(program.drives):
-            if mechanism.scene.drivers[number].acceleration.is_zero():
-                users = [s for s in steps(mechanism) if drive.acceleration in s.args]
-                assert not [s for s in users if s.action.key == "driven-tangential"], name
 
 
 def test_the_slotted_lever_counted_by_eye():

@@ -146,15 +146,6 @@ def test_the_preferred_side_is_kept_in_free_space(turn, line):
     assert (way[0] * u[0] + way[1] * u[1]) / math.hypot(*way) > 0.8
 
 
-def test_a_lone_label_keeps_just_its_gap():
-    spots = [
-        place([Wish(5, 3, (40, 30), gap=gap, radius=r)], NONE, NONE, FIELD)[0]
-        for gap, r in [(1.0, 0.0), (1.0, 1.5), (0.4, 0.0)]
-    ]
-    gaps = [ink(Wish(5, 3, (0, 0)), s).distance(Point(40, 30)) for s in spots]
-    assert gaps == pytest.approx([1.0, 2.5, 0.4])
-
-
 def test_labels_of_two_near_lines_take_the_outer_sides():
     upper, lower = ((10.0, 28.0), (70.0, 28.0)), ((10.0, 33.0), (70.0, 33.0))
     lines = [(*a, *b) for a, b in (upper, lower)]
@@ -173,41 +164,12 @@ def test_a_walled_label_gets_a_leader():
     assert spot.leader[1] == pytest.approx((40, 30))
 
 
-def test_a_stuffed_field_says_so():
-    asked = [Wish(9, 4, (x, y)) for x in (14, 15, 16) for y in (10, 11, 12, 13, 14)]
-    spots = place(asked, NONE, NONE, (0.0, 0.0, 30.0, 24.0))
-    assert not all(spot.free for spot in spots)
-    assert any(spot.free for spot in spots)
-    free = [ink(w, s) for w, s in zip(asked, spots, strict=True) if s.free]
-    assert all(a.disjoint(b) for a, b in combinations(free, 2))
-    (none,) = place([Wish(9, 4, (5, 5))], NONE, [(0, 0, 16, 12)], (0.0, 0.0, 16.0, 12.0))
-    assert not none.free
-    assert none.leader is None
-
-
 def test_the_higher_priority_gets_the_only_place():
     low, high = Wish(9, 4, (5.0, 6.0)), Wish(9, 4, (7.0, 6.0), priority=1)
     field = (0.0, 0.0, 10.0, 6.5)
     assert place([low], NONE, NONE, field)[0].free
     assert [s.free for s in place([low, high], NONE, NONE, field)] == [False, True]
     assert [s.free for s in place([high, low], NONE, NONE, field)] == [True, False]
-
-
-def test_an_optional_label_leaves_the_only_place_to_one_that_must_have_it():
-    must, may = Wish(9, 4, (5.0, 6.0)), Wish(9, 4, (7.0, 6.0), priority=6, optional=True)
-    field = (0.0, 0.0, 10.0, 6.5)
-    assert place([may], NONE, NONE, field)[0].free
-    assert [s.free for s in place([must, may], NONE, NONE, field)] == [True, False]
-    assert [s.free for s in place([may, must], NONE, NONE, field)] == [False, True]
-
-
-def test_each_line_may_keep_labels_further_off():
-    wish = Wish(6, 3, (40.0, 30.0))
-    lines = [(0, 28, 80, 28), (0, 31, 80, 31)]
-    (spot,) = place([wish], lines, NONE, FIELD, clearance=[0.6, 2.0])
-    label = ink(wish, spot)
-    assert LineString([(0, 31), (80, 31)]).distance(label) >= 2.0
-    assert LineString([(0, 28), (80, 28)]).distance(label) >= 0.6
 
 
 @settings(max_examples=100, deadline=None)

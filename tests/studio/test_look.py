@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from html import unescape
-from math import dist
 from pathlib import Path
 from threading import Thread
 
@@ -77,13 +76,6 @@ def test_a_nearly_singular_position_is_shown_with_a_warning():
     assert seen(SINGULAR, settings={"h": "240"})["problems"] == []
 
 
-def test_a_scene_that_asks_nothing_shows_everything():
-    text = PUMP[: PUMP.index("[ask]")] + "[sheet]\nlanguage = 'en'\n"
-    found = seen(text)
-    assert not found["problems"]
-    assert found["kinds"] == ["velocity", "acceleration"]
-
-
 HOSTILE = "<img src=x onerror=alert(1)>\"'&</script><script>alert(2)</script>"
 
 
@@ -99,13 +91,6 @@ def test_hostile_titles_and_notes_are_nothing_but_text():
         assert "<script" not in each
         assert "<img" not in each
         assert "onerror=" not in each
-
-
-def test_hostile_names_are_refused_and_told_as_text():
-    text = PUMP.replace("[links.4]", '[links."<svg onload=alert(1)>"]')
-    found = seen(text)
-    assert found["problems"]
-    assert "panels" not in found
 
 
 def test_an_expression_is_never_evaluated_as_code(tmp_path, monkeypatch):
@@ -159,16 +144,6 @@ WATT = (Path(__file__).parents[2] / "examples/scenes/watt-1.toml").read_text(enc
 TURN = ("60", "90", "150", "240", "330", "60")
 
 
-def test_scales_and_fields_hold_while_a_slider_moves():
-    memory = Memory()
-    seen(WATT, memory, settings={"angle": TURN[0]})
-    moved = [svgs(seen(WATT, memory, settings={"angle": at}, quick=True)) for at in TURN]
-    rested = [svgs(seen(WATT, settings={"angle": at})) for at in TURN]
-    assert len({round(length_of(svg["mechanism"], "1")) for svg in rested}) > 1
-    assert len({round(length_of(svg["mechanism"], "1"), 2) for svg in moved}) == 1
-    assert len({start_of(svg["mechanism"], "1") for svg in moved}) == 1
-
-
 def test_the_frame_holds_what_is_drawn_and_never_shrinks_while_a_slider_moves():
     memory = Memory()
     before = frame_of(svgs(seen(WATT, memory, settings={"angle": TURN[0]}))["mechanism"])
@@ -190,16 +165,6 @@ def ends_of(svg: str, cls: str, name: str = '[^"]*') -> list[tuple[float, float]
     lines = re.findall(rf'<line class="{cls}" data-name="{name}"[^>]*>', svg)
     numbers = [[float(line.split(f' {at}="')[1].split('"')[0]) for at in ENDS] for line in lines]
     return [end for x1, y1, x2, y2 in numbers for end in ((x1, y1), (x2, y2))]
-
-
-def length_of(svg: str, link: str) -> float:
-    """How long a link is drawn."""
-    return dist(*ends_of(svg, "link", link)[:2])
-
-
-def start_of(svg: str, link: str) -> tuple[float, float]:
-    """Where a link's first pin is drawn."""
-    return ends_of(svg, "link", link)[0]
 
 
 def frame_of(svg: str) -> tuple[float, float, float, float]:

@@ -43,22 +43,6 @@ def whole(tmp_path_factory) -> dict[str, bytes]:
     return tree(folder / "print")
 
 
-@pytest.mark.parametrize(
-    ("name", "harm"),
-    [("task/0003-form.pdf", "cut"), ("key/0008-key.pdf", "gone"), ("class-key.pdf", "other")],
-)
-def test_what_is_lost_or_spoilt_is_made_again(whole, tmp_path, name, harm):
-    folder = copied(whole, tmp_path)
-    path = folder / "print" / name
-    data = path.read_bytes()
-    path.unlink()
-    if harm != "gone":
-        path.write_bytes(data[: len(data) // 2] if harm == "cut" else data + b" ")
-    outcome = printed(folder)
-    assert outcome.made == (0 if name.startswith("class") else 1)
-    assert tree(folder / "print") == whole
-
-
 def copied(whole: dict[str, bytes], tmp_path: Path) -> Path:
     """A class folder that was printed already."""
     folder = write_class(tmp_path / "copy", IDS)
@@ -234,18 +218,6 @@ def test_a_file_of_somebody_else_is_not_replaced_without_force(make):
     assert mine.read_bytes() != b"mine"
 
 
-def test_the_printers_file_of_somebody_else_is_not_replaced_without_force(make):
-    folder = make("foreign", ["0001"])
-    (folder / "print").mkdir()
-    mine = folder / "print" / "class-task.pdf"
-    mine.write_bytes(b"mine")
-    with pytest.raises(PageError, match=r"class-task\.pdf"):
-        printed(folder)
-    assert mine.read_bytes() == b"mine"
-    printed(folder, PrintRequest(force=True))
-    assert mine.read_bytes() != b"mine"
-
-
 def test_a_forced_run_that_was_cut_short_goes_on_without_force(make, monkeypatch):
     """What it had begun to replace is known to be its own."""
     folder, wishes = make("forced", ["0001"]), PrintRequest(language="ro")
@@ -300,9 +272,3 @@ def test_a_cluster_gives_the_same_bytes(whole, make):
     finally:
         local.close()
     assert tree(folder / "print") == whole
-
-
-def test_without_dask_the_extra_is_named(make, monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(PageError, match=r"graphkin\[cluster\]"):
-        printed(make("none", ["1"]), cluster="dask://127.0.0.1:9")
