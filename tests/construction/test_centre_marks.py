@@ -12,6 +12,7 @@ from shapely import LineString, Point
 from graphkin.construction.core.curve_marks import (
     UNSEEN,
     clipped_path,
+    middle_of,
     ring,
 )
 from graphkin.construction.core.drawn_scene import Drawing
@@ -233,6 +234,13 @@ def test_only_corners_that_nobody_sees_are_left_out():
     assert len(circle.points) < len(points) / 2
     kept = LineString(circle.points)
     assert max(kept.distance(Point(point)) for point in points) <= UNSEEN
+
+
+def test_a_curve_is_named_at_a_share_of_its_length():
+    part = Polyline(((0.0, 0.0), (80.0, 0.0), (80.0, 20.0)), "trajectory")
+    assert middle_of(part, 0.5) == (50.0, 0.0)
+    assert middle_of(part, 0.9) == (80.0, 10.0)
+    assert middle_of(part, 1.0) == (80.0, 20.0)
 
 
 @pytest.mark.parametrize("radius", [0.01, 1.0, 50.0])
