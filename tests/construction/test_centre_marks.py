@@ -240,7 +240,7 @@ def test_a_curve_is_named_at_a_share_of_its_length():
     part = Polyline(((0.0, 0.0), (80.0, 0.0), (80.0, 20.0)), "trajectory")
     assert middle_of(part, 0.5) == (50.0, 0.0)
     assert middle_of(part, 0.9) == (80.0, 10.0)
-    assert middle_of(part, 1.0) == (80.0, 20.0)
+    assert middle_of(part, 1.0) == middle_of(part, 1 + 1e-12) == (80.0, 20.0)
 
 
 @pytest.mark.parametrize("radius", [0.01, 1.0, 50.0])
