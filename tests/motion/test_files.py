@@ -13,6 +13,7 @@ from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.curves.over_driver import pictures
+from graphkin.motion.curves.plane_paths import dotted
 from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
@@ -146,3 +147,11 @@ def test_words_stand_to_the_right_of_their_lines_but_for_the_last():
     sides = {text.xy[0]: text.xyann[0] > 0 for text in told}
     assert len(sides) >= 3
     assert [at for at, right in sides.items() if not right] == [max(sides)]
+
+
+def test_a_path_has_a_dot_at_every_twelfth_of_a_turn():
+    found = sampled(cycle(load(f"{SCENES}/crank-rocker.toml"), steps=24), 24)
+    dots = dotted(found, found.at + 0j)
+    assert dots.real.tolist() == [
+        30 * k for k in range(-40, 40) if 0 <= 30 * k - found.at[0] <= 360
+    ]
