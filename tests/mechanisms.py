@@ -29,7 +29,7 @@ units = { length = "m", angle = "deg", speed = "rad/s" }
 
 COIN = st.booleans()
 SHIPPED = ("pump", "pump-collinear")
-LAW = settings(max_examples=60, deadline=None, derandomize=True, database=None)
+LAW = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 """A law holds on so many mechanisms made at random, the same ones at every run."""
 
 

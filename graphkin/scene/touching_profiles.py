@@ -8,7 +8,6 @@ accelerations. The common normal lies along it, and on it the contact.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from decimal import Decimal
 
 from graphkin.scene.findings import Table, listed, nearest, shown
 from graphkin.scene.measures import Measures
@@ -82,8 +81,7 @@ def two_radii(table: Table, measures: Measures) -> tuple[str, str] | None:
         return None
     for index, each in enumerate(raw):
         measures.length(f"{place}[{index}]", each, positive=True)
-    first, second = (format(r, "f") if isinstance(r, Decimal) else str(r) for r in raw)
-    return first, second
+    return str(raw[0]), str(raw[1])
 
 
 def between(

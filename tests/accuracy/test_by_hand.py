@@ -8,16 +8,11 @@ import numpy as np
 import pytest
 
 from graphkin.accuracy.pencil import Pencil, forecast, original, simulated
-from graphkin.accuracy.pencil.read_off import answers
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.quantities import QUANTITIES
-from graphkin.documents.sheet_documents import scales
 from graphkin.drawing.scale import Scales
-from graphkin.mechanism import load
 from graphkin.numbers.plane import Line, line_meets_line
 from tests.accuracy.originals import TRIANGLE, pump, scene, triangle
-from tests.chosen import CHOSEN, FOLDER
 from tests.mechanisms import mechanism_of
 
 FOUR_BAR = """
@@ -85,23 +80,10 @@ def test_the_flattest_crossing_of_the_pump_is_the_pole_of_the_plate():
     assert degrees(worst.angle) == pytest.approx(17.5, abs=0.05)
 
 
-@pytest.mark.parametrize("name", CHOSEN)
-def test_every_crossing_has_a_letter_and_an_angle(name):
-    trace = scene(name).trace
-    for crossing in crossings(trace):
-        assert crossing.name
-        assert 0 < crossing.angle <= radians(90)
-        assert trace.program.steps[crossing.number].part is not Part.SHAPE
-
-
 def test_lines_that_only_meet_at_infinity_are_no_crossing():
     """At a change point the link translates: the normals to its velocities are parallel."""
     trace = scene("four-bar-change-point").trace
     assert not [crossing for crossing in crossings(trace) if crossing.part is Part.CENTRE]
-
-
-def test_without_crossings_none_is_the_flattest():
-    assert flattest(()) is None
 
 
 # --- the right triangle --------------------------------------------------------------------------
@@ -187,14 +169,3 @@ def test_what_is_foretold_at_a_stated_ka_is_drawn():
     many = simulated(exact, Pencil(0.25), 4000)
     for target, each in found.items():
         assert each.error == pytest.approx(many.error(target), rel=0.5), target
-
-
-@pytest.mark.parametrize("name", ["gears-rack", "roller"])
-def test_the_angle_of_a_wheel_is_no_answer_of_a_drawing(name):
-    """Everything that can be read off is a motion, a centre or a pole; the program holds more."""
-    mechanism = load(FOLDER / f"{name}.toml")
-    exact = original(mechanism, scales(mechanism), mechanism.program.answers)
-    read = {answer.target[0] for answer in answers(exact)}
-    assert "turned" in {quantity for quantity, _ in exact.targets}
-    assert read <= {each.target for each in QUANTITIES if each.words}
-    assert {"position", "velocity", "acceleration"} <= read

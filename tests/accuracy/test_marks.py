@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from msgspec.structs import replace
 
 from graphkin.accuracy.pencil import Pencil
-from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of, marked
+from graphkin.accuracy.pencil.pencil_marks import PencilMark, mark_of, marked
 from graphkin.accuracy.pencil.redrawing import redrawn
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Circle, Line, Ratio
@@ -42,18 +41,6 @@ def test_of_a_hundred_lines_95_point_within_the_angle_and_all_pass_through_their
     turned = np.degrees(np.angle(line.along / (2 + 1j)))
     assert within(turned, 0.3) == pytest.approx(0.95, abs=0.004)
     assert line.point == 1j
-
-
-def test_a_direction_errs_as_a_line_does():
-    way = marked(PencilMark.WAY, 1j, 0j, errors(PencilMark.WAY), Pencil(1.0, line=0.3), MM)
-    assert within(np.degrees(np.angle(way / 1j)), 0.3) == pytest.approx(0.95, abs=0.004)
-
-
-def test_an_opening_of_the_compass_errs_as_a_mark_does_along_one_axis():
-    arc = marked(PencilMark.ARC, Circle(1j, 0.1), 0j, errors(PencilMark.ARC), Pencil(0.4), MM)
-    point = marked(PencilMark.POINT, 0j, 0j, errors(PencilMark.POINT), Pencil(0.4), MM)
-    assert np.std(arc.radius) == pytest.approx(np.std(point.real), rel=0.02)
-    assert arc.centre == 1j
 
 
 def test_an_arrow_that_is_laid_off_errs_across_itself_in_proportion_to_its_length():
@@ -136,10 +123,3 @@ def test_only_what_hangs_on_a_mark_moves():
         reached |= {n for n, hand in by_hand.items() if hand in reached}
         reached |= {m for n in tuple(reached) for m in exact.program.descendants(n)}
     assert moved <= reached
-
-
-def test_the_scale_of_each_plan_says_what_a_millimetre_is():
-    paper = Paper(5.0, 200.0, 8000.0)
-    planes = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS)
-    assert [paper.millimetre(plane) for plane in planes] == [0.005, 0.2, 8.0]
-    assert replace(paper, mechanism=1.0).millimetre(Plane.MECHANISM) == 0.001

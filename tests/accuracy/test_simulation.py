@@ -6,16 +6,14 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil import Pencil, drawn, simulated
+from graphkin.accuracy.pencil import Pencil, simulated
 from graphkin.accuracy.pencil.drawn_closing import followed
 from graphkin.accuracy.pencil.pencil import RADIAL
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark
 from graphkin.accuracy.pencil.redrawing import read_off, redrawn
 from graphkin.construction.core.program import Plane
 from graphkin.construction.higher_class.closure_solver import closer_of
-from graphkin.documents.sheet_documents import scales
-from graphkin.mechanism import load
-from tests.accuracy.originals import D_AWAY, pump, scene
+from tests.accuracy.originals import pump, scene
 from tests.chosen import CHOSEN
 
 COUNT = 2000
@@ -45,28 +43,6 @@ def test_a_perfect_pencil_gives_the_pump_to_rounding(n):
         assert many[answer.target] == pytest.approx(answer.value, rel=1e-12)
 
 
-def test_the_same_seed_gives_the_same_drawings_and_another_others():
-    one, two = (simulated(pump(), Pencil(), 100, seed) for seed in (3, 3))
-    other = simulated(pump(), Pencil(), 100, 4)
-    for answer in one.answers:
-        assert (one[answer.target] == two[answer.target]).all()
-        assert (one[answer.target] != other[answer.target]).all()
-
-
-def test_the_first_of_more_drawings_are_those_of_fewer():
-    few, many = (simulated(pump(), Pencil(), count) for count in (70, 9000))
-    for answer in few.answers:
-        assert (few[answer.target] == many[answer.target][:70]).all()
-
-
-def test_fewer_answers_leave_the_others_as_they_were():
-    mechanism = load("pump", n=7)
-    chosen = scales(mechanism)
-    whole = drawn(mechanism, chosen, Pencil(), 50)
-    alone = drawn(mechanism, chosen, Pencil(), 50, targets=[("velocity", "D")])
-    assert (alone["velocity", "D"] == whole["velocity", "D"]).all()
-
-
 def test_errors_grow_in_proportion_to_a_small_pencil():
     small, double = (simulated(pump(), Pencil(p), COUNT) for p in (0.02, 0.04))
     for answer in small.answers:
@@ -87,12 +63,6 @@ def test_larger_paper_does_not_help_against_lines_that_point_wrongly():
     small, large = (simulated(each, lines_only, COUNT) for each in (exact, enlarged(exact, 2)))
     for answer in small.answers:
         assert small.error(answer.target) == pytest.approx(large.error(answer.target), rel=1e-9)
-
-
-def test_marks_on_a_fine_grid_err_less_than_on_a_coarse_one():
-    errors = [simulated(pump(), Pencil(0.0, grid=g), 1).error(D_AWAY) for g in (1e-4, 0.01, 2.0)]
-    assert errors == sorted(errors)
-    assert errors[0] < 1e-3 * errors[2]
 
 
 def test_a_drawing_that_cannot_close_is_told_as_one():

@@ -11,25 +11,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.accuracy import machine
-from graphkin.accuracy.agreement import Agreement
-from graphkin.accuracy.compared_answers import error
 from graphkin.accuracy.compared_positions import approach, ground_of, places_around
 from graphkin.accuracy.flattening import LAW
-from graphkin.accuracy.methods import BITS, DIGITS, batch, found_singly, radii_in
+from graphkin.accuracy.methods import BITS, DIGITS
 from graphkin.accuracy.other_routes import STEPS, TOLERANCES, plain
-from graphkin.accuracy.stopwatch import QUICK, Effort, Stopwatch
+from graphkin.accuracy.stopwatch import QUICK
 from graphkin.accuracy.study import Study, study
-from graphkin.accuracy.study_files import picture_files
 from graphkin.cli.report.accuracy_report import (
     HEADS,
-    accuracy_lines,
     accuracy_table,
-    agreement_lines,
 )
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
-from graphkin.numbers.kinds import ball_kind
 from tests.cli.conftest import Run, run  # noqa: F401
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -81,33 +74,6 @@ def test_balls_shrink_with_their_bits(name):
     assert all(row.certified for row in rows)
     for bits, row in zip(BITS, rows, strict=True):
         assert 2.0 ** -(bits + 8) < max(row.errors) < 2.0 ** (16 - bits)
-
-
-@every_case
-def test_the_errors_of_balls_are_their_radii(name):
-    of = found(name)
-    for bits in BITS:
-        balls = found_singly(of.reference, ball_kind(bits))
-        middles = of.reference.relative(of.reference.missed(balls))
-        assert of.row(f"Arb, {bits} bits").errors == of.reference.relative(
-            radii_in(balls, of.reference)
-        )
-        assert max(middles) < max(of.row(f"Arb, {bits} bits").errors)
-
-
-def test_an_error_counts_the_radius_of_the_reference():
-    from flint import arb
-
-    assert error(1.0, arb(1, 1e-3)) >= 1e-3
-    assert error(1.0, arb(1.5)) == pytest.approx(0.5)
-    assert np.isnan(error(float("nan"), arb(1)))
-
-
-@every_case
-def test_no_claimed_error_is_below_what_the_reference_itself_leaves_open(name):
-    of = found(name)
-    errors = [e for row in of.rows for e in row.errors if e is not None]
-    assert min(errors) > of.reference.radius > 0
 
 
 @every_case
@@ -177,32 +143,6 @@ def test_a_group_of_class_three_dies_by_the_same_law():
     assert flat.slopes("float64") == pytest.approx(LAW, abs=0.4)
 
 
-def test_without_a_dead_point_the_whole_range_is_looked_at():
-    of = found(WHOLE_TURN)
-    assert of.flattening.approach.end == "range"
-    at = of.flattening.reference.places.at
-    assert at.max() - at.min() > 350
-    assert "meets none" in "\n".join(accuracy_lines(of))
-
-
-def test_more_scope_needs_more_steps_and_what_is_asked_no_more_than_all():
-    scopes = {scope.name: scope.steps for scope in found("pump").scopes}
-    steps = list(scopes.values())
-    assert steps[:-1] == sorted(set(steps[:-1]))
-    assert scopes["asked only"] < steps[-2]
-    program = found("pump").reference.places.course.program
-    assert steps[-2] == len(program.needed(program.answers))
-
-
-@pytest.mark.parametrize("name", ["pump", SEVERAL_DRIVERS])
-def test_positions_are_numbers_that_single_precision_holds(name):
-    places = places_around(ground_of(load(name).scene), 5)
-    for key, value in places.values.items():
-        if key.startswith("drive "):
-            assert np.array_equal(np.float32(value), value)
-    assert places.exactly(2)["drive 1 position"] == places.values["drive 1 position"][2]
-
-
 def test_positions_keep_away_from_flat_crossings():
     for name in ("pump", FOUR_BAR):
         ground = ground_of(load(name).scene)
@@ -210,13 +150,6 @@ def test_positions_keep_away_from_flat_crossings():
         course = places.course
         assert course.margins(places.at).min() > 0.09
         assert places.at.min() < ground.centre < places.at.max()
-
-
-def test_a_compiled_batch_errs_as_the_others():
-    pytest.importorskip("numba")
-    of = found(WHOLE_TURN)
-    method = batch(of.reference, QUICK, "float64", "numba", "compiled", "compiled")
-    assert max(method.row.errors) < 1e-14
 
 
 def test_the_csv_holds_what_was_found():
@@ -232,73 +165,6 @@ def test_the_csv_holds_what_was_found():
     assert rows[-1]["median_seconds_per_position"] == ""
 
 
-def test_what_is_told_names_reference_machine_and_slopes():
-    text = "\n".join(accuracy_lines(found("pump")))
-    for words in (
-        "6, driver 1 from ",
-        "Arb balls of 640 bits, whose own radius is at most",
-        machine.machine_words(),
-        "measured slopes -",
-        "hold the true value in 126 of 126 answers",
-        "asked only",
-    ):
-        assert words in text
-    lines = [line for line in text.splitlines() if machine.machine_words() not in line]
-    assert all(len(line) < 170 for line in lines)  # a machine's own words are as long as they are
-
-
-@pytest.mark.parametrize(
-    ("held", "bounded", "words"),
-    [
-        (6, 6, "Balls of 53 bits hold the true value in 6 of 6 answers; their radius"),
-        (4, 4, "They hold the true value in 4 of these 4; their radius is at most 3 times"),
-        (0, 0, "Balls of 53 bits bound 0 of 6 answers; elsewhere they grow too wide"),
-    ],
-)
-def test_balls_without_a_radius_are_not_said_to_miss_the_truth(held, bounded, words):
-    lines = list(agreement_lines(Agreement(1e-14, 0.1, 0.1, 3.0, held, bounded, 6)))
-    assert any(line.startswith(words) for line in lines)
-
-
-def test_pictures_are_the_same_bytes_with_the_same_clock():
-    of = found("pump")
-    first = picture_files(of, "pump", ["svg", "png"])
-    pictures = ("time", "dead-point", "scope")
-    assert set(first) == {f"pump-accuracy-{p}.{kind}" for p in pictures for kind in ("svg", "png")}
-    for name, data in first.items():
-        assert data.startswith(b"<?xml" if name.endswith("svg") else b"\x89PNG")
-    found.cache_clear()
-    assert picture_files(found("pump"), "pump", ["svg", "png"]) == first
-
-
-def test_pictures_of_a_scene_without_dead_points_are_drawn_too():
-    assert len(picture_files(found(SEVERAL_DRIVERS), "x", ["svg"])) == 3
-
-
-def test_a_scene_at_rest_has_errors_of_position_alone(tmp_path):
-    text = Path(WHOLE_TURN).read_text(encoding="utf-8")
-    (tmp_path / "still.toml").write_text(
-        "\n".join("speed = 0" if line.startswith("speed") else line for line in text.splitlines()),
-        encoding="utf-8",
-    )
-    mechanism = load(tmp_path / "still.toml")
-    of = study(mechanism, None, QUICK, clock=iter(np.arange(1e5)).__next__)
-    assert of.row("float64, one by one").errors[1:] == pytest.approx((0, 0), abs=1e-300)
-    assert "every driver stands still" in "\n".join(accuracy_lines(of))
-    assert picture_files(of, "still", ["svg"])
-
-
-def test_a_round_takes_all_works_in_turn():
-    done: list[str] = []
-    ticks = count()
-    effort = Effort(rounds=3, least=0, patience=100)
-    watch = Stopwatch(effort, lambda: float(next(ticks)))
-    times = watch.times([(lambda: done.append("a"), 1), (lambda: done.append("b"), 4)])
-    assert "".join(done) == "aabb" + "ab" * 3
-    assert [time.median for time in times] == [1, 0.25]
-    assert [time.rounds for time in times] == [3, 3]
-
-
 def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):  # noqa: F811
     args = ("accuracy", "pump", "--set", "n=7", "--quick", "--format", "svg", "-o", tmp_path)
     result = run(*args)
@@ -311,14 +177,6 @@ def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):  # noq
     again = run(*args)
     assert again.exit_code == 2
     assert "--force" in again.stderr
-
-
-def test_the_machine_is_named_even_where_the_system_tells_little(tmp_path):
-    listing = tmp_path / "cpuinfo"
-    listing.write_text("processor : 0\nmodel name\t: Some CPU @ 3 GHz\n", encoding="utf-8")
-    assert machine.processor(listing) == "Some CPU @ 3 GHz"
-    assert machine.processor(tmp_path / "none")
-    assert machine.version_of("no-such-library") == ""
 
 
 def test_an_error_without_bound_fails_and_is_no_number():

@@ -46,13 +46,21 @@ SWAPPED: dict[type[ast.AST], type[ast.AST]] = {
 
 
 class Mutant(NamedTuple):
-    """A module with one expression of it written otherwise."""
+    """A module with one expression of it, at a column of a line in UTF-8, written otherwise."""
 
     path: Path
     line: int
+    column: int
     before: str
     after: str
-    source: str
+
+    @property
+    def source(self) -> str:
+        """The module with the mistake."""
+        lines = (ROOT / self.path).read_bytes().splitlines(keepends=True)
+        line, end = lines[self.line - 1], self.column + len(self.before.encode())
+        lines[self.line - 1] = line[: self.column] + self.after.encode() + line[end:]
+        return b"".join(lines).decode()
 
 
 def otherwise(node: ast.AST) -> ast.expr | None:
@@ -78,35 +86,30 @@ def otherwise(node: ast.AST) -> ast.expr | None:
 
 
 def idle(tree: ast.AST) -> set[ast.AST]:
-    """What nothing runs, or what only refuses wrong programs: annotations, FLAGS of calls."""
+    """What nothing runs or only refuses wrong programs: annotations, FLAGS; and what lies in
+    f-strings, where the place of a node may be that of the whole."""
     roots = [
         getattr(node, name, None) for node in ast.walk(tree) for name in ("annotation", "returns")
     ]
     roots += [
         node.value for node in ast.walk(tree) if isinstance(node, ast.keyword) and node.arg in FLAGS
     ]
+    roots += [node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr)]
     return {inner for root in roots if root is not None for inner in ast.walk(root)}
 
 
 def mutants(path: Path) -> Iterator[Mutant]:
     """Every mutant of a module whose mistake stands on one line."""
-    source = path.read_text(encoding="utf-8")
-    tree, lines = ast.parse(source), source.splitlines(keepends=True)
+    source = path.read_bytes()
+    tree, lines = ast.parse(source), source.splitlines()
     still = idle(tree)
     for node in ast.walk(tree):
         made = None if node in still else otherwise(node)
         if made is None or node.lineno != node.end_lineno:
             continue
-        line = lines[node.lineno - 1].encode()
-        before = line[node.col_offset : node.end_col_offset].decode()
+        before = lines[node.lineno - 1][node.col_offset : node.end_col_offset].decode()
         after = f"({ast.unparse(made)})"
-        changed = line[: node.col_offset] + after.encode() + line[node.end_col_offset :]
-        text = [*lines[: node.lineno - 1], changed.decode(), *lines[node.lineno :]]
-        try:
-            ast.parse("".join(text))
-        except SyntaxError:
-            continue  # within an f-string a node's place may be that of the whole
-        yield Mutant(path.relative_to(ROOT), node.lineno, before, after, "".join(text))
+        yield Mutant(path.relative_to(ROOT), node.lineno, node.col_offset, before, after)
 
 
 def survives(mutant: Mutant) -> bool:

@@ -11,8 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.classroom.form_page import ALONG, TURNING, Identity, form_fragment, lab_form
-from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.form_page import Identity, lab_form
 from graphkin.classroom.grading.answers import read_answers
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.lab.items import items
@@ -63,49 +62,6 @@ def test_every_field_of_the_form_is_there_with_its_label(name, language):
     for field in form.fields.values():
         assert set(field["aria-describedby"].split()) <= set(form.ids)
     assert {unit for item in asked if (unit := item.unit)} <= set(form.told["units"])
-
-
-def test_senses_are_saved_in_words_that_grading_reads():
-    mechanism, lab = load("slotted-lever"), read_lab("slotted-lever")
-    form = Form(lab_form(mechanism, lab, words("it"), WHOSE))
-    senses = [item for item in items(mechanism, lab) if item.what == "sense"]
-    assert senses
-    for item in senses:
-        empty, *values = form.options[item.field]
-        assert empty == ""
-        assert [read_answer(value, item).value for value in values] == [1, -1]
-    assert {*TURNING, *ALONG} >= {v for each in form.options.values() for v in each if v}
-
-
-def test_what_is_too_small_to_be_measured_is_said_to_be_computed():
-    mechanism, lab = load("pump"), read_lab("pump")
-    made = [
-        form_fragment(items(mechanism, lab), lab.rubric.points, compute, words("en"), WHOSE)
-        for compute in ((), ("v_D_mm",))
-    ]
-    assert words("en")("form.compute") not in made[0]
-    assert made[1].count(words("en")("form.compute")) == 1
-
-
-def test_a_page_of_somebody_asks_for_no_id_and_one_of_nobody_does():
-    mechanism, lab = load("pump"), read_lab("pump")
-    own = lab_form(mechanism, lab, words("en"), WHOSE)
-    anybody = lab_form(mechanism, lab, words("en"), Identity("pump-n7", "pump-n7"))
-    assert "Ștefănescu Ana – 0042" in own
-    assert "answers-id" not in own
-    assert '<label for="answers-id">' in anybody
-
-
-def test_the_task_page_of_a_lab_holds_the_form_and_of_another_scene_none(run: Run, tmp_path: Path):  # noqa: F811
-    args = ("--view", "task", "--format", "html", "-o", tmp_path)
-    assert run("sheet", "pump", "--set", "n=7", *args).exit_code == 0
-    form = Form((tmp_path / "pump-n7-task.html").read_text(encoding="utf-8"))
-    assert {"v_D_mm", "omega_3_sense"} <= set(form.fields)
-    assert form.told["id"] == ""
-    scene = Path(__file__).resolve().parents[2] / "examples" / "scenes" / "crank-rocker.toml"
-    assert run("sheet", scene, *args).exit_code == 0
-    (other,) = tmp_path.glob("crank*.html")
-    assert not Form(other.read_text(encoding="utf-8")).fields
 
 
 @pytest.fixture(scope="module")
@@ -168,24 +124,6 @@ def test_forms_of_a_class_are_kept_apart_and_named_by_their_students(printed):
             assert form.told["stem"] == who
             told.append(form.told["memory"])
     assert len(set(told)) == len(told)
-
-
-def test_pages_are_printed_again_with_the_same_bytes(printed, run: Run):  # noqa: F811
-    folder = printed / "pump"
-    before = {p.name: p.read_bytes() for p in (folder / "print" / "task").glob("*.html")}
-    again = ("print", folder, "--view", "task", "--format", "html", "--lang", "en", "--force")
-    assert run(*again, "--jobs", "1").exit_code == 0
-    changed = {p.name: p.read_bytes() for p in (folder / "print" / "task").glob("*.html")}
-    assert changed.keys() == before.keys()
-    back = ("print", folder, "--view", "task", "--format", "html", "--force", "--jobs", "1")
-    assert run(*back).exit_code == 0
-    assert {p.name: p.read_bytes() for p in (folder / "print" / "task").glob("*.html")} == before
-
-
-def test_an_overlay_is_no_page(printed, run: Run):  # noqa: F811
-    result = run("print", printed / "pump", "--view", "overlay", "--format", "html")
-    assert result.exit_code == 2
-    assert "overlay" in result.stderr
 
 
 def test_a_file_line_by_line_with_any_separator_is_an_answer(tmp_path):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import re
 from pathlib import Path
 
 import pytest
@@ -38,40 +36,6 @@ def test_the_task_of_a_lab_holds_its_form(run: Run, tmp_path: Path):  # noqa: F8
     page = (tmp_path / "pump-task.html").read_text(encoding="utf-8")
     assert 'class="answers"' in page
     assert '<li id="step-' not in page
-
-
-def test_the_task_of_a_scene_that_is_no_lab_has_none(run: Run, tmp_path: Path):  # noqa: F811
-    scene = Path(__file__).parents[2] / "examples" / "scenes" / "oldham.toml"
-    assert run("sheet", scene, "-o", tmp_path, "--format", "html", "--view", "task").exit_code == 0
-    page = (tmp_path / "oldham-task.html").read_text(encoding="utf-8")
-    assert 'class="answers"' not in page
-
-
-def test_pages_come_beside_sheets(run: Run, tmp_path: Path):  # noqa: F811
-    args = ("sheet", "offset-slider-crank", "-o", tmp_path, "--format", "svg,html")
-    assert run(*args).exit_code == 0
-    assert written(tmp_path) == [
-        "offset-slider-crank-acceleration-key.svg",
-        "offset-slider-crank-key.html",
-        "offset-slider-crank-velocity-key.svg",
-    ]
-
-
-def test_an_overlay_is_no_page(run: Run, tmp_path: Path):  # noqa: F811
-    args = ("sheet", "pump", "-o", tmp_path / "out", "--format", "html", "--view", "overlay")
-    result = run(*args)
-    assert result.exit_code == 2
-    assert "overlay" in result.stderr
-    assert "svg or pdf" in result.stderr
-    assert not (tmp_path / "out").exists()
-
-
-def test_the_data_of_the_script_can_be_read(monkeypatch):
-    page = pages.step_page(load("pump"), "en")
-    (block,) = re.findall(r'<script type="application/json" id="run">(.*?)</script>', page)
-    data = json.loads(block)
-    assert data["bounds"][0][0] == 1
-    assert set(data["from"]) == set(data["at"])
 
 
 def test_a_mechanism_that_stands_still_says_why(monkeypatch):

@@ -19,21 +19,6 @@ def solved(run: Run, *args: object) -> Any:
     return json.loads(result.stdout)
 
 
-def test_relative_centres_stand_under_the_names_of_their_links(
-    run: Run, four_bar: Callable[..., Path]
-) -> None:
-    found = solved(run, four_bar(ask='centres = ["3-1", 2, "0-2"]'))
-    assert list(found["centres"]) == ["1-3", "0-2"]
-    assert found["centres"]["0-2"] == pytest.approx(found["links"]["2"]["instant_centre"])
-    assert found["centres"]["1-3"][1] == pytest.approx(0, abs=1e-12)
-
-
-def test_a_scene_that_asks_for_no_pair_has_no_relative_centres(
-    run: Run, four_bar: Callable[..., Path]
-) -> None:
-    assert "centres" not in solved(run, four_bar(ask="centres = [2]"))
-
-
 def test_a_relative_centre_at_infinity_is_null_and_said_in_words(
     run: Run, four_bar: Callable[..., Path]
 ) -> None:

@@ -10,36 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from graphkin import __version__
 from graphkin.cli.console import BROKEN_PIPE
 from tests.cli.conftest import ROOT, Run, command
-
-
-def test_help_shows_examples_and_every_command(run: Run) -> None:
-    for args in ((), ("--help",), ("-h",)):
-        result = run(*args)
-        assert result.exit_code == 0
-        assert "graphkin solve pump --set n=7" in result.stdout
-        for name in ("list", "check", "explain", "solve", "sheet"):
-            assert f"\n  {name} " in result.stdout
-
-
-@pytest.mark.parametrize("name", ["list", "check", "explain", "solve", "sheet"])
-def test_each_command_has_help(run: Run, name: str) -> None:
-    result = run(name, "--help")
-    assert result.exit_code == 0
-    assert "Usage:" in result.stdout
-
-
-def test_the_version_is_the_packages(run: Run) -> None:
-    assert __version__ in run("--version").stdout
-
-
-def test_list_names_labs_parameters_and_what_is_asked(run: Run) -> None:
-    result = run("list")
-    assert result.exit_code == 0
-    for expected in ("pump", "Pump mechanism", "n from 1 to 30 in steps of 1", "velocity of D"):
-        assert expected in result.stdout
 
 
 @pytest.mark.parametrize(
@@ -88,40 +60,6 @@ def test_unreadable_scenes_are_told_in_lines(run: Run, tmp_path: Path, data: byt
         assert all(line.startswith("graphkin: ") for line in result.stderr.splitlines())
 
 
-def test_a_folder_without_a_scene_is_told(run: Run, tmp_path: Path) -> None:
-    result = run("check", tmp_path)
-    assert result.exit_code == 2
-    assert result.stderr.startswith(f"graphkin: {tmp_path}: is a folder without scene.toml; ")
-
-
-def test_every_problem_of_a_scene_names_its_file_once(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "lab").mkdir()
-    for name in ("my.toml", "lab/scene.toml"):
-        Path(name).write_text("", encoding="utf-8")
-    empty = "the file is empty; expected a scene, its first line graphkin = 1\n"
-    assert run("check", "my.toml").stderr == f"graphkin: my.toml: {empty}"
-    assert run("check", "lab").stderr == f"graphkin: {Path('lab/scene.toml')}: {empty}"
-    Path("my.toml").write_text("title = 3\n", encoding="utf-8")
-    told = run("solve", "my.toml").stderr.splitlines()
-    assert told[0].startswith("graphkin: my.toml: the version of the format is missing; ")
-    assert all(line.count("my.toml: ") == 1 for line in told)
-    assert any(line.startswith("graphkin: my.toml: title: 3; ") for line in told)
-
-
-def test_a_file_that_cannot_be_opened_is_named_once(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from graphkin.scene import scene_files
-
-    monkeypatch.setattr(scene_files, "find", Path)
-    missing = tmp_path / "missing.toml"
-    said = f"graphkin: {missing}: the scene cannot be read: No such file or directory\n"
-    assert run("check", missing).stderr == said
-
-
 def test_a_fault_of_our_own_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     from graphkin.mechanism import Mechanism
 
@@ -131,30 +69,6 @@ def test_a_fault_of_our_own_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatc
     assert result.exit_code == 2
     assert result.stderr.startswith("graphkin: a fault in graphkin itself (ZeroDivisionError")
     assert len(result.stderr.splitlines()) == 1
-
-
-def test_an_unreadable_file_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin.scene import scene_files
-
-    def refused(name: str) -> Path:
-        raise PermissionError(13, "Permission denied", name)
-
-    monkeypatch.setattr(scene_files, "find", refused)
-    result = run("solve", "pump")
-    assert result.exit_code == 2
-    assert result.stderr == "graphkin: pump: Permission denied\n"
-
-
-def test_control_c_gives_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin.scene import scene_files
-
-    def stopped(name: str) -> Path:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(scene_files, "find", stopped)
-    result = run("solve", "pump")
-    assert result.exit_code == 130
-    assert result.stderr.strip() == "graphkin: stopped"
 
 
 def test_the_module_and_the_statuses_of_a_real_process() -> None:

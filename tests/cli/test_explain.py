@@ -29,55 +29,6 @@ def told(run: Run, *args: object) -> Any:
     return json.loads(result.stdout)
 
 
-def test_velocity_alone_needs_no_acceleration(four_bar: Callable[..., Path]) -> None:
-    found = of(four_bar())
-    out = ("acceleration", "normal components", "tangential components", "acceleration poles")
-    assert not any(found[name].included for name in out)
-    assert found["normal components"].reason == "velocity of B can be found without"
-    assert found["velocity"].reason == "needed for all that is asked"
-
-
-def test_an_accelerated_driver_is_named_and_counted(four_bar: Callable[..., Path]) -> None:
-    before = of(four_bar(ask='acceleration = ["B"]'))["driver acceleration"]
-    after = of(four_bar(ask='acceleration = ["B"]', driver="acceleration = 5"))
-    assert (before.steps, after["driver acceleration"].steps) == (0, 1)
-    assert after["driver acceleration"].reason.startswith("driver 1 has an acceleration")
-    without = of(four_bar(driver="acceleration = 5"))["driver acceleration"]
-    why = "velocity of B can be found without"
-    assert without == EffectRow("driver acceleration", 0, why, False)
-
-
-def test_a_law_of_time_is_named(four_bar: Callable[..., Path]) -> None:
-    path = four_bar(ask='acceleration = ["B"]')
-    text = path.read_text()
-    text = text.replace("angle = 60\nspeed = 2", 'angle = "60 + 10*t**2"')
-    path.write_text(text.replace("graphkin = 1", "graphkin = 1\ntime = 0.5"))
-    found = of(path)
-    assert found["laws of time"].reason.startswith("driver 1 has a law of time")
-    assert found["driver acceleration"].included
-
-
-def test_what_only_a_command_asks_for_names_the_command() -> None:
-    found = of("pump")
-    for name, option in (("pencil", "--pencil"), ("certification", "--digits")):
-        assert name in BY_COMMAND
-        assert option in found[name].reason
-        assert not found[name].included
-
-
-def test_the_text_says_in_and_out_with_their_steps(run: Run) -> None:
-    result = run("explain", "pump", "--set", "n=9")
-    assert result.exit_code == 0
-    mechanism = load("pump")
-    total = len(mechanism.program.needed(mechanism.asked()))
-    assert f"{total} steps give what is asked, in " in result.stdout
-    assert "n = 9" in result.stdout
-    rows = [line.split() for line in result.stdout.splitlines()]
-    assert ["Coriolis", "out", "0"] in [row[:3] for row in rows]
-    assert "median of 25 rounds" in result.stdout
-    assert max(map(len, result.stdout.splitlines())) < 250
-
-
 @pytest.mark.parametrize("name", ["pump", SCENES / "oscillating-slide.toml"])
 def test_every_effect_that_is_in_has_its_own_time_and_no_other(run: Run, name: object) -> None:
     found = told(run, name)

@@ -11,20 +11,13 @@ import pytest
 
 from graphkin.text.errors import PageError
 from graphkin.writers import files
-from graphkin.writers.files import RESERVED, file_part, file_stem, write_all
+from graphkin.writers.files import file_stem, write_all
 
 FILES = {"a.txt": b"one", "b.txt": b"two", "c.txt": b"three"}
 
 
 def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
-
-
-def test_all_files_are_written_in_order(tmp_path: Path) -> None:
-    written = write_all(tmp_path / "new", FILES, force=False)
-    assert [path.name for path in written] == list(FILES)
-    assert [path.read_bytes() for path in written] == list(FILES.values())
-    assert names(tmp_path / "new") == list(FILES)
 
 
 def test_every_file_in_the_way_is_told(tmp_path: Path) -> None:
@@ -36,18 +29,6 @@ def test_every_file_in_the_way_is_told(tmp_path: Path) -> None:
     with pytest.raises(PageError, match="is a folder"):
         write_all(tmp_path, FILES, force=True)
     assert names(tmp_path) == ["a.txt", "c.txt"]
-
-
-def test_many_files_in_the_way_are_one_line(tmp_path: Path) -> None:
-    for number in range(63):
-        (tmp_path / f"{number}.txt").write_text("mine")
-    new = {f"{number}.txt": b"new" for number in range(63)}
-    with pytest.raises(PageError) as raised:
-        write_all(tmp_path, new, force=False)
-    (problem,) = raised.value.problems
-    assert problem.place.endswith(" and 60 more")
-    assert problem.found == "each exists already"
-    assert (tmp_path / "0.txt").read_text() == "mine"
 
 
 @pytest.mark.parametrize("broken", [1, 2, 3])
@@ -67,63 +48,6 @@ def test_a_failing_rename_leaves_nothing_new(
     with pytest.raises(PageError, match="cannot be written: permission denied"):
         write_all(tmp_path, FILES, force=False)
     assert names(tmp_path) == []
-
-
-def test_a_full_disk_keeps_what_was_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write_all(tmp_path, dict.fromkeys(FILES, b"old"), force=False)
-    write = Path.write_bytes
-
-    def full(path: Path, data: bytes) -> int:
-        if data == b"three":
-            write(path, data[:1])
-            raise OSError(28, "No space left on device", str(path))
-        return write(path, data)
-
-    monkeypatch.setattr(Path, "write_bytes", full)
-    with pytest.raises(PageError, match="no space left on device"):
-        write_all(tmp_path, FILES, force=True)
-    assert names(tmp_path) == list(FILES)
-    assert {path.read_bytes() for path in tmp_path.iterdir()} == {b"old"}
-
-
-def test_an_interrupted_write_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def stop(path: Path, data: bytes) -> int:
-        path.touch()
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(Path, "write_bytes", stop)
-    with pytest.raises(KeyboardInterrupt):
-        write_all(tmp_path, FILES, force=False)
-    assert names(tmp_path) == []
-
-
-@pytest.mark.parametrize(
-    ("text", "part"),
-    [
-        ("n7", "n7"),
-        ("n1/2", "n1_2"),
-        ("r0.25", "r0.25"),
-        ("a-3", "a-3"),
-        ("../../etc", "etc"),
-        ("Pompă", "Pompă"),
-        ('a:b*c?"<>|\\', "a_b_c"),
-        ("...", "_"),
-        ("", "_"),
-        ("con", "_con"),
-        ("COM1.x", "_COM1.x"),
-    ],
-)
-def test_parts_of_names_suit_every_file_system(text: str, part: str) -> None:
-    assert file_part(text) == part
-
-
-def test_no_part_is_a_reserved_name_or_too_long() -> None:
-    for name in (*RESERVED, "x" * 500):
-        part = file_part(name)
-        assert part.partition(".")[0].upper() not in RESERVED
-        assert len(part) <= 60
 
 
 def test_long_stems_are_cut_and_kept_apart() -> None:

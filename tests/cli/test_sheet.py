@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,27 +62,6 @@ def test_files_are_named_after_scene_setting_kind_and_view(
     assert (out / "pump-n7-calculation-key.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_view_language_and_format_are_passed_on(
-    run: Run, tmp_path: Path, blank: list[dict[str, object]]
-) -> None:
-    args = ("--view", "task", "--lang", "en", "--format", "svg")
-    assert run("sheet", "pump", "-o", tmp_path, *args).exit_code == 0
-    assert blank == [{"view": "task", "language": "en"}]
-    assert names(tmp_path) == ["pump-acceleration-task.svg", "pump-velocity-task.svg"]
-
-
-def test_values_are_cleaned_for_file_names(
-    run: Run, tmp_path: Path, blank: object, four_bar: Callable[..., Path]
-) -> None:
-    path = four_bar()
-    reserved = path.rename(path.with_name("con.toml"))
-    out = tmp_path / "out"
-    args = ("--set", "rocker = 121/2", "--format", "pdf", "-o", out)
-    result = run("sheet", reserved, *args)
-    assert result.exit_code == 0, result.stderr
-    assert names(out)[0] == "_con-rocker121_2-acceleration-key.pdf"
-
-
 def test_existing_files_are_kept_unless_forced(run: Run, tmp_path: Path, blank: object) -> None:
     old = tmp_path / "pump-velocity-key.pdf"
     old.write_text("mine")
@@ -96,17 +74,6 @@ def test_existing_files_are_kept_unless_forced(run: Run, tmp_path: Path, blank: 
     assert run("sheet", "pump", "-o", tmp_path, "--force").exit_code == 0
     assert old.read_bytes().startswith(b"%PDF")
     assert len(names(tmp_path)) == 5
-
-
-def test_a_folder_that_cannot_be_is_a_message(run: Run, tmp_path: Path, blank: object) -> None:
-    file = tmp_path / "file"
-    file.write_text("mine")
-    for folder in (file, file / "below"):
-        result = run("sheet", "pump", "-o", folder)
-        assert result.exit_code == 2
-        assert result.stderr.startswith(f"graphkin: {folder}: ")
-        assert len(result.stderr.splitlines()) == 1
-    assert file.read_text() == "mine"
 
 
 @pytest.mark.parametrize(
@@ -154,12 +121,3 @@ def test_an_unknown_format_is_refused(run: Run, tmp_path: Path, formats: str) ->
     result = run("sheet", "pump", "-o", tmp_path, "--format", formats)
     assert result.exit_code == 2
     assert "svg,pdf" in result.stderr
-
-
-def test_the_pump_is_drawn_in_full(run: Run, tmp_path: Path) -> None:
-    result = run("sheet", "pump", "--set", "n=7", "-o", tmp_path)
-    assert result.exit_code == 0, result.stderr
-    assert len(names(tmp_path)) == 5
-    drawing = (tmp_path / "pump-n7-velocity-key.svg").read_text(encoding="utf-8")
-    assert 'width="420mm"' in drawing
-    assert 'lang="ro"' in drawing

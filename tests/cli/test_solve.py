@@ -39,38 +39,6 @@ def test_a_scale_that_does_not_fit_stops_what_tells_scales_alone(run: Run, tmp_p
     assert "sheet.scale: does not fit: at 10:1" in result.stderr
 
 
-def test_a_scale_that_does_not_fit_is_told_with_the_file(run: Run, tmp_path: Path) -> None:
-    file = tmp_path / "tight.toml"
-    file.write_text(TIGHT)
-    for command in (("solve", file), ("sheet", file, "-o", tmp_path)):
-        result = run(*command)
-        assert result.exit_code == 2
-        assert result.stderr.startswith(f"graphkin: {file}: sheet.scale: does not fit: at 10:1 ")
-        assert len(result.stderr.splitlines()) == 1
-
-
-def test_floats_keep_their_full_precision(run: Run) -> None:
-    from graphkin import load
-
-    result = run("solve", "pump", "--set", "n=7", "--json")
-    assert repr(load("pump", n=7).solve().points["D"].velocity.real) in result.stdout
-
-
-def test_without_set_the_scene_is_taken_as_written(run: Run, pump: Any) -> None:
-    assert solved(run, "pump") == pump
-    assert solved(run, "pump", "--set", "n=8") != pump
-    assert solved(run, "pump", "--set", "n=8")["parameters"] == {"n": 8}
-
-
-def test_asked_of_a_block_on_the_frame(run: Run, tmp_path: Path) -> None:
-    text = (ROOT / "sheets" / "pump" / "scene.toml").read_text(encoding="utf-8")
-    path = tmp_path / "mine.toml"
-    path.write_text(text.replace("omega = [2, 3, 4]", 'omega = [5]\nslides = ["5"]'))
-    asked = solved(run, path, "--asked")
-    assert asked["links"]["5"] == {"omega": 0.0}
-    assert list(asked["slides"]["5"]) == ["position", "speed", "acceleration", "coriolis"]
-
-
 def test_a_link_in_translation_has_its_centre_at_infinity(
     run: Run, four_bar: Callable[..., Path]
 ) -> None:

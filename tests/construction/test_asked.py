@@ -10,28 +10,17 @@ from msgspec.structs import replace
 from graphkin.construction.core.pen import letter
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane
-from graphkin.construction.coriolis.coriolis import CoriolisComponent
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism, point_of
-from graphkin.numbers.plane import Vector
 from graphkin.scene.model import FRAME
 from tests.chance.checking import case
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import (
     KINDS,
-    calculations,
-    drawings,
-    drawn,
-    is_label,
-    kind_of,
     mechanism_named,
-    named,
-    relation_lines,
 )
 from tests.mechanisms import mechanism_of
 
 LABS = ("pump", "pump-collinear", "slotted-lever", "offset-slider-crank")
-WHICH = [(lab, n) for lab in LABS for n in (7, 30)] + [(name, None) for name in CHOSEN]
 SIGNS = {"velocity": "v", "acceleration": "a"}
 PLANES = {"velocity": Plane.VELOCITIES, "acceleration": Plane.ACCELERATIONS}
 SEEDS = range(40)
@@ -115,52 +104,6 @@ def beneath(scene):
             yield from (f"{point}@{pair.on}" for point in link.points)
 
 
-@pytest.mark.parametrize("which", WHICH, ids=named)
-def test_what_is_asked_is_an_arrow_from_the_pole_and_stands_on_the_mechanism_once(which):
-    assert not not_drawn(mechanism_named(*which))
-
-
-@pytest.mark.parametrize("which", WHICH, ids=named)
-def test_what_is_asked_has_a_row_and_a_line_of_calculation(which):
-    lines = [line for _, line in relation_lines(calculations(*which))]
-    for drawing in drawings(*which):
-        page = drawn(*which, drawing.kind).page
-        rows = {mark.name for mark in page.marks if kind_of(mark) == "table"}
-        for point in asked_of(mechanism_named(*which), drawing.kind):
-            sign = f"{SIGNS[drawing.kind]}_{letter(point)}"
-            assert sign in rows
-            assert any(line.startswith(f"{symbol(sign)} = ") for line in lines), sign
-
-
-@pytest.mark.parametrize("which", WHICH, ids=named)
-def test_what_is_asked_is_a_vector_with_its_symbol_in_both_fields(which):
-    for kind in [drawing.kind for drawing in drawings(*which)]:
-        sheet = drawn(*which, kind)
-        fields = {"plan": PLANES[kind], "mechanism": Plane.MECHANISM}
-        for field, plane in fields.items():
-            marks = sheet.marks[field]
-            notes = [m.markup for m in marks if m.name == "note"]
-            for point in asked_of(mechanism_named(*which), kind):
-                sign = f"{SIGNS[kind]}_{letter(point)}"
-                (number,) = arrows(mechanism_named(*which).program, kind, plane)[sign]
-                own = [mark for mark in marks if mark.step == number]
-                if any(note.startswith(f"{symbol(sign)} ") for note in notes):
-                    continue  # too short to be seen, which is said below the field
-                assert [m for m in own if not is_label(m)], (field, sign)
-                assert symbol(sign) in [m.markup for m in own if kind_of(m) == "label"]
-
-
-@pytest.mark.parametrize("which", WHICH, ids=named)
-def test_no_two_vectors_on_the_mechanism_cover_one_another(which):
-    for drawing in drawings(*which):
-        ends = [
-            tuple(round(part, 9) for z in (value.tail, value.tip) for part in (z.real, z.imag))
-            for _, step, value in drawing.mechanism_steps()
-            if step.arrow and isinstance(value, Vector)
-        ]
-        assert len(ends) == len(set(ends))
-
-
 @pytest.mark.parametrize("name", [*LABS, *CHOSEN])
 def test_any_point_beneath_another_may_be_asked_for(name):
     mechanism = mechanism_named(name, 7 if name in LABS else None)
@@ -190,14 +133,6 @@ def test_the_point_of_a_link_that_only_shifts_has_an_image_of_its_own_letter():
     assert points["B@3"].acceleration == points["C"].acceleration
 
 
-def test_a_point_that_its_link_owns_is_drawn_under_its_own_letter():
-    mechanism = mechanism_of(f'{YOKE}velocity = ["B@1", "B@2", "B"]\n')
-    assert not not_drawn(mechanism)
-    signs = arrows(mechanism.program, "velocity", Plane.MECHANISM)
-    assert set(signs) == {"v_B"}
-    assert mechanism.solve().points["B@1"].velocity == mechanism.solve().points["B"].velocity
-
-
 def test_the_point_of_the_frame_under_another_stands_still_and_has_no_arrow_in_the_plan():
     mechanism = mechanism_of(f'{YOKE}velocity = ["C@0"]\n')
     assert mechanism.solve().points["C@0"].velocity == 0
@@ -205,18 +140,3 @@ def test_the_point_of_the_frame_under_another_stands_still_and_has_no_arrow_in_t
     (number,) = arrows(mechanism.program, "velocity", Plane.MECHANISM)["v_C0"]
     value = mechanism.trace(by_hand=True).values[number]
     assert value.tail == value.tip
-
-
-@pytest.mark.parametrize(
-    ("name", "letters"),
-    [("slotted-lever", "ef"), ("oscillating-slide", "gh"), ("crank-slot", "gh")],
-)
-def test_corners_of_coriolis_triangles_bear_letters_that_no_point_bears(name, letters):
-    """A point E has its images e and e′ in the plans."""
-    mechanism = mechanism_named(name, 7 if name in LABS else None)
-    steps = [s for s in mechanism.program.steps if isinstance(s.of, CoriolisComponent)]
-    found = {s.name[0] for s in steps if s.name and s.name[0] not in "ac"}
-    points = {name[0] for name in mechanism.scene.frame.points}
-    points |= {name[0] for link in mechanism.scene.links.values() for name in link.points}
-    assert found == {*letters}
-    assert not {letter.upper() for letter in found} & points

@@ -29,34 +29,6 @@ def test_an_angle_in_radians_is_told_in_degrees_too():
     assert all("rad =" not in piece and "deg" not in piece for piece in given(cutter))
 
 
-def test_an_angle_against_a_link_says_from_which_line():
-    first, second = told("excavator-relative", "velocity")[1:3]
-    assert first.startswith("through A draw the line at φstick/boom to OA produced;")
-    assert second.startswith("through B draw the line at φbucket/stick to AB produced;")
-
-
-@pytest.mark.parametrize(
-    ("kind", "sum_of"),
-    [
-        ("velocity", "ωstick = ωboom + ωstick/boom = −0.4102 rad/s"),
-        ("velocity", "ωbucket = ωstick + ωbucket/stick = −0.9076 rad/s"),
-        ("acceleration", "εstick = εboom + εstick/boom = 0.1047 rad/s2"),
-    ],
-)
-def test_a_rate_that_is_a_sum_is_formed_where_it_is_used_first(kind, sum_of):
-    assert sum(sum_of in said for said in told("excavator-relative", kind)) == 1
-
-
-def test_a_velocity_is_laid_off_in_the_sense_that_the_figure_names():
-    (said,) = (one for one in told("four-bar-crank-rocker", "velocity") if "as long as" in one)
-    assert "in the sense of ω1, as long as" in said
-
-
-def test_a_block_on_a_lever_is_told_by_the_side_of_its_pivot():
-    (velocity, *_) = drawings("slotted-lever", 7)
-    assert any("A slides along O2B, on the side of B from O2" in plain(p) for p in given(velocity))
-
-
 @pytest.mark.parametrize("name", ["jumper", "excavator-absolute", "excavator-relative"])
 def test_no_velocity_crosses_the_arrow_of_a_turning(name):
     page = drawn(name, None, "velocity")

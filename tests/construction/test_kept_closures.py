@@ -27,7 +27,7 @@ def sought(monkeypatch) -> list[tuple[object, ...]]:
     return calls
 
 
-@pytest.mark.parametrize("name", ["rod-and-wheel", "stephenson-3-crank", "rapid-return"])
+@pytest.mark.parametrize("name", ["rod-and-wheel", "stephenson-3-crank"])
 def test_the_sheets_of_a_scene_seek_each_closure_once(name, sought):
     hand_out(load(str(SCENES / f"{name}.toml")))
     assert 1 <= len(sought) == len(set(sought)) <= KEPT
@@ -45,7 +45,7 @@ def closer_of(name: str) -> tuple[ClosureSolver, tuple[object, ...]]:
 
 def test_other_values_have_their_own_closure_and_few_are_kept():
     closer, known = closer_of("stephenson-3-crank")
-    for i in range(3 * KEPT):
+    for i in range(2 * KEPT):
         moved = tuple(value * (1 + 1e-6 * i) for value in known)
         assert closer(*moved) == closer.trying.closed(moved, closer.number)
         assert len(closer.trying.kept) <= KEPT

@@ -8,18 +8,8 @@ from pathlib import Path
 import pytest
 
 from graphkin.construction.core.determined import Determined
-from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction, constructions
-from graphkin.construction.core.program import Drive, Part, Plane
-from graphkin.construction.guides.dyad_by_arc_and_guide import DyadByArcAndGuide
-from graphkin.construction.guides.guide_line import GuideLine, GuideThroughBlock, ShiftedGuide
-from graphkin.construction.guides.set_by_coordinate import SetByCoordinate
+from graphkin.construction.core.kind import constructions
 from graphkin.construction.guides.swung_guide import GuideThroughPins, TangentGuide
-from graphkin.construction.links.compass_arc import CompassArc
-from graphkin.construction.links.driven_crank import DrivenCrank
-from graphkin.construction.links.dyad_by_arcs import DyadByArcs
-from graphkin.construction.links.plate_points import PlatePoint
-from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.mechanism import Mechanism, load
@@ -38,15 +28,6 @@ SCENES = (
     "trammel",
     "watt-1-ternary",
 )
-KINDS = (
-    CompassArc,
-    DrivenCrank,
-    DyadByArcAndGuide,
-    DyadByArcs,
-    GuideLine,
-    PlatePoint,
-    SetByCoordinate,
-)
 EVERY = pytest.mark.parametrize("name", SCENES)
 
 
@@ -54,57 +35,6 @@ EVERY = pytest.mark.parametrize("name", SCENES)
 def mechanism(name: str) -> Mechanism:
     """A scene, read once."""
     return load(FOLDER / f"{name}.toml")
-
-
-@cache
-def drawing(name: str, language: str = "en") -> Drawing:
-    """The first sheet of a scene."""
-    some = mechanism(name)
-    return drawings_of(some, proved(some, some.solve()), words(language))[0]
-
-
-@EVERY
-def test_the_given_motions_are_values_of_the_scene(name):
-    for step in mechanism(name).program.steps:
-        if isinstance(step.of, Drive):
-            assert step.given is not None
-
-
-@EVERY
-def test_each_point_found_on_the_mechanism_is_part_of_a_construction(name):
-    program, frame = mechanism(name).program, mechanism(name).scene.frame.points
-    for step in program.steps:
-        if step.part is Part.POSITION and step.plane is Plane.MECHANISM and step.name:
-            assert step.name in frame or isinstance(step.of, Construction)
-
-
-def test_the_scenes_have_every_kind():
-    for kind in KINDS:
-        assert any(True for name in SCENES for _ in constructions(mechanism(name).program, kind))
-
-
-@EVERY
-@pytest.mark.parametrize("language", ["en", "it", "ro"])
-def test_a_record_says_how_its_point_is_found(name, language):
-    drawn = drawing(name, language)
-    said = {each.step: each.markup for each in sentences(drawn)}
-    steps = drawn.trace.program.steps
-    for number, markup in said.items():
-        if number >= 0 and isinstance(kind := construction(steps[number]), PlatePoint | DyadByArcs):
-            assert markup.endswith(kind.point_sentence(drawn, steps[number].role))
-
-
-@EVERY
-def test_arcs_have_their_point_at_the_distance_that_they_lay_off(name):
-    drawn = drawing(name)
-    places = drawn.standing.known
-    for each in constructions(drawn.trace.program, CompassArc):
-        if each.arc in drawn.trace.values and each.centre in places:
-            circle = drawn.trace.values[each.arc]
-            apart = abs(places[each.point] - places[each.centre])
-            assert circle.centre == places[each.centre]
-            assert circle.radius == pytest.approx(apart, rel=1e-9)
-            assert each.laid_length("arc") == each.points == (each.centre, each.point)
 
 
 @EVERY
@@ -123,13 +53,6 @@ def test_the_guide_of_a_lever_has_no_angle_and_turns_its_link():
     assert lever.has_angle is isinstance(lever, TangentGuide)
     assert lever.found_link == lever.link
     assert lever.directions >= {"turn"}
-
-
-@EVERY
-def test_lines_of_guides_lie_along_them(name):
-    for kind in (GuideLine, GuideThroughBlock, ShiftedGuide):
-        for each in constructions(mechanism(name).program, kind):
-            assert each.lies_along == f"the guide of {each.block}"
 
 
 def test_a_pivot_of_the_frame_may_be_given_by_two_distances():

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from math import degrees, hypot, isclose
 
-import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.links.profile_symbols import HALF, WIDEST
@@ -14,8 +12,6 @@ from graphkin.documents.sheet import left_board
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Arc
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.curves.outline import draw, stand_of
-from graphkin.motion.cycle import cycle
 from graphkin.text import words
 from graphkin.text.errors import PageError
 from tests.documents.sheet_tools import FOLDER
@@ -104,11 +100,6 @@ def test_a_profile_in_the_hollow_of_another_touches_it_from_inside(angle):
     check_touching(mechanism_of(text), inside=True)
 
 
-def test_a_task_does_not_give_the_profiles_away():
-    found = [profiles for _, profiles in drawn(load(TOUCHING), "task")]
-    assert found == [{}, {}]
-
-
 def test_a_profile_of_the_frame_is_drawn_and_one_without_a_radius_refused():
     ((places, profiles),) = drawn(mechanism_of(MEETING.format(angle=90)))
     arc = profiles["0"]
@@ -117,15 +108,3 @@ def test_a_profile_of_the_frame_is_drawn_and_one_without_a_radius_refused():
     with pytest.raises(PageError, match="P and A stand at one place; expected an arc") as told:
         list(drawn(mechanism_of(MEETING.format(angle=0))))
     assert told.value.problems[0].place == "frame.profiles"
-
-
-def test_the_pictures_of_a_cycle_have_the_profiles():
-    stand = stand_of(cycle(load(TOUCHING)), 1000.0)
-    ax = Figure().subplots()
-    draw(ax, stand, 160.0)
-    curves = [line.get_xdata() + 1j * np.array(line.get_ydata()) for line in ax.lines]
-    curves = [curve for curve in curves if len(curve) > 2]
-    assert len(curves) == 2
-    for curve, centre, radius in zip(curves, ("K1", "K2"), (44, 16), strict=True):
-        assert np.allclose(abs(curve - stand.places[centre]), radius)
-        assert min(abs(curve - stand.places["M"])) < 1e-9

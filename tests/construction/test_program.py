@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tracemalloc
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.numbers.arithmetic import FLOAT, batch_kind, least
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
-from graphkin.text.errors import ClosureError, SceneError
+from graphkin.text.errors import ClosureError
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
 
 EARLY = {Part.SHAPE, Part.POSITION}
@@ -81,34 +80,6 @@ def test_a_position_needs_no_velocity_and_the_rocker_no_piston(name):
     assert parts <= EARLY
     names = {program.steps[n].name for n in program.needed([("acceleration", "B")])}
     assert names.isdisjoint({"C", "D", "c", "d", "c′", "d′"})
-
-
-@settings(LAW, max_examples=30)
-@given(mechanisms(steady=True))
-def test_a_crank_at_constant_speed_has_no_tangential_step(made):
-    assert "driven-tangential" not in keys(*steps_of(made.mechanism()))
-
-
-@settings(LAW, max_examples=30)
-@given(mechanisms(steady=False))
-def test_a_crank_that_gathers_speed_has_one_each(made):
-    program, numbers = steps_of(made.mechanism())
-    found = [n for n in numbers if program.steps[n].action]
-    tangential = [n for n in found if program.steps[n].action.key == "driven-tangential"]
-    assert len(tangential) == len(made.drivers)
-
-
-def steps_of(mechanism):
-    """The program and the numbers of all its steps."""
-    return mechanism.program, range(len(mechanism.program.steps))
-
-
-def test_the_hands_steps_come_only_when_asked_for():
-    program = shipped("pump", 7).program
-    bare, by_hand = program.needed(program.answers), program.needed(program.answers, by_hand=True)
-    assert not any(program.steps[number].hand for number in bare)
-    assert set(bare) < set(by_hand)
-    assert {"set-velocity", "square-at", "turn-over", "join"} <= keys(program, by_hand)
 
 
 def test_arrows_are_drawn_only_between_points_that_are_there():
@@ -305,12 +276,6 @@ def test_a_variant_that_does_not_close_is_nan_and_its_neighbours_are_right():
                 assert values[here] == pytest.approx(expected, rel=1e-13)
 
 
-def test_what_does_not_hang_on_the_failed_step_stays():
-    batch = mechanism_of(RODS).batch(rod=np.array([1.0, 3.0]))
-    for point in ("A", "C"):
-        assert np.isfinite(batch.points[point].acceleration).all()
-
-
 @settings(LAW, max_examples=25)
 @given(mechanisms(most=2))
 def test_no_value_outlives_its_last_use(made):
@@ -329,22 +294,6 @@ def test_no_value_outlives_its_last_use(made):
         to_come = moving[position + 1 :]
         used = {arg for later in to_come for arg in program.steps[later].args}
         assert alive == set(moving[: position + 1]) & (used | keep)
-
-
-def test_a_batch_takes_no_more_room_than_what_is_alive():
-    """Of the fourscore arrays of the pump no more than thirty stand at once."""
-    mechanism = shipped("pump", 7)
-    program, variants = mechanism.program, np.linspace(1, 30, 20_000)
-    needed = program.needed([("acceleration", "D")])
-    keep = [program.targets["acceleration", "D"]]
-    tracemalloc.start()
-    try:
-        run_batch(program, needed, {"n": variants}, batch_kind(), keep)
-        _, peak = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
-    assert len(needed) > 50
-    assert peak < 30 * 16 * variants.size
 
 
 def test_what_hangs_on_no_array_is_worked_out_once():
@@ -367,21 +316,6 @@ def test_a_position_that_no_variant_closes_is_nan_for_all():
     assert np.isnan(batch.points["B"].velocity).all()
     assert np.isfinite(batch.points["A"].velocity).all()
     assert np.isnan(batch.margin).all()
-
-
-def test_a_single_number_is_a_batch_of_one_and_no_number_a_batch_without_variants():
-    mechanism = shipped("pump", 1)
-    one = mechanism.batch(n=7).points["D"].velocity
-    assert one.shape == (1,)
-    assert one[0] == pytest.approx(shipped("pump", 7).solve().points["D"].velocity, rel=1e-13)
-    assert mechanism.batch(n=[]).points["D"].velocity.shape == (0,)
-    assert mechanism.batch().points == mechanism.solve().points
-
-
-def test_a_name_that_is_no_parameter_is_refused():
-    with pytest.raises(SceneError) as caught:
-        shipped("pump", 7).batch(m=[1, 2], n=[1, 2])
-    assert str(caught.value) == "m: is no parameter; expected n"
 
 
 def test_a_batch_run_ends_with_what_was_to_be_kept_and_nothing_else():
@@ -488,10 +422,6 @@ def test_a_mechanism_that_never_closes_says_so():
     )
 
 
-def test_large_misses_are_written_out():
-    assert "by 50000 m;" in refusal(slider(1e5, 5e4, 90))
-
-
 def test_at_a_dead_point_the_two_lines_are_parallel():
     """The rod stands square to the guide: the crank's speed determines no velocity there."""
     assert refusal(slider(5, 5, 90)) == (
@@ -500,8 +430,3 @@ def test_at_a_dead_point_the_two_lines_are_parallel():
         "at this dead point, or so near to one that doubles cannot tell (solve --digits can), "
         "the driver's speed determines no other: change the driver's position"
     )
-
-
-def test_nothing_is_missed_by_a_mechanism_that_closes():
-    for angle in (0, 36, 144, 216, 324):
-        mechanism_of(slider(5, 3, angle)).solve()

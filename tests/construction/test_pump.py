@@ -101,18 +101,3 @@ def test_in_the_collinear_pump_c_divides_its_images_as_c_divides_the_bar():
         for quantity in ("position", "velocity", "acceleration"):
             a, b, c = (getattr(points[name], quantity) for name in "ABC")
             assert abs(c - (a + b) / 2) <= 1e-15 * max(abs(a), abs(b))
-
-
-def test_asking_nothing_of_the_scene_leaves_nothing_out():
-    solution = shipped("pump", 7).solve()
-    assert set(solution.points) == {"O1", "O2", "A", "B", "C", "D"}
-    assert set(solution.links) >= {"1", "2", "3", "4"}
-    assert solution.slides["5"].speed == solution.points["D"].velocity.real
-
-
-def test_only_what_the_scene_asks_is_reported_of_a_batch():
-    solution = shipped("pump", 7).batch(asked=True, n=[1, 2, 3])
-    assert set(solution.points) == {"D"}
-    assert solution.points["D"].position is None
-    assert set(solution.links) == {"2", "3", "4"}
-    assert solution.links["2"].acceleration_pole is None

@@ -7,16 +7,15 @@ from functools import cache
 import pytest
 
 from graphkin.construction.core.kind import construction, constructions
-from graphkin.construction.core.program import ContactName
 from graphkin.construction.rolling.common_normal import CommonNormal
-from graphkin.construction.rolling.contact_points import CentrePath, PointOfContact, Track
+from graphkin.construction.rolling.contact_points import CentrePath, Track
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
-from graphkin.structure.pairs import contacts
 from tests.documents.sheet_tools import FOLDER
-from tests.documents.test_wheel_pages import RACK_ON_ARM, WHEELS
+from tests.scene_files import scene_text
 
+WHEELS = ("gears-pair", "gears-planet", "gears-rack", "gears-ring", "rod-and-wheel", "roller")
 NAMES = (*WHEELS, "roller-plates", "centrodes-roller", "rack-on-arm")
 
 
@@ -24,22 +23,11 @@ NAMES = (*WHEELS, "roller-plates", "centrodes-roller", "rack-on-arm")
 def mechanism(name):
     """A mechanism with wheels."""
     if name == "rack-on-arm":
-        return Mechanism(read_text(RACK_ON_ARM, name, None, {}))
+        return Mechanism(read_text(scene_text("documents/rack-on-arm"), name, None, {}))
     return load(FOLDER / f"{name}.toml")
 
 
 EVERY = pytest.mark.parametrize("name", NAMES)
-
-
-@EVERY
-def test_each_contact_has_one_record_with_its_wheel_and_what_that_rolls_on(name):
-    program = mechanism(name).program
-    found = {(each.wheel, each.on): each for each in constructions(program, PointOfContact)}
-    assert set(found) == {each.links for each in contacts(mechanism(name).scene)}
-    places = {
-        number for (_, point), number in program.targets.items() if isinstance(point, ContactName)
-    }
-    assert {each.point for each in found.values()} <= places
 
 
 @EVERY

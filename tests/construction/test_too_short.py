@@ -12,7 +12,6 @@ from graphkin.documents.relations import relations as relations_of
 from graphkin.documents.scaling import shown
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
@@ -21,10 +20,7 @@ from graphkin.text import words
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import (
     HEAD,
-    drawing_of,
     drawings,
-    drawn,
-    mechanism_named,
     named,
 )
 
@@ -115,25 +111,6 @@ def short_ones(drawing):
     return {name for name, _, length, size in vectors(drawing) if size and length < TINY}
 
 
-def test_there_are_some():
-    every = {(*which, d.kind) for which in WHICH for d in drawings(*which) if short_ones(d)}
-    assert {name for name, _, _ in every} >= {"watt-1", "lifter", "pump", "pump-collinear"}
-    assert {kind for _, _, kind in every} == {"velocity", "acceleration"}
-
-
-@pytest.mark.parametrize("which", WHICH, ids=named)
-def test_its_value_is_in_the_table_all_the_same(which):
-    for drawing in drawings(*which):
-        rows = zip(vector_rows(drawing, empty=False), vectors(drawing), strict=True)
-        short = short_ones(drawing)
-        for row, (name, _, length, size) in rows:
-            digits = 2 if "·" in row.cells[3] and length < 0.01 else 4
-            assert row.cells[3] == drawing.words.significant(size, digits)
-            assert (row.cells[3] == "0") == (name not in short and length < TINY)
-            if name in short:
-                assert row.cells[2].strip("()") in (f"{length:.2f}", "<\xa00.01")
-
-
 def scene_of(title, text):
     """The material of the sheets of a scene written here."""
     mechanism = Mechanism(read_text(HEAD.format(title=title) + text, title, None, {}))
@@ -161,15 +138,6 @@ def test_what_is_asked_beside_a_dead_point_has_its_value_however_short_it_is_dra
     assert "aA = ω12·O1A = 6.283192·0.06 = 2.369 m/s2 (from A to O1)" in lines_of(found)
 
 
-def test_what_is_set_on_the_mechanism_is_not_told_to_be_nought_where_it_is_only_short():
-    text = TOGGLE.partition("[ask]")[0]
-    *_, last = scene_of("toggle", text + '[ask]\nacceleration = ["A"]\nepsilon = [2]\n')
-    told = plain(sentences(last)[-1].markup)
-    assert told.startswith(
-        "nothing is set on the mechanism, for all of it is too short to be drawn"
-    )
-
-
 def test_wheels_that_hardly_speed_up_have_their_values_and_senses():
     _, drawing = scene_of("gears", GEARS)
     cells = cells_of(drawing)
@@ -187,18 +155,6 @@ def test_what_is_only_rounding_is_nought_even_where_nothing_else_is_there():
     assert plain(sentences(then)[-1].markup).startswith(
         "nothing is set on the mechanism, because all"
     )
-
-
-@pytest.mark.parametrize("which", WHICH, ids=named)
-def test_no_calculation_says_of_it_that_it_is_drawn(which):
-    lines, told = lines_of(drawings(*which)), 0
-    for drawing in drawings(*which):
-        for name in short_ones(drawing):
-            own = f"{plain(symbol(name))} = "
-            told += sum(line.startswith(own) and "too short to be drawn" in line for line in lines)
-            assert not [s for s in lines if s.startswith(own) and re.search(r"drawn \d", s)]
-    assert told == sum("too short to be drawn" in line for line in lines)
-    assert not [line for line in lines if re.search(r"drawn 0\.[0-4]", line)]
 
 
 def test_a_component_that_is_too_short_says_so_with_its_length():
@@ -221,22 +177,3 @@ def test_no_sentence_lays_it_off_or_draws_its_triangle(which):
                 assert own not in before, text
                 told += own in after
             assert told == 1, name
-
-
-@pytest.mark.parametrize("name", ["watt-1", "stephenson-1"])
-def test_a_link_whose_relative_velocity_is_too_short_turns_as_it_is_solved(name):
-    omega = mechanism_named(name).solve().links["5"].omega
-    drawing = drawing_of(name, None, "velocity")
-    sense = drawing.words("page.anticlockwise" if omega > 0 else "page.clockwise")
-    assert cells_of(drawing)["ω5"] == (drawing.words.significant(abs(omega)), sense)
-
-
-def test_its_triangle_is_not_drawn_and_the_other_one_needs_no_index():
-    page = drawn("gears-profiles", None, "acceleration")
-    marks = page.marks["mechanism"]
-    assert "v_K2" in {mark.name for mark in marks}
-    assert not [mark for mark in marks if "K2K1" in mark.name]
-    letters = {mark.markup for mark in marks if isinstance(mark, Text)}
-    assert {"*k*″", "*k*‴", "*k*^{IV}"} <= letters
-    first = next(s for s in sentences(page.drawing) if s.name == "ν1")
-    assert plain(first.markup).endswith(f"{LEFT_OUT}aK2K1ν = vK2K12/K1K2 (0.34 mm)")

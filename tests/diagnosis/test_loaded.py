@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -70,25 +69,3 @@ CASES = [
 def test_a_command_loads_what_it_needs(words, libraries, rooms):
     named = [word.format(**FILES) if "{" in word else word for word in words]
     assert loaded(*named) == (libraries, rooms)
-
-
-@pytest.mark.parametrize(
-    ("kind", "writer"), [("svg", "svgwrite"), ("pdf", "reportlab")], ids=["svg", "pdf"]
-)
-def test_a_sheet_loads_the_writer_of_its_own_kind(kind, writer, tmp_path: Path):
-    """Labels are set by shapely, the witness needs numpy."""
-    libraries, rooms = loaded("sheet", "pump", "--format", kind, "-o", str(tmp_path))
-    assert libraries == {"numpy", "shapely", writer}
-    assert "graphkin.motion.course" not in rooms
-
-
-def test_a_sheet_without_curves_follows_no_motion_and_one_with_them_does(tmp_path: Path):
-    options = ("--format", "svg", "-o", str(tmp_path))
-    _, rooms = loaded("sheet", str(FILES["centrodes-cardan"]), *options)
-    assert "graphkin.motion.course" in rooms
-    assert "graphkin.motion.curves" not in rooms
-
-
-def test_a_cycle_draws_without_the_writers_of_sheets(tmp_path: Path):
-    libraries, _ = loaded("cycle", "pump", "--format", "svg", "--steps", "60", "-o", str(tmp_path))
-    assert libraries == {"numpy", "matplotlib"}

@@ -6,12 +6,11 @@ import pytest
 
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.solution import Solution
-from graphkin.documents.sheet_documents import hand_out, scales, targets_of
-from graphkin.drawing.marks import Text
+from graphkin.documents.sheet_documents import hand_out, targets_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
 from tests.chosen import CHOSEN
-from tests.diagnosis.scope import accelerations, asking, counted, shipped, velocities
+from tests.diagnosis.scope import accelerations, asking, counted, shipped
 
 BEYOND = (Part.ACCELERATION, Part.NORMAL, Part.POLE)
 
@@ -26,20 +25,6 @@ def test_velocities_alone_give_no_acceleration_sheet_and_run_no_acceleration(nam
     assert [sheet.kind for sheet in handed] == ["velocity", "calculation"]
     assert ran
     assert not [s for s in ran if s.part in BEYOND or s.plane is Plane.ACCELERATIONS]
-
-
-def test_accelerations_that_need_no_velocity_give_no_velocity_sheet():
-    handed = hand_out(asking("pump", Ask(acceleration=("A",))), language="en")
-    assert [sheet.kind for sheet in handed] == ["acceleration", "calculation"]
-
-
-@pytest.mark.parametrize("view", ["key", "task"])
-def test_accelerations_that_need_velocities_bring_their_sheet(view):
-    """Right triangles and Coriolis components take them up, and calculations derive them."""
-    handed = hand_out(asking("pump", Ask(acceleration=("D",))), view, language="en")
-    assert [sheet.kind for sheet in handed] == ["velocity", "acceleration", "calculation"]
-    texts = [m.markup for p in handed[0].pages for m in p.marks if isinstance(m, Text)]
-    assert ("the velocities that the accelerations need" in texts) == (view == "task")
 
 
 @pytest.mark.parametrize("name", ["pump", *CHOSEN])
@@ -70,21 +55,3 @@ def test_the_witness_of_a_sheet_judges_what_it_shows(monkeypatch):
     assert solution.points["B"].velocity is not None
     assert solution.points["D"].velocity is None
     assert all(p.acceleration is None for p in solution.points.values())
-
-
-@pytest.mark.parametrize("name", ["pump", *CHOSEN])
-def test_nothing_of_an_acceleration_is_drawn_for_a_velocity(name):
-    mechanism = velocities(name)
-    program = mechanism.program
-    needed = program.needed(targets_of(mechanism, "velocity"), by_hand=True)
-    drawn = [program.steps[number] for number in needed]
-    assert not [step for step in drawn if step.part in BEYOND]
-    assert targets_of(mechanism, "acceleration") == ()
-
-
-def test_the_scale_of_velocities_does_not_hang_on_accelerations(monkeypatch):
-    mechanism = velocities("excavator-absolute")
-    assert mechanism.program
-    with counted(monkeypatch) as ran:
-        scales(mechanism)
-    assert not [s for s in ran if s.part in BEYOND]

@@ -13,8 +13,6 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.links import counted_turn
-from graphkin.construction.rolling import contact_points, wheel_actions
 from graphkin.diagnosis.effects import (
     BY_COMMAND,
     BY_HAND,
@@ -25,7 +23,6 @@ from graphkin.diagnosis.effects import (
     parted,
 )
 from graphkin.mechanism import Mechanism
-from graphkin.scene.expression import TIME
 from graphkin.scene.model import Ask
 from graphkin.scene.read_scene import read_text
 from tests.chosen import CHOSEN
@@ -44,7 +41,6 @@ from tests.diagnosis.scope import (
 
 EVERY = pytest.mark.parametrize("name", ["pump", *CHOSEN])
 CORIOLIS = {"coriolis", "lay-off-coriolis", "lay-back-coriolis"}
-OF_WHEELS = {room.__name__ for room in (contact_points, counted_turn, wheel_actions)}
 OF_ACCELERATION = {"centripetal", "driven-tangential", "normal", "epsilon", "rolling-normal"}
 OF_ACCELERATION |= CORIOLIS | {"acceleration-pole", "turned-pole"}
 OUT_WITH_ACCELERATION = (
@@ -156,43 +152,6 @@ def loops_of(name):
 
 
 @EVERY
-def test_rolling_and_gears_only_where_wheels_touch(name):
-    mechanism = asking(name, Ask())
-    scene = mechanism.scene
-    has_wheels = any(link.rolls for link in scene.links.values())
-    counts = drawn_for(mechanism)
-    of_wheels = [
-        step
-        for step in mechanism.program.steps
-        if step.action and step.action.value.__module__ in OF_WHEELS
-    ]
-    assert bool(counts[Effect.ROLLING] or counts[Effect.GEARS]) == has_wheels
-    assert bool(of_wheels) == has_wheels
-    for step in of_wheels:
-        assert effect_of(step) in (Effect.ROLLING, Effect.GEARS), step.action
-
-
-def test_wheels_on_their_pins_are_gears_and_others_roll():
-    kinds = {
-        name: {e for e in (Effect.ROLLING, Effect.GEARS) if drawn_for(asking(name, Ask()))[e]}
-        for name in FILES
-    }
-    of_gears = {name for name, found in kinds.items() if found == {Effect.GEARS}}
-    of_rolling = {name for name, found in kinds.items() if found == {Effect.ROLLING}}
-    assert of_gears == {"gears-pair", "gears-planet", "gears-rack", "gears-ring"}
-    assert of_rolling == {"centrodes-roller", "rod-and-wheel", "roller", "roller-plates"}
-
-
-@EVERY
-def test_laws_of_time_only_where_a_driver_is_written_in_t(name):
-    mechanism = asking(name, Ask())
-    timed = any(TIME in driver.position.uses() for driver in mechanism.scene.drivers)
-    assert bool(drawn_for(mechanism)[Effect.TIME]) == timed
-    in_t = [s for s in steps(mechanism) if s.given and TIME in s.given.uses()]
-    assert len(in_t) == drawn_for(mechanism)[Effect.TIME]
-
-
-@EVERY
 def test_an_accelerated_driver_only_where_one_is(name):
     mechanism = asking(name, Ask())
     accelerated = [d for d in mechanism.scene.drivers if not d.acceleration.is_zero()]
@@ -225,22 +184,6 @@ def test_only_what_is_named_has_centres_and_poles(name):
             assert not alone[Effect.CENTRE]
 
 
-def test_centrodes_have_the_centres_that_nothing_else_asks_for():
-    alone = asking("centrodes-four-bar", Ask(centrodes=("2",)))
-    both = asking("centrodes-four-bar", Ask(centrodes=("2",), centres=("2",)))
-    assert drawn_for(alone)[Effect.CENTRODE] == drawn_for(both)[Effect.CENTRE] == 1
-    assert drawn_for(alone)[Effect.CENTRE] == drawn_for(both)[Effect.CENTRODE] == 0
-    assert rows(alone)[Effect.CENTRODE.value].included
-    assert rows(both)[Effect.CENTRODE.value].included
-    assert "asked anyway" in rows(both)[Effect.CENTRODE.value].reason
-
-
-def test_what_only_a_command_asks_for_is_out_of_every_scene():
-    for name in FILES:
-        found = rows(shipped(name))
-        assert not any(found[each].included or found[each].steps for each in BY_COMMAND)
-
-
 CRANK = """
 graphkin = 1
 title = "Crank and slot"
@@ -271,15 +214,6 @@ def slot(driver: str, time: str = "") -> Mechanism:
     return Mechanism(read_text(CRANK.format(driver=driver, time=time), "slot"))
 
 
-def test_a_driver_that_gathers_speed_costs_one_step():
-    steady = drawn_for(slot("angle = 40\nspeed = 3"))
-    faster = drawn_for(slot("angle = 40\nspeed = 3\nacceleration = 5"))
-    assert faster[Effect.DRIVER] == 1
-    more = {effect: faster[effect] - steady[effect] for effect in Effect}
-    given = {Effect.DRIVER: 1, Effect.SHAPE: 1}
-    assert {effect: n for effect, n in more.items() if n} == given
-
-
 def test_a_law_of_time_takes_the_place_of_the_numbers_that_it_gives():
     steady = drawn_for(slot("angle = 40\nspeed = 3"))
     timed = drawn_for(slot('angle = "40 + 30*t**2"', "time = 0.2"))
@@ -293,17 +227,6 @@ def test_a_driver_whose_acceleration_is_a_parameter_keeps_its_step_at_nought():
     driver = 'angle = 40\nspeed = 3\nacceleration = "e"'
     mechanism = Mechanism(read_text(text.format(driver=driver, time=""), "slot"))
     assert drawn_for(mechanism)[Effect.DRIVER] == 1
-
-
-def test_a_crank_without_a_second_pin_costs_nothing_more_at_constant_speed():
-    """The points that blocks carry on a driven slot need no tangential component."""
-    for name in ("crank-slot", "oldham", "gears-pair"):
-        mechanism = accelerations(name)
-        program = mechanism.program
-        for number, drive in enumerate(program.drives):
-            if mechanism.scene.drivers[number].acceleration.is_zero():
-                users = [s for s in steps(mechanism) if drive.acceleration in s.args]
-                assert not [s for s in users if s.action.key == "driven-tangential"], name
 
 
 def test_the_slotted_lever_counted_by_eye():
@@ -350,12 +273,6 @@ def test_what_an_effect_is_needed_for_is_found_by_taking_it_away(name):
                 for of in names.split(", ")
             }
             assert named == needs
-
-
-def test_a_scene_that_asks_nothing_is_asked_everything():
-    mechanism = asking("pump", Ask())
-    everything = len(mechanism.program.needed(mechanism.program.answers))
-    assert sum(drawn_for(mechanism).values()) == everything
 
 
 def test_nothing_is_out_for_what_a_mutilated_program_still_has():

@@ -6,14 +6,12 @@ import pytest
 import shapely
 
 from graphkin.construction.result_tables import slide_rows, tables, turning_rows, vector_rows
-from graphkin.documents.sheet import sheet
 from graphkin.drawing.areas import TABLES
 from graphkin.drawing.columns import ColumnTable, Row, laid_out
 from graphkin.drawing.marks import LineMark, Mark, Text, reach
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
 from tests.documents.full_scenes import DYADS, STAR, drawings_from
-from tests.documents.sheet_tools import collisions, outside
 
 FULL = {"star": STAR, "dyads": DYADS}
 
@@ -44,15 +42,6 @@ def test_long_tables_stand_above_the_title_block_with_every_row(name, language, 
         assert {row.name for some in rows for row in some} <= {*shown}
 
 
-@pytest.mark.parametrize(("name", "view"), [*product(FULL, ("key", "task"))], ids=str)
-def test_sheets_with_long_tables_are_drawn(name, view):
-    for drawing in drawings_from(FULL[name]):
-        page = sheet(drawing, view, "1/2")
-        page.check()
-        assert not collisions(page.marks)
-        assert not outside(page.marks)
-
-
 def test_a_table_that_nothing_makes_fit_is_refused_in_one_line():
     rows = tuple(Row((f"*v*_{i}", "", "1,00", "2,000"), f"v_{i}") for i in range(100))
     with pytest.raises(PageError) as caught:
@@ -62,12 +51,6 @@ def test_a_table_that_nothing_makes_fit_is_refused_in_one_line():
         "expected fewer rows; "
         "ask for fewer velocities, accelerations or links on one sheet, or split the scene"
     )
-
-
-def test_columns_are_as_wide_as_their_widest_text():
-    rows = (Row(("*a*_{RockerpinCrankpin}^{ν}", "", "1,00", "2,000"), "a_RockerpinCrankpin^ν"),)
-    marks = laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], TABLES)
-    assert not cut(marks)
 
 
 def test_a_name_too_long_for_every_table_is_told():

@@ -29,15 +29,6 @@ def test_long_names_cross_no_line_of_a_table(text, language):
         assert not outside(page.marks)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_flattest_crossing_is_told_by_a_long_name_too(language):
-    for drawing in drawings_from(LONG, language):
-        page = sheet(drawing, "key", "1/2")
-        (line,) = [m for m in page.marks if isinstance(m, Text) and m.name == "flattest"]
-        assert "rockerpin" in line.markup
-        assert "°" in line.markup
-
-
 def test_a_name_too_long_to_be_drawn_is_told_in_one_line():
     drawing, _ = drawings_from(NAMED.format(crank="C" * 40, rocker="R" * 40))
     told = rf"tables: does not fit: v_{'R' * 40}{'C' * 40} is \d+ mm .*; shorten the names"

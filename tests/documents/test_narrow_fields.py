@@ -4,11 +4,11 @@ from itertools import product
 
 import pytest
 
-from graphkin.construction.core.layout import LEAST_FIELD, lay_out, shared_width
+from graphkin.construction.core.layout import lay_out, shared_width
 from graphkin.documents.captions import headlines
 from graphkin.documents.overlay import overlay
 from graphkin.documents.sheet import sheet
-from graphkin.drawing.areas import AREA, MARGIN, WIDTH
+from graphkin.drawing.areas import WIDTH
 from graphkin.drawing.marks import Text, reach
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
@@ -34,14 +34,6 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
         for note in notes:
             rect = left if note.x < right[0] else right
             assert reach(note)[2] <= rect[2] - 1, note.markup
-
-
-@pytest.mark.parametrize("plan", [0.0, 1.0, 10.0])
-def test_a_field_is_at_least_as_wide_as_its_caption_needs(plan):
-    whole = AREA[2] - AREA[0]
-    assert whole - shared_width(WIDTH - plan, plan) >= LEAST_FIELD - 1e-9
-    assert shared_width(plan, WIDTH - plan) >= LEAST_FIELD - 1e-9
-    assert shared_width(WIDTH - plan, plan) >= WIDTH - plan + MARGIN
 
 
 def test_drawings_wider_than_the_sheet_are_refused():

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
@@ -11,12 +10,11 @@ from matplotlib.textpath import TextPath
 
 from graphkin import load
 from graphkin.documents.scaling import shown
-from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
+from graphkin.documents.sheet_documents import drawings_of, language_of, proved
 from graphkin.drawing.glyphs import size_for
 from graphkin.drawing.style import BLUE, STYLES
 from graphkin.text.errors import PageError, SceneError
-from graphkin.writers.axes import face, size_of
-from graphkin.writers.svg import write_svg
+from graphkin.writers.axes import face
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 
@@ -37,13 +35,6 @@ def axes():
     return Figure().subplots()
 
 
-def test_a_mechanism_shows_itself_as_its_first_sheet():
-    mechanism = load("pump", n=7)
-    shown_ = mechanism._repr_svg_()
-    assert shown_ == write_svg(hand_out(mechanism)[0].pages[0])
-    assert "<svg" in shown_ and 'data-name="oa"' in shown_
-
-
 @pytest.mark.parametrize("n", [1, 7, 30])
 def test_the_velocities_of_the_plan_stand_in_millimetres(n):
     """v over kv is as long as the arrow, and points the same way: y runs up in axes."""
@@ -55,12 +46,6 @@ def test_the_velocities_of_the_plan_stand_in_millimetres(n):
     for name in ("A", "B", "C", "D"):
         wanted = 1000 * solution.points[name].velocity / first.scales.kv
         assert min(abs(each - wanted) for each in drawn) < 1e-6
-
-
-def test_black_ink_and_another_language():
-    ax = load("pump", n=7).plot(axes(), "acceleration", ink="black", language="en")
-    colours = {patch.get_edgecolor()[:3] for patch in ax.patches if patch.get_linewidth()}
-    assert colours == {(0.0, 0.0, 0.0)}
 
 
 @pytest.mark.parametrize("which", ["mechanism", "velocity", "acceleration"])
@@ -117,18 +102,6 @@ def test_letters_and_arrowheads_of_all_drawings_in_a_figure_are_of_one_size(late
         assert signs(ax) == pytest.approx([SIGN.height] * len(signs(ax)))
 
 
-@pytest.mark.parametrize("inches", [(3, 2.5), (6.4, 4.8), (12, 9)])
-def test_a_drawing_fills_its_axes_in_millimetres_of_the_sheet(inches):
-    """Its longest vector takes up what the letters beside it leave of the axes."""
-    ax = load("pump", n=7).plot(Figure(inches).subplots(), "velocity")
-    longest = max(lines(ax, BLUE, STYLES["velocity"].width), key=abs)
-    assert abs(longest) == pytest.approx(60)
-    width, height = size_of(ax)
-    left, right = ax.get_xlim()
-    assert (right - left) / width == pytest.approx(np.diff(ax.get_ylim())[0] / height)
-    assert abs(longest.imag) * width / (right - left) > 0.4 * height
-
-
 def test_axes_too_small_for_the_letters_are_refused():
     ax = Figure((1.2, 1)).subplots()
     with pytest.raises(PageError, match="axes of 24 × 20 mm are too small: does not fit"):
@@ -143,16 +116,6 @@ def test_a_plan_of_which_nothing_is_asked_is_refused(tmp_path):
     path.write_text(text.replace(asked, ""), encoding="utf-8")
     with pytest.raises(SceneError, match="nothing of the acceleration plan is asked"):
         load(str(path)).plot(axes(), "acceleration")
-
-
-def test_a_plan_of_velocities_of_which_nothing_is_asked_is_refused_too(tmp_path):
-    text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
-    path = tmp_path / "path.toml"
-    path.write_text(text.partition("[ask]")[0] + '[ask]\ncurves = ["P"]\n', encoding="utf-8")
-    refused = "nothing of the velocity plan is asked; expected mechanism; ask for a velocity under"
-    with pytest.raises(SceneError, match=refused):
-        load(str(path)).plot(axes(), "velocity")
-    assert load(str(path)).plot(axes(), "mechanism").get_children()
 
 
 @pytest.mark.parametrize("which", ["vel", None, 3])

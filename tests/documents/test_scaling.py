@@ -1,14 +1,11 @@
 """Scale factors: as large as the page takes, ka = kv²/kL, or as the scene says instead."""
 
-from itertools import pairwise
-
 import pytest
 
 from graphkin.documents.scaling import scales, trials_of
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
-from graphkin.drawing.scale import FINE, Scales, digits
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import PageError, SceneError
@@ -61,41 +58,6 @@ def test_a_mechanism_of_any_size_fills_the_same_page(size):
         assert other == pytest.approx(size * one, rel=1e-9)
 
 
-def test_a_mechanism_at_rest_is_drawn_as_large_as_one_that_moves():
-    """Its velocity plan is a point, which says nothing of how large the rest may be."""
-    moving, resting = scene(), scene(speed="0\nacceleration = 50")
-    assert scales(resting).kL <= 2 * scales(moving).kL
-
-
-def test_round_numbers_are_written_in_digits():
-    assert [digits(x) for x in (1e6, 5e7, 20.0, 2.5, 0.5, 1e-6)] == [
-        "1000000",
-        "50000000",
-        "20",
-        "2.5",
-        "0.5",
-        "0.000001",
-    ]
-    assert Scales(1e6, 1.0).words == "1:1000000"
-    assert Scales(2e-7, 1.0).words == "5000000:1"
-
-
-@pytest.mark.parametrize(("name", "m"), [("crank-rocker", 1.5), ("watt-2", 1.5), ("six-bar", 1)])
-def test_a_plan_that_its_crank_draws_small_is_enlarged_where_it_fits(name, m):
-    """The longest velocity of crank-rocker was 40 mm long, and its field is 160 mm high."""
-    mechanism = mechanism_named(name)
-    found = scales(mechanism)
-    assert found.from_driver
-    assert found.times == m
-    speed = abs(mechanism.scene.drivers[0].speed.si(mechanism.scene.values))
-    assert found.kv == pytest.approx(speed * found.kL / m, rel=1e-12)
-
-
-def test_round_scale_factors_lie_so_near_that_plans_are_three_quarters_as_large_as_they_can_be():
-    both = pairwise([*FINE, 10 * FINE[0]])
-    assert all(other / one <= 4 / 3 + 1e-12 for one, other in both)
-
-
 # --- enlarge -------------------------------------------------------------------------------------
 
 
@@ -106,17 +68,6 @@ def test_plans_are_enlarged_as_the_scene_says(m):
     assert found.ka == pytest.approx(OMEGA**2 * found.kL / m**2, rel=1e-12)
 
 
-def test_a_student_is_told_of_the_enlargement():
-    mechanism = scene("enlarge = 1.5")
-    told = {"velocity": "1.5 times as long as the crank says: kv = ω·kL/1.5"}
-    told["acceleration"] = "2.25 times as long as the crank says: ka = ω2·kL/2.25"
-    for kind in ("velocity", "acceleration"):
-        assert told[kind] in said(mechanism, kind, "task")
-        assert "as long as O1A" not in said(mechanism, kind)
-    relation = said(mechanism, "calculation")
-    assert "ω1·kL/m" in relation and "kv2/kL" in relation
-
-
 def test_an_enlargement_that_does_not_fit_a_stated_scale_is_refused_with_a_proposal():
     with pytest.raises(PageError, match=r"does not fit: at 1:2 .*; write scale = 20"):
         scales(scene("scale = 2\nenlarge = 4"))
@@ -125,18 +76,6 @@ def test_an_enlargement_that_does_not_fit_a_stated_scale_is_refused_with_a_propo
 def test_a_scale_that_does_not_fit_is_told_as_a_drawing_writes_it():
     with pytest.raises(PageError, match="does not fit: at 10:1 the drawing leaves its fields"):
         scales(scene("scale = 0.1"))
-
-
-@pytest.mark.parametrize("view", ["key", "task", "overlay"])
-def test_a_scale_is_written_with_the_mark_of_its_language(view):
-    mechanism = scene("scale = 3.7")
-    kinds = ["velocity", *(["calculation"] if view == "key" else [])]
-    for kind in kinds:
-        assert "1:3.7" in said(mechanism, kind, view)
-        for language in ("ro", "it"):
-            told = said(mechanism, kind, view, language)
-            assert "1:3,7" in told
-            assert "1:3.7" not in told
 
 
 def test_an_enlargement_without_a_crank_that_turns_is_refused():
@@ -178,27 +117,6 @@ def test_with_a_ka_of_its_own_every_acceleration_is_drawn_at_it():
             assert size == pytest.approx(1000 * real / 400, rel=1e-6)
 
 
-def test_with_a_ka_of_its_own_the_sheet_says_so_and_lays_normal_components_off_by_number():
-    mechanism = scene("ka = 0.4")
-    text = said(mechanism, "acceleration")
-    assert "ka = 0.4 (m/s2)/mm, which is not kv2/kL: normal components are laid off" in text
-    assert "right triangle" not in text
-    motion = mechanism.solve()
-    for bar, link in (("AB", "2"), ("O2B", "3")):
-        length = {"AB": 0.23, "O2B": 0.16}[bar]
-        normal = motion.links[link].omega ** 2 * length
-        assert f"by number: {normal / 0.4:.2f} mm" in text
-    marks = next(s.pages[0].marks for s in hand_out(mechanism) if s.kind == "acceleration")
-    assert not [m for m in marks if m.name in ("b″_BA", "b‴_BA", "v_BA")]
-
-
-def test_a_ka_that_keeps_the_condition_changes_nothing():
-    ka = scales(scene()).ka / 1000
-    mechanism = scene(f"ka = {ka!r}")
-    assert not scales(mechanism).apart
-    assert "right triangle" in said(mechanism, "acceleration")
-
-
 def test_a_ka_too_small_is_refused_with_a_proposal():
     with pytest.raises(PageError, match=r"sheet\.ka: does not fit: at 0\.001 .*write a larger ka"):
         scales(scene("ka = 0.001"))
@@ -238,11 +156,6 @@ def longest(mechanism):
     for trial in trials_of(mechanism, (), found):
         yield 1000 * trial.reach / found.kL
         yield 1000 * abs(trial.at_scale(trial.plane, trial.largest)) / found.kL
-
-
-def test_a_plan_of_which_all_is_nought_is_no_dot():
-    steady = SLIDE + 'acceleration = ["A"]\n'
-    assert scales(scene("ka = 20", steady)).ka == pytest.approx(20_000)
 
 
 def test_a_ka_that_needs_a_smaller_mechanism_gets_one_unless_its_scale_is_stated():

@@ -11,16 +11,10 @@ import shapely
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Plane
-from graphkin.construction.result_tables import tables
-from graphkin.documents.sheet_documents import hand_out
-from graphkin.drawing.areas import TABLES
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text, reach
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.drawing.style import style_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import SHORT
-from graphkin.mechanism import Mechanism
-from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import PageError
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import (
@@ -32,13 +26,11 @@ from tests.documents.sheet_tools import (
     both,
     calculations,
     collisions,
-    drawing_of,
     drawn,
     is_label,
     is_vector,
     kind_of,
     kinds_of,
-    labels_of,
     length_of,
     named,
     off_fields,
@@ -46,18 +38,14 @@ from tests.documents.sheet_tools import (
     outside,
     texts,
     told,
-    within,
 )
 from tests.mechanisms import SHIPPED
-from tests.scene_files import scene_text
 
 FIELDS = ("mechanism", "plan")
 HEAD = 0.41
 """Longest arrowhead, in parts of its vector."""
 WIDER = 2.2
 """Least width of an arrowhead, in parts of its shaft's."""
-BENEATH = ("link", "plate", "guide-bar", "block", "slider", "spoke", "pin", "hinge", "fixed-pivot")
-"""The marks of the mechanism that hide no vector."""
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
 NEAR = 6.0
@@ -151,14 +139,6 @@ def names_of(page: Drawn, mark: Mark) -> set[str]:
     return names
 
 
-def test_every_link_has_its_number_in_a_ring(page):
-    links = page.drawing.scene.links
-    rings = [x for x in page.labels("mechanism") if x.ring or x.text.markup in links]
-    found = Counter(label.text.markup for label in rings)
-    assert found == Counter(list(links)), found
-    assert all(label.text.name == label.text.markup for label in rings)
-
-
 def test_every_label_stands_by_what_it_names_or_leads_to_it(page):
     faults = []
     for field in FIELDS:
@@ -228,42 +208,6 @@ def misfits(line: LineMark, head: Polyline) -> list[str]:
     return found
 
 
-def test_vectors_stand_above_bars_and_pins(page):
-    """The head of a crank's acceleration ends on the fixed pivot and can be seen."""
-    marks = [m for m in page.marks["mechanism"] if not {"inset", "detail"} & {*m.cls.split()}]
-    first = min((marks.index(line) for line in page.vectors("mechanism")), default=len(marks))
-    above = [told(mark) for mark in marks[first:] if kind_of(mark) in BENEATH]
-    assert not above, above
-
-
-@pytest.mark.parametrize("field", ["mechanism", "plan"])
-def test_every_enlarged_detail_names_the_short_vector_that_it_is_for(page, field):
-    marks = page.marks[field]
-    named = {label.text.name: label.text.markup for label in labels_of(marks)}
-    free = [label.text for label in labels_of(marks) if not label.text.name]
-    circles = [m for m in marks if isinstance(m, CircleMark) and m.cls == "detail"]
-    for small, large in zip(circles[::2], circles[1::2], strict=True):
-        inside = [m for m in marks if is_vector(m) and within(m, reach(small))]
-        disc = shapely.Point(large.cx, large.cy).buffer(large.r)
-        told = {text.markup for text in free if disc.contains(shapely.box(*reach(text)))}
-        assert told & {named[m.name] for m in inside if m.name in named}
-
-
-def test_only_vectors_have_heads(page):
-    """The end of a bar in an enlarged detail is no tip."""
-    heads = [m for marks in page.marks.values() for m in marks if kind_of(m) == "arrowhead"]
-    assert not [m for m in heads if m.cls.split()[1] in ("link", "construction")]
-
-
-def test_every_inset_names_the_centre_and_the_points_of_its_rays(page):
-    marks = page.marks["mechanism"]
-    boxes = [m for m in marks if isinstance(m, Polyline) and m.cls == "panel"]
-    names = [label.text for label in labels_of(marks) if not label.text.name]
-    for panel in boxes:
-        inside = [t.markup for t in names if within(t, reach(panel))]
-        assert len(inside) == len(set(inside)) >= 3, inside
-
-
 # --- the task view -------------------------------------------------------------------------------
 
 TASKS = [(lab, n) for lab in SHIPPED for n in (7, 29)]
@@ -289,36 +233,6 @@ def test_a_task_shows_only_fixed_pivots_lines_of_guides_and_the_pole(pair):
                 assert mark.name in frame, told(mark)
             elif kind_of(mark) == "centre-line":
                 assert mark.name.startswith("guide "), told(mark)
-
-
-def test_what_a_task_shows_stands_where_the_key_has_it(pair):
-    for task, key in pair:
-        for field in FIELDS:
-            shown = [m for m in task.marks[field] if not is_label(m)]
-            assert shown
-            assert not [told(mark) for mark in shown if mark not in key.marks[field]]
-
-
-def test_the_cells_for_results_are_empty_in_a_task_and_full_in_the_key(pair):
-    for task, key in pair:
-        blank, full = (
-            {(m.x, m.y, m.markup) for m in texts([side.page]) if kind_of(m) == "table"}
-            for side in (task, key)
-        )
-        heads = {m for m in blank if m[1] == min(y for _, y, _ in blank)}
-        assert blank < full
-        rows = Counter(m.name for m in texts([key.page]) if kind_of(m) == "table" and m.name)
-        left = Counter(m.name for m in texts([task.page]) if kind_of(m) == "table" and m.name)
-        assert left.keys() == rows.keys() and heads
-        for name, count in rows.items():
-            assert left[name] == count - 2, name
-        assert not [m for m in blank if re.search(r"\d[.,]\d", m[2])]
-
-
-def test_a_task_has_the_data_line_of_the_key(pair):
-    for task, key in pair:
-        lines = [[m.markup for m in texts([s.page]) if m.name == "data"] for s in (task, key)]
-        assert lines[0] == lines[1] != []
 
 
 def test_no_number_of_the_solution_stands_on_a_task(pair):
@@ -348,54 +262,3 @@ def solution_numbers(drawings: list[Drawing]) -> set[str]:
     printed = {words.significant(x, k) for x in numbers for k in range(3, 7) if x > 1e-9}
     printed |= {words.fixed(x, k) for x in numbers for k in (1, 2, 3)}
     return {text for text in printed if re.search(r"[1-9]\d*[.,]\d*[1-9]|[.,]\d*[1-9]", text)}
-
-
-def test_a_centre_at_infinity_has_two_parallel_rays_to_the_edge_of_its_field():
-    parallelogram = scene_text("documents/centre-at-infinity")
-    (sheet, _) = hand_out(Mechanism(read_text(parallelogram, "parallelogram")), language="en")
-    rays = [m for m in sheet.pages[0].marks if isinstance(m, LineMark) and m.cls == "ray"]
-    assert len(rays) == 2
-    ways = [complex(ray.x2 - ray.x1, ray.y2 - ray.y1) for ray in rays]
-    assert abs((ways[0].conjugate() * ways[1]).imag) <= 1e-6 * abs(ways[0]) * abs(ways[1])
-    assert all(abs(way) > 60 for way in ways)
-
-
-@pytest.mark.parametrize("name", ["crank-slot", "rapid-return", "rapid-return-slider", "oldham"])
-@pytest.mark.parametrize("kind", KINDS)
-def test_what_is_asked_of_a_block_stands_in_a_table(name, kind):
-    """Magnitude and sense along the guide, as calculated; a task leaves them out."""
-    drawing = drawing_of(name, None, kind)
-    for block in drawing.scene.ask.slides:
-        what = "slide speed" if kind == "velocity" else "slide acceleration"
-        value = float(drawing.trace.value(what, block))
-        key, task = (
-            [m.markup for m in tables(drawing, TABLES, empty=empty) if m.name == f"slide {block}"]
-            for empty in (False, True)
-        )
-        symbol, size, sense = key
-        assert size == drawing.words.significant(abs(value))
-        assert sense.startswith("positive" if value > 0 else "negative")
-        assert task == [symbol]
-
-
-def test_tables_stay_above_the_title_block():
-    for name in CHOSEN:
-        for kind in kinds_of(name):
-            marks = tables(drawing_of(name, None, kind), TABLES, empty=False)
-            assert max(reach(mark)[3] for mark in marks) <= TABLES[3] + 1e-6, (name, kind)
-
-
-def test_a_mechanism_is_drawn_large_where_only_triangles_stand_in_its_way():
-    """The Coriolis triangle of this one would halve its scale: that component is computed."""
-    drawing = drawing_of("eight-link-2", None, "acceleration")
-    assert drawing.scales.kL == 2
-    assert not drawing.scales.triangles
-    keys = {step.action.key for _, step, _ in drawing.steps(*Plane) if step.action}
-    assert "coriolis" in keys
-    assert "coriolis-by-hand" not in keys
-
-
-def test_a_plan_is_not_small_where_there_is_room_for_a_larger_one():
-    drawing = drawing_of("oscillating-slide", None, "velocity")
-    assert 1000 * drawing.largest / drawing.scales.kv > 40
-    assert not drawing.scales.from_driver

@@ -10,7 +10,6 @@ from graphkin.drawing.marks import (
     Page,
     Polyline,
     Text,
-    box,
     fault,
     fits,
     moved,
@@ -125,14 +124,3 @@ def test_the_reach_of_an_arc_counts_the_quarter_points_it_passes():
         (50 - 10 / 2**0.5, 40, 50 + 10 / 2**0.5, 50 - 10 / 2**0.5)
     )
     assert reach(Arc(50, 50, 10, 90, -90, "angle")) == pytest.approx((50, 40, 60, 60))
-
-
-def test_an_upright_text_turned_by_ninety_degrees_reads_upwards():
-    left, top, right, bottom = reach(Text(100, 100, "HHHH", "label", 2.5, rotate=90))
-    assert (left, right, bottom) == pytest.approx((97.5, 100, 100))
-    assert top < 90
-
-
-def test_boxes_and_polygons_are_closed():
-    assert box(1, 2, 3, 4, "slider").points == ((1, 2), (4, 2), (4, 6), (1, 6))
-    assert polygon(((0, 0), (1, 0), (0, 1)), "plate").closed

@@ -132,14 +132,6 @@ def test_far_labels_have_a_leader_to_their_subject(crowd):
             assert subject.distance(Point(foot)) == pytest.approx(wish.radius, abs=1e-6)
 
 
-@settings(max_examples=30, deadline=None)
-@given(crowds())
-def test_the_same_crowd_gets_the_same_places(crowd):
-    asked, lines, boxes = crowd
-    first = place(asked, lines or NONE, boxes or NONE, FIELD)
-    assert place(list(asked), np.array(lines or NONE), list(boxes) or NONE, FIELD) == first
-
-
 @pytest.mark.parametrize("turn", range(0, 360, 15))
 @pytest.mark.parametrize("line", [False, True])
 def test_the_preferred_side_is_kept_in_free_space(turn, line):
@@ -152,21 +144,6 @@ def test_the_preferred_side_is_kept_in_free_space(turn, line):
     assert spot.leader is None
     way = (spot.x - 40, spot.y - 30)
     assert (way[0] * u[0] + way[1] * u[1]) / math.hypot(*way) > 0.8
-
-
-def test_a_lone_label_keeps_just_its_gap():
-    spots = [
-        place([Wish(5, 3, (40, 30), gap=gap, radius=r)], NONE, NONE, FIELD)[0]
-        for gap, r in [(1.0, 0.0), (1.0, 1.5), (0.4, 0.0)]
-    ]
-    gaps = [ink(Wish(5, 3, (0, 0)), s).distance(Point(40, 30)) for s in spots]
-    assert gaps == pytest.approx([1.0, 2.5, 0.4])
-
-
-def test_a_label_of_a_line_sits_beside_its_middle():
-    ends = ((10.0, 30.0), (70.0, 30.0))
-    (spot,) = place([Wish(6, 3, ends)], [(10, 30, 70, 30)], NONE, FIELD)
-    assert spot == Spot(pytest.approx(40), pytest.approx(30 - 1.0 - 1.5), None, True)
 
 
 def test_labels_of_two_near_lines_take_the_outer_sides():
@@ -187,62 +164,12 @@ def test_a_walled_label_gets_a_leader():
     assert spot.leader[1] == pytest.approx((40, 30))
 
 
-def test_a_stuffed_field_says_so():
-    asked = [Wish(9, 4, (x, y)) for x in (14, 15, 16) for y in (10, 11, 12, 13, 14)]
-    spots = place(asked, NONE, NONE, (0.0, 0.0, 30.0, 24.0))
-    assert not all(spot.free for spot in spots)
-    assert any(spot.free for spot in spots)
-    free = [ink(w, s) for w, s in zip(asked, spots, strict=True) if s.free]
-    assert all(a.disjoint(b) for a, b in combinations(free, 2))
-    (none,) = place([Wish(9, 4, (5, 5))], NONE, [(0, 0, 16, 12)], (0.0, 0.0, 16.0, 12.0))
-    assert not none.free
-    assert none.leader is None
-
-
 def test_the_higher_priority_gets_the_only_place():
     low, high = Wish(9, 4, (5.0, 6.0)), Wish(9, 4, (7.0, 6.0), priority=1)
     field = (0.0, 0.0, 10.0, 6.5)
     assert place([low], NONE, NONE, field)[0].free
     assert [s.free for s in place([low, high], NONE, NONE, field)] == [False, True]
     assert [s.free for s in place([high, low], NONE, NONE, field)] == [True, False]
-
-
-def test_an_optional_label_leaves_the_only_place_to_one_that_must_have_it():
-    must, may = Wish(9, 4, (5.0, 6.0)), Wish(9, 4, (7.0, 6.0), priority=6, optional=True)
-    field = (0.0, 0.0, 10.0, 6.5)
-    assert place([may], NONE, NONE, field)[0].free
-    assert [s.free for s in place([must, may], NONE, NONE, field)] == [True, False]
-    assert [s.free for s in place([may, must], NONE, NONE, field)] == [False, True]
-
-
-def test_each_line_may_keep_labels_further_off():
-    wish = Wish(6, 3, (40.0, 30.0))
-    lines = [(0, 28, 80, 28), (0, 31, 80, 31)]
-    (spot,) = place([wish], lines, NONE, FIELD, clearance=[0.6, 2.0])
-    label = ink(wish, spot)
-    assert LineString([(0, 31), (80, 31)]).distance(label) >= 2.0
-    assert LineString([(0, 28), (80, 28)]).distance(label) >= 0.6
-
-
-def test_no_wishes_and_no_numbers():
-    assert place([], [(0, 0, 1, 1)], NONE, FIELD) == []
-    with pytest.raises(ValueError, match="not finite"):
-        place([Wish(5, 3, (40, 30))], [(0, 0, math.nan, 1)], NONE, FIELD)
-
-
-def test_a_plan_is_labelled_without_leaders():
-    pole, tips = (20.0, 30.0), [(60.0, 12.0), (66.0, 30.0), (58.0, 50.0)]
-    lines = [(*pole, *tip) for tip in tips]
-    asked = [Wish(5, 3.5, (pole, tip)) for tip in tips]
-    asked += [Wish(3, 2.5, p, radius=0.7) for p in (pole, *tips)]
-    spots = place(asked, lines, NONE, FIELD)
-    assert all(spot.free and spot.leader is None for spot in spots)
-    ways = [LineString([pole, tip]) for tip in tips]
-    for k, (wish, spot) in enumerate(zip(asked[:3], spots, strict=False)):
-        near = [way.distance(ink(wish, spot)) for way in ways]
-        assert near.index(min(near)) == k
-    again = place([replace(wish, priority=3) for wish in asked], lines, NONE, FIELD)
-    assert all(spot.free for spot in again)
 
 
 @settings(max_examples=100, deadline=None)
@@ -257,14 +184,6 @@ def test_chords_merged_keep_labels_as_far_as_all_of_them(at, r, count, turn):
     kept = MultiLineString([((a, b), (c, d)) for a, b, c, d in fewer])
     slack = float(clear.max()) - CLEAR
     assert all(kept.distance(Point(point)) <= slack + 1e-9 for point in points)
-
-
-def test_only_tiny_lines_that_follow_one_another_are_merged():
-    long = np.array([(0.0, 0, 5, 0), (5, 0, 9, 0), (9, 1, 9.1, 1), (9.2, 1, 9.3, 1)])
-    assert np.array_equal(merged(long, np.full(4, CLEAR))[0], long)
-    tiny = np.array([(0.0, 0, 0.1, 0), (0.1, 0, 0.2, 0)])
-    assert merged(tiny, np.full(2, CLEAR))[0].tolist() == [[0, 0, 0.2, 0]]
-    assert len(merged(tiny, np.array([0.6, 1.2]))[0]) == 2
 
 
 @settings(max_examples=100, deadline=None)

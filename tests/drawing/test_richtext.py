@@ -1,10 +1,9 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reportlab.pdfbase.ttfonts import TTFont
 
-from graphkin.drawing.glyphs import advance, capital, font_file, measures
-from graphkin.drawing.richtext import escape, extent, flowed, plain, runs, spaced_runs, words_of
+from graphkin.drawing.glyphs import advance, capital, measures
+from graphkin.drawing.richtext import extent, flowed, runs, spaced_runs, words_of
 from graphkin.text.errors import PageError
 
 
@@ -30,19 +29,6 @@ def test_what_follows_stacked_scripts_starts_after_the_longer_one():
     assert after.x == pytest.approx(low.x + wide)
 
 
-def test_short_scripts_and_escapes():
-    assert [run.text for run in runs(r"m/s^2\_\*", 2.5)] == ["m/s", "2", "_*"]
-    assert plain(escape(r"a_b*c^{d}\e")) == r"a_b*c^{d}\e"
-    assert [run.text for run in runs("{x}", 2.5)] == ["{x}"]
-
-
-def test_an_italic_letter_may_stand_in_a_script():
-    assert [(run.text, run.italic) for run in runs("a_{1*x*}", 2.5)[1:]] == [
-        ("1", False),
-        ("x", True),
-    ]
-
-
 @pytest.mark.parametrize("markup", ["*v", "a_", "a_{b", "a_{b_c}", "a^*b*", "end\\"])
 def test_markup_that_does_not_end_is_refused(markup):
     with pytest.raises(PageError, match="markup"):
@@ -60,34 +46,6 @@ def test_blanks_move_what_follows_but_stand_in_no_run():
 def test_words_stay_apart_when_searched():
     found = spaced_runs("viteza *v*_A  este", 2.5)
     assert [run.text for run in found] == ["viteza ", "v", "A ", "este"]
-
-
-@pytest.mark.parametrize("italic", [False, True])
-@pytest.mark.parametrize("text", ["Mecanism", "ăâîșț ĂÂÎȘȚ", "αβγδεζηθικλμνξοπρστυφχψω", "∥⊥△∠′″√"])
-def test_widths_are_those_of_the_font_file(text, italic):
-    font = TTFont("measured", str(font_file(italic)))
-    markup = f"*{text}*" if italic else text
-    size = runs("H", 2.5)[0].size
-    wide = extent(markup, 2.5)[0]
-    assert wide == pytest.approx(font.stringWidth(text, size), abs=0.002 * len(text) * size)
-
-
-def test_extents_are_those_of_the_ink():
-    low, high = extent("x", 3.5), extent("Ț", 3.5)
-    assert low[1] == pytest.approx(-2.6, abs=0.2)
-    assert high[1] == pytest.approx(-3.5, abs=0.1)
-    assert high[2] > 0.5 > low[2]
-    assert extent("", 3.5) == (0, 0, 0)
-
-
-def test_the_sheets_signs_are_in_both_faces():
-    signs = (
-        "ăâîșțşţĂÂÎȘȚàèéìòùÀÈÉÌÒÙαβγδεζηθλμνξπρστφχψωΓΔΘΛΞΠΣΦΨΩ"
-        "₀₁₂₃⁰¹²³′″‴⁗∥⊥∠△∼∞·×÷±−≈≤≥≠√°←↑→↓↺↻•–—„”“’«»…①②③"
-    )
-    for italic in (False, True):
-        assert set(signs) <= measures(italic).keys()
-    assert runs("⟂", 2.5)[0].text == "⊥"
 
 
 def test_a_sign_without_a_glyph_is_refused_by_its_code():

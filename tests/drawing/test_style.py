@@ -13,15 +13,10 @@ import pytest
 from graphkin.drawing.style import (
     BLACK,
     BLUE,
-    BODIES,
-    BODY,
-    BRIEF,
     GREY,
     PURPLE,
     RED,
-    STYLES,
     TEAL,
-    WHITE,
     style_of,
 )
 
@@ -113,13 +108,6 @@ def test_lines_are_told_apart_in_black(sheet):
     assert not alike
 
 
-def test_construction_lines_are_half_as_wide_as_any_vector():
-    vectors = {cls for names in SHEETS.values() for cls in names if "centrode" not in cls}
-    thinnest = min(STYLES[cls].width for cls in vectors)
-    for cls in ("construction", "ray", "compass", "square-mark", "locus", "trial-line"):
-        assert STYLES[cls].width <= 0.55 * thinnest, cls
-
-
 @pytest.mark.parametrize("sight", SIGHTS)
 def test_inks_are_told_apart_by_every_eye(sight):
     near = {
@@ -133,31 +121,3 @@ def test_inks_are_told_apart_by_every_eye(sight):
 def test_inks_can_be_read_on_white():
     for name, colour in {**INKS, "grey": GREY, "black": BLACK}.items():
         assert contrast(colour) >= LEGIBLE, name
-
-
-def test_red_and_green_are_told_apart_only_by_those_who_see_both():
-    """The simulation does what it should: it takes most of the way from red to green."""
-    red, green = "#cc0000", "#3a8000"
-    assert distance(red, green, SIGHTS["all cones"]) > 100
-    assert distance(red, green, SIGHTS["deuteranopia"]) < 40
-    assert np.allclose(lab(linear(WHITE)), (100, 0, 0), atol=0.02)
-
-
-def test_black_ink_is_black_but_for_the_bars():
-    for cls, style in STYLES.items():
-        ink = BODY if cls in BODIES else BLACK
-        assert not style.width or style_of(cls, "black").colour == ink, cls
-        assert style_of(cls, "colour").colour != BODY, cls
-
-
-def test_grey_bars_can_be_seen_on_paper_and_black_vectors_on_them():
-    assert contrast(BODY) >= LEGIBLE
-    assert contrast(BLACK) / contrast(BODY) >= LEGIBLE
-
-
-def test_the_shaft_of_a_short_vector_is_thin_but_no_construction_line():
-    for cls in {cls for names in SHEETS.values() for cls in names if "centrode" not in cls}:
-        thin = style_of(f"{cls} {BRIEF}")
-        assert thin.width < STYLES[cls].width, cls
-        assert thin.width / STYLES["construction"].width >= APART, cls
-        assert (thin.colour, thin.dash) == (style_of(cls).colour, style_of(cls).dash), cls

@@ -11,9 +11,8 @@ from math import cos, degrees, hypot, pi, radians
 import pytest
 import shapely
 
-from graphkin.construction.guides.slide_symbols import covered
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, polygon
-from graphkin.drawing.symbols import BLOCK, HINGE, PIN, SLOT
+from graphkin.drawing.marks import LineMark, Mark, Polyline
+from graphkin.drawing.symbols import BLOCK, PIN, SLOT
 from tests.documents.made_up import board_of, made_up, of_kind
 from tests.scene_files import scene_text
 
@@ -111,19 +110,6 @@ def test_a_slot_ends_before_the_pins_of_its_lever():
     assert area(slot).contains(shapely.Point(field(-0.094j)))
 
 
-def test_a_slot_of_the_frame_is_hatched_on_both_outer_sides():
-    drawing = made_up(
-        scene_text("drawing/slot-of-the-frame"),
-        {"O": 0j, "A": rect(30, radians(20)), "B": rect(30, radians(20)) + 50j},
-    )
-    board, _ = board_of(drawing)
-    (slot,) = of_kind(board, "slot")
-    strokes = [line(mark) for mark in of_kind(board, "ground")]
-    assert strokes and not any(s.intersects(area(slot).buffer(-NEAR)) for s in strokes)
-    assert all(s.distance(area(slot).exterior) < 1e-6 for s in strokes)
-    assert drawing.standing.axis("1") is not None
-
-
 @pytest.mark.parametrize("angle", [0, 35, 90, 200])
 def test_a_guide_of_the_frame_is_hatched_only_away_from_its_block(angle):
     here = rect(30, radians(angle))
@@ -149,53 +135,6 @@ slides = {{ on = 0, through = "O", angle = {angle} }}
     assert area(block).contains(shapely.Point(x, y))
 
 
-def test_two_blocks_near_each_other_share_one_pair_of_rails():
-    drawing = made_up(
-        scene_text("drawing/two-blocks-on-rails"),
-        {"O": 0j, "A": 10 + 0j, "B": 28 + 0j},
-    )
-    board, _ = board_of(drawing)
-    assert len(of_kind(board, "slider")) == 2
-    rails = of_kind(board, "guide")
-    assert [mark.x2 - mark.x1 for mark in rails] == pytest.approx([48, -48])
-
-
-def swivelling_block():
-    """A crank whose bar slides through a block that turns about the frame's point C."""
-    return made_up(
-        scene_text("drawing/swivelling-block"),
-        {"O": 0j, "C": 90 - 30j, "A": 40j, "B": 40j + 150 * (90 - 70j) / abs(90 - 70j)},
-    )
-
-
-def test_a_bar_slides_through_the_block_that_swivels_on_the_frame():
-    board, field = board_of(swivelling_block())
-    (block,) = of_kind(board, "block", "3")
-    (bar,) = [mark for mark in of_kind(board, "link", "2") if line(mark).length > 10]
-    assert middle(block) == pytest.approx(field(0.09 - 0.03j), abs=NEAR)
-    assert line(bar).intersection(area(block)).length == pytest.approx(BLOCK[0], abs=1e-3)
-
-
-def test_the_ground_that_bears_a_block_is_seen_through_it_as_far_as_the_pin():
-    board, field = board_of(swivelling_block())
-    (block,) = of_kind(board, "block", "3")
-    at = field(0.09 - 0.03j)
-    above = board.marks[board.marks.index(block) :]
-    legs = [m for m in above if m.cls == "ground" and (m.x1, m.y1) == pytest.approx(at)]
-    assert len(legs) == 2
-    triangle = next(m for m in of_kind(board, "fixed-pivot") if m.points[0] == pytest.approx(at))
-    assert board.marks.index(triangle) < board.marks.index(block)
-    assert {(leg.x2, leg.y2) for leg in legs} == {*triangle.points[1:]}
-    assert all(line(leg).length > line(leg).intersection(area(block)).length > 3 for leg in legs)
-
-
-def test_loci_of_a_block_are_drawn_above_it_and_others_below_the_ground():
-    near, far = (LineMark(x, 0, x + 9, 0, "construction", "OA", 7) for x in (100, 130))
-    block = polygon(((104, -3), (115, -3), (115, 3), (104, 3)), "block", "2")
-    track = LineMark(100, 0, 109, 0, "guide", "2")
-    assert covered([near, far, track], [near, far, track, block]) == [near]
-
-
 def test_a_cylinder_holds_the_rod_that_slides_in_it():
     drawing = made_up(
         scene_text("drawing/cylinder"),
@@ -218,59 +157,7 @@ def test_a_cylinder_holds_the_rod_that_slides_in_it():
     assert any(length == pytest.approx(65, abs=NEAR) for length in lengths)
 
 
-def test_a_guide_beside_its_link_is_joined_to_it_by_an_arm_and_a_filled_corner():
-    drawing = made_up(
-        scene_text("drawing/guide-beside-its-link"),
-        {"O": 0j, "A": 60 + 0j, "B": 20 + 30j},
-    )
-    board, field = board_of(drawing)
-    bars = [line(mark) for mark in of_kind(board, "guide-bar", "1")]
-    guide = [b for b in bars if b.distance(shapely.Point(field(0.02 + 0.03j))) < NEAR]
-    arms = [b for b in bars if b not in guide]
-    assert len(guide) == len(arms) == 1 and len(of_kind(board, "weld", "1")) == 1
-    assert guide[0].touches(arms[0]) or guide[0].intersects(arms[0])
-    points = [shapely.Point(field(p)) for p in (0j, 0.06 + 0j)]
-    assert min(arms[0].distance(p) for p in points) < NEAR
-
-
-def test_a_block_whose_pin_is_beside_the_guide_has_an_arm_to_it():
-    drawing = made_up(
-        LEVER % ", offset = 12",
-        {"O": 0j, "Q": -100j, "B": 100j, "A": -12 + 20j},
-    )
-    board, field = board_of(drawing)
-    (block,) = of_kind(board, "block", "2")
-    assert middle(block) == pytest.approx(field(0.02j), abs=NEAR)
-    arms = [line(mark) for mark in of_kind(board, "guide-bar", "2")]
-    assert any(arm.length == pytest.approx(12, abs=NEAR) for arm in arms)
-
-
 # --- hinges --------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("count", [2, 3, 4])
-def test_a_multiple_hinge_has_a_circle_for_each_turning_pair(count):
-    links = "".join(f"[links.{k}]\nA-B{k} = {40 + k}\n" for k in range(1, count + 1))
-    points = {"A": 0j} | {f"B{k}": rect(40 + k, k) for k in range(1, count + 1)}
-    drawing = made_up(f"[frame]\nO = [0, 90]\n{links}", {"O": 90j, **points})
-    board, _ = board_of(drawing)
-    rings = of_kind(board, "hinge", "A")
-    assert len(rings) + len(of_kind(board, "pin", "A")) == count - 1
-    assert sorted(ring.r for ring in rings) == pytest.approx(
-        [PIN + HINGE * i for i in range(1, count - 1)]
-    )
-
-
-def test_a_bar_goes_on_through_a_pin_where_another_ends():
-    drawing = made_up(
-        scene_text("drawing/bar-through-a-pin"),
-        {"O": 50j, "A": 0j, "B": 80 + 0j, "C": 40 + 0j, "D": 40 + 30j},
-    )
-    board, _ = board_of(drawing)
-    through = [line(m) for m in of_kind(board, "link", "1") if line(m).length < 10]
-    assert [t.length for t in through] == pytest.approx([2 * PIN])
-    pin = next(i for i, m in enumerate(board.marks) if m.cls == "pin" and m.name == "C")
-    assert any(m.cls == "link" and m.name == "1" for m in board.marks[pin:])
 
 
 # --- wheels --------------------------------------------------------------------------------------
@@ -361,21 +248,6 @@ def test_a_rack_takes_the_teeth_of_its_pinion():
     assert min(y for _, y in rack.exterior.coords) == pytest.approx(below - 4)
 
 
-def test_the_guide_of_a_plate_is_drawn_clear_of_the_wheel_on_it():
-    drawing = made_up(
-        scene_text("drawing/plate-with-wheel-and-guide"),
-        {"O": 0j, "B": 0j, "C": 10 + 40j},
-        {"1": 1 + 0j, "2": 1 + 0j},
-    )
-    board, field = board_of(drawing)
-    round_ = shapely.Point(field(0.01 + 0.04j)).buffer(40)
-    (block,) = of_kind(board, "slider")
-    (plate,) = of_kind(board, "guide-bar", "2")
-    assert area(block).distance(round_) > 1 and line(plate).intersects(area(block))
-    rails = [line(m) for m in of_kind(board, "guide") if line(m).length > 12]
-    assert rails and not any(rail.intersects(round_) for rail in rails)
-
-
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("angle", [0, 30, 130])
 def test_a_wheel_touches_its_track_whose_ground_lies_beyond(side, angle):
@@ -407,45 +279,7 @@ rolls = {{ on = 0, through = "T", angle = {angle}, side = "{side}" }}
         assert centre.distance(far) * cos(0) > 25
 
 
-def test_a_wheel_with_points_on_it_has_spokes_and_neither_bar_nor_plate():
-    points = {"T": 0j, "C": 25j, "P": 25 + 25j, "Q": 50j, "R": -25 + 25j}
-    drawing = made_up(
-        scene_text("drawing/wheel-with-points"),
-        points,
-    )
-    board, _ = board_of(drawing)
-    assert len(of_kind(board, "spoke", "1")) == 3
-    assert not of_kind(board, "plate") and not of_kind(board, "link", "1")
-
-
-def test_the_extent_of_a_drawing_holds_its_wheels():
-    drawing = made_up(PAIR % 30, {"O": 0j, "P": 100 + 0j})
-    box = drawing.mechanism_extent()
-    assert (box.left, box.right) == pytest.approx((-0.044, 0.164))
-    assert (box.bottom, box.top) == pytest.approx((-0.064, 0.064))
-
-
-def test_every_disc_stands_for_its_wheel_at_scale():
-    drawing = made_up((PAIR % 30).replace("module = 4", "module = 2"), {"O": 0j, "P": 50 + 0j})
-    assert [disc.radius for disc in drawing.standing.discs] == pytest.approx([0.03, 0.02])
-    assert all(isinstance(mark, CircleMark) for mark in of_kind(board_of(drawing)[0], "pitch"))
-
-
 # --- drivers -------------------------------------------------------------------------------------
-
-
-def test_two_drivers_at_one_pin_have_arcs_of_different_size_and_their_own_names():
-    drawing = made_up(
-        scene_text("drawing/two-drivers-at-one-pin"),
-        {"O": 0j, "P": rect(50, radians(40))},
-        {"sun": rect(1, radians(100))},
-    )
-    board, _ = board_of(drawing, drivers=True)
-    arcs = of_kind(board, "angle")
-    assert [arc.end - arc.start for arc in arcs] == pytest.approx([40, 100])
-    assert arcs[0].r < arcs[1].r and arcs[0].name != arcs[1].name
-    senses = [arc for arc in of_kind(board, "sense") if hasattr(arc, "start")]
-    assert [arc.end > arc.start for arc in senses] == [True, False]
 
 
 def test_a_relative_angle_is_drawn_from_the_axis_of_the_link_it_is_relative_to():
@@ -464,27 +298,4 @@ def test_a_relative_angle_is_drawn_from_the_axis_of_the_link_it_is_relative_to()
     assert "*φ*_{2/1} = −80°" in said and "*ω*_{2/1}" in said
 
 
-def test_a_driven_slide_is_dimensioned_from_the_zero_of_its_guide():
-    drawing = made_up(
-        scene_text("drawing/driven-slide"),
-        {"O": 0j, "A": rect(70, radians(25))},
-    )
-    board, field = board_of(drawing, drivers=True)
-    lines = [line(mark) for mark in of_kind(board, "drive")]
-    assert any(each.length == pytest.approx(70, abs=NEAR) for each in lines)
-    (arrow,) = [mark for mark in of_kind(board, "sense") if isinstance(mark, LineMark)]
-    u, v = field.way(rect(1, radians(25)))
-    assert (arrow.x2 - arrow.x1) * u + (arrow.y2 - arrow.y1) * v < 0
-
-
 # --- labels --------------------------------------------------------------------------------------
-
-
-def test_letters_and_numbers_keep_clear_of_all_symbols():
-    drawing = lever()[0]
-    board, _ = board_of(drawing, drivers=True)
-    marks = board.finish()
-    assert {mark.markup for mark in marks if hasattr(mark, "markup")} >= {"1", "2", "3"}
-    drawing = made_up(PAIR % 30, {"O": 0j, "P": 100 + 0j}, {"1": 1 + 0j, "2": 1j})
-    marks = board_of(drawing)[0].finish()
-    assert {mark.markup for mark in marks if hasattr(mark, "markup")} >= {"1", "2", "*O*", "*P*"}

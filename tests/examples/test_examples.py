@@ -165,24 +165,6 @@ def test_a_block_on_the_page_is_a_scene_or_fits_into_one(block: Block) -> None:
     assert mechanism.witness(mechanism.solve()).agrees
 
 
-def test_the_page_has_scenes_of_many_kinds() -> None:
-    wholes = [block for block in BLOCKS if block.text.startswith(VERSION)]
-    assert len(wholes) >= 8
-    assert len(BLOCKS) - len(wholes) >= 20
-
-
-def test_a_part_replaces_what_has_its_heading() -> None:
-    text = with_part(
-        WHOLE.text, 'time = 2\n[[drivers]]\nturn = 1\nangle = "30*t"\n[titles]\nen="x"'
-    )
-    before, after = tomllib.loads(WHOLE.text), tomllib.loads(text)
-    assert after == before | {
-        "time": 2,
-        "drivers": [{"turn": 1, "angle": "30*t"}],
-        "titles": {"en": "x"},
-    }
-
-
 @pytest.mark.parametrize("mistake", mistakes(SCENES_PAGE), ids=lambda each: str(each.number))
 def test_a_mistake_gives_the_message_on_the_page(
     mistake: Mistake, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -192,10 +174,6 @@ def test_a_mistake_gives_the_message_on_the_page(
     result = run("check", "my.toml")
     assert result.exit_code == 2
     assert result.stderr == f"graphkin: my.toml: {mistake.message}\n"
-
-
-def test_there_are_ten_mistakes() -> None:
-    assert [each.number for each in mistakes(SCENES_PAGE)] == list(range(1, 11))
 
 
 def test_commands_on_the_page_answer_as_it_says(
@@ -232,12 +210,6 @@ def test_without_ask_everything_is_asked() -> None:
     assert wanted <= set(asked)
 
 
-def test_names_of_links_may_be_words() -> None:
-    text = WHOLE.text.replace("[links.1]", "[links.crank]").replace("turn = 1", 'turn = "crank"')
-    mechanism = Mechanism(read_text(text, "my"))
-    assert mechanism.witness(mechanism.solve()).agrees
-
-
 def test_the_bound_of_an_unfair_crossing_is_the_one_on_the_page() -> None:
     assert FAIR == 1e-4
     assert "sine of their angle is below 1e-4" in SCENES_PAGE.read_text(encoding="utf-8")
@@ -252,16 +224,3 @@ def test_a_scale_is_real_over_drawn_and_one_that_does_not_fit_is_refused(tmp_pat
     assert "1:10" in (tmp_path / "out/engine-velocity-key.svg").read_text("utf-8")
     path.write_text(f"{text}\n[sheet]\nscale = 2\n", encoding="utf-8")
     assert run("sheet", path, "-o", tmp_path / "none").exit_code == 2
-
-
-def test_links_on_the_page_lead_somewhere() -> None:
-    text = SCENES_PAGE.read_text(encoding="utf-8")
-    headings = {
-        re.sub(r"[^\w\- ]", "", title).lower().replace(" ", "-")
-        for title in re.findall(r"^## (.+)$", text, re.MULTILINE)
-    }
-    for target in re.findall(r"\]\(([^)]+)\)", text):
-        if target.startswith("#"):
-            assert target[1:] in headings
-        elif "://" not in target:
-            assert (EXAMPLES / target).exists()

@@ -6,37 +6,8 @@ import pytest
 
 from graphkin.construction.core.solution import FAIR
 from graphkin.scene.model import FRAME
-from graphkin.text import LANGUAGES
 from tests.chosen import CHOSEN
 from tests.examples.scenes import FILES, is_rigid, mechanism, motion
-
-ROWS = {
-    "pump": 2,
-    "roller": 2,
-    "jumper": 1,
-    "crank-slot": 1,
-    "crank-fixed-slot": 1,
-    "eight-link": 2,
-    "centrodes": 4,
-    "oscillating-slide": 1,
-    "four-bar": 6,
-    "slider-crank": 2,
-    "lifter": 1,
-    "toggle-press": 1,
-    "rapid-return": 2,
-    "five-bar": 1,
-    "rod-and-wheel": 1,
-    "two-loops": 1,
-    "instant-centres": 1,
-    "gears": 5,
-    "excavator": 2,
-    "oldham": 1,
-    "trammel": 1,
-    "watt": 4,
-    "stephenson": 5,
-    "mobility": 5,
-}
-"""The mechanisms of the courses, each with the number of its scenes."""
 
 
 def ends(name: str) -> list[dict[str, object]]:
@@ -44,11 +15,6 @@ def ends(name: str) -> list[dict[str, object]]:
     parameters = mechanism(name).scene.parameters.values()
     ranges = [(each.name, bound) for each in parameters for bound in (each.minimum, each.maximum)]
     return [{name: bound.number({})} for name, bound in ranges if bound is not None]
-
-
-def test_every_mechanism_of_the_courses_has_its_scenes() -> None:
-    for row, count in ROWS.items():
-        assert sum(name == row or name.startswith(f"{row}-") for name in FILES) == count, row
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -69,13 +35,6 @@ def test_links_are_rigid(name: str) -> None:
         is_rigid(found, link.points)
     for point in mechanism(name).scene.link(FRAME).points:
         assert found.points[point].velocity == found.points[point].acceleration == 0
-
-
-def test_a_title_is_given_in_every_language_or_in_one_for_all() -> None:
-    for name in FILES:
-        scene = mechanism(name).scene
-        assert scene.titles.keys() in (set(), set(LANGUAGES)), name
-        assert scene.titles.get("en", scene.title) == scene.title, name
 
 
 def traits(name: str) -> set[object]:

@@ -1,5 +1,7 @@
 """What is run: the command line on every lab and scene, and on a made-up class of every lab.
 
+The small scenes of other tests are checked and drawn once each; some are wrong, and told so.
+
 Everything goes through ``python -m graphkin``, in this process, so that nothing here depends on
 what the modules are called. A work is named by its command line without the scene.
 """
@@ -25,6 +27,14 @@ SCENES = {path.parent.name: path.parent.name for path in sorted(ROOT.glob("sheet
 CLASSES = {f"class-{lab}": ROOT / "sheets" / lab for lab in SCENES}
 SCENES |= {f"scene-{path.stem}": str(path) for path in sorted(ROOT.glob("examples/scenes/*.toml"))}
 LANGUAGES = ("ro", "en", "it")
+FOLDERS = ("documents", "documents/others", "documents/rare", "loops", "textbook")
+SMALL = {f"small-{Path(name).name}": ROOT / "tests" / "scenes" / name for name in FOLDERS}
+"""Folders of small scenes, most of them without their head: what no shipped scene has."""
+HEAD = """graphkin = 1
+title = "Small"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+"""
+MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
 SAID = (
     "solve",
     "solve --json",
@@ -52,19 +62,51 @@ def works() -> dict[str, list[str]]:
     for subject in SCENES:
         language = LANGUAGES[crc32(subject.encode()) % 3]
         found[subject] = [*SAID, *SHEETS, f"cycle --steps 12 --format html --lang {language}"]
-    return found | {subject: ["grade", "print"] for subject in CLASSES}
+    for subject, folder in SMALL.items():
+        stems = sorted(path.stem for path in folder.glob("*.toml"))
+        found[subject] = [f"{work} of {stem}" for stem in stems for work in ("check", small(stem))]
+    said = [f"{wrong.get('command', 'check')} of {name}" for name, wrong in MISTAKES.items()]
+    return found | {"mistakes": said} | {subject: ["grade", "print"] for subject in CLASSES}
+
+
+def small(stem: str) -> str:
+    """The sheets of a small scene, in one of the languages."""
+    return f"sheet --view key --lang {LANGUAGES[crc32(stem.encode()) % 3]}"
 
 
 def outputs(subject: str, work: str) -> Files:
     """Everything that comes of a work, by the work's name and the file's."""
     with TemporaryDirectory() as name:
         if subject in SCENES:
-            said, files = ran(subject, work, Path(name))
+            said, files = ran(SCENES[subject], work, Path(name))
+        elif subject not in CLASSES:
+            command, _, stem = work.rpartition(" of ")
+            scene = Path(name) / f"{stem}.toml"
+            scene.write_text(small_text(subject, stem), encoding="utf-8")
+            said, files = ran(str(scene), command, Path(name) / "sheets")
         else:
             said, files = (graded if work == "grade" else printed)(subject, Path(name))
     return {f"{work} {name}": data for name, data in files.items()} | (
         {work: said.replace(f"{name}/", "").replace(f"{ROOT}/", "").encode()} if said else {}
     )
+
+
+def small_text(subject: str, stem: str) -> str:
+    """A small scene with its head; or one with a mistake, made of another."""
+    if subject in SMALL:
+        return whole(SMALL[subject] / f"{stem}.toml")
+    wrong = MISTAKES[stem]
+    text = whole(ROOT / f"{wrong['of']}.toml")
+    for old, new in wrong.get("changes", [[wrong["old"], wrong["new"]]] if "old" in wrong else []):
+        assert old in text, stem
+        text = text.replace(old, new, 1)
+    return text
+
+
+def whole(path: Path) -> str:
+    """The text of a scene with its head."""
+    text = path.read_text(encoding="utf-8")
+    return text if "graphkin = 1" in text else HEAD + text
 
 
 def graphkin(*words: object) -> str:
@@ -79,11 +121,12 @@ def graphkin(*words: object) -> str:
     return TIMES.sub(r"\1 …", out.getvalue()) + err.getvalue() + status
 
 
-def ran(subject: str, work: str, folder: Path) -> tuple[str, Files]:
+def ran(scene: str, work: str, folder: Path) -> tuple[str, Files]:
     """What a command says of a scene, and its files; of sheets it only lists them."""
     command, *options = work.split()
+    folder.mkdir(exist_ok=True)
     options += ["-o", str(folder)] if command in ("sheet", "cycle") else []
-    said, stem = graphkin(command, SCENES[subject], *options), subject.removeprefix("scene-")
+    said, stem = graphkin(command, scene, *options), Path(scene).stem
     files = {name.removeprefix(f"{stem}-"): data for name, data in tree(folder).items()}
     return "" if files and command == "sheet" else said, files
 

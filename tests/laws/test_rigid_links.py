@@ -166,7 +166,7 @@ LAWS = (
 )
 
 
-@settings(LAW, max_examples=200)
+@settings(LAW, max_examples=100)
 @given(mechanisms())
 def test_every_law_holds_on_mechanisms_made_at_random(made):
     moving = Moving(made.mechanism())

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import mpmath
 import numpy as np
 import pytest
@@ -42,12 +40,6 @@ def test_a_batch_is_assembled_setting_by_setting(sheet):
     assert differences.max() < 1e-12
 
 
-def test_a_setting_that_does_not_close_is_masked(read):
-    text = FOUR_BAR.replace("B-C = 3.5", 'B-C = "c"') + '[branches]\nC = "left of B-D"\n'
-    found = assemble(read("[parameters]\nc = 3.5\n" + text), {"c": np.array([3.5, 20.0])})
-    assert found.report.good.tolist() == [True, False]
-
-
 @pytest.mark.parametrize(("words", "sign"), [("left", 1), ("right", -1)])
 def test_the_side_that_is_stated(words, sign, read):
     motion = assemble(read(FOUR_BAR + f'[branches]\nC = "{words} of B-D"\n')).motion
@@ -62,11 +54,6 @@ def test_two_closures_and_no_branch_are_told_with_both(read):
         assemble(read(FOUR_BAR))
     assert 'C = "left of B-D"' in str(caught.value)
     assert "closure 2: C (" in str(caught.value)
-
-
-def test_bars_that_do_not_reach_are_named(read):
-    with pytest.raises(WitnessError, match="links 2, 3: they do not close"):
-        assemble(read(FOUR_BAR.replace("B-C = 3.5", "B-C = 9")))
 
 
 def test_links_that_nothing_drives_are_named(read):
@@ -120,30 +107,6 @@ def test_a_crank_driven_against_another_moving_link(read):
     agree(motion, central(place, [(degrees(-50), 2, 1)]))
 
 
-def test_oldham_turns_alike_at_both_ends(read):
-    text = scene_text("loops/oldham")
-    scene = read(text)
-    found = assemble(scene)
-    motion = found.motion
-    assert motion.omega[0, 1:].tolist() == pytest.approx([5, 5, 5])
-    assert motion.epsilon[0, 1:].tolist() == pytest.approx([2, 2, 2])
-    shift = math.hypot(0.3, 0.1)
-    speeds = [motion.slide(j).speed[0] for j in (0, 1)]
-    assert math.hypot(*speeds) == pytest.approx(5 * shift)
-    assert true_mobility(scene) == 1
-
-
-def test_trammel_draws_an_ellipse(read):
-    scene = read(scene_text("loops/trammel"))
-    motion = assemble(scene).motion
-
-    def place(q):
-        a, b = mpmath.mpf("1.3"), mpmath.mpf("0.7")
-        return {"M": mpmath.mpc(-a * mpmath.cos(q), b * mpmath.sin(q))}
-
-    agree(motion, central(place, [(degrees(130), 3, 4)]))
-
-
 def test_what_no_position_tells_is_assembled_and_said(read):
     """A solution of the coupler's velocity alone is held against the stated closure."""
     for words in ("left", "right"):
@@ -169,17 +132,11 @@ def test_a_batch_without_positions_is_assembled_too(read):
 
 def test_the_number_of_a_closure_is_held_in_a_batch(read):
     scene = read(scene_text("loops/rapid-return"))
-    q = {"q": np.linspace(30, 40, 5)}
+    q = {"q": np.linspace(30, 40, 3)}
     solution = by_loops(scene, q)
     assert examine(scene, solution, q).agrees.all()
     other = replace(scene, branches={"2": Closure(2)})
     assert not examine(other, solution, q).agrees.any()
-    angles = [
-        np.angle(
-            by_loops(replace(scene, branches={"2": Closure(n)})).points["Q"].position
-            - by_loops(replace(scene, branches={"2": Closure(n)})).points["P"].position
-        )
-        % (2 * np.pi)
-        for n in (1, 2)
-    ]
+    found = [by_loops(replace(scene, branches={"2": Closure(n)})).points for n in (1, 2)]
+    angles = [np.angle(each["Q"].position - each["P"].position) % (2 * np.pi) for each in found]
     assert angles[0] < angles[1]

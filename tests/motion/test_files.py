@@ -8,20 +8,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.curves.curve_files import picture_files
-from graphkin.motion.curves.outline import stand_about
 from graphkin.motion.curves.over_driver import pictures
+from graphkin.motion.curves.plane_paths import dotted
 from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
-from graphkin.text.plain_table import labelled
 from graphkin.writers.plot_style import look
-from tests.bench.chain import scene as chain
 from tests.cli.conftest import Run, run  # noqa: F401
 from tests.motion.linkages import five_bar, four_bar, slider_crank
 from tests.scene_files import scene_text
@@ -64,19 +60,6 @@ def test_a_centre_at_infinity_leaves_its_cell_empty():
     assert np.isnan(place) or abs(place) > 1e12 or abs(columns["Iy_2 [m]"]) > 1e12
 
 
-def test_pictures_are_the_same_bytes_every_time():
-    found = [cycle(slider_crank(2, 5), steps=24) for _ in "12"]
-    first = picture_files(found[0], "crank", ["svg", "png"])
-    again = picture_files(found[1], "crank", ["svg"])
-    assert again == {name: data for name, data in first.items() if name.endswith("svg")}
-    assert {name.partition("-")[2].rpartition(".")[0] for name in again} >= PICTURES
-    for name, data in first.items():
-        head = b"<?xml" if name.endswith("svg") else b"\x89PNG"
-        assert data.startswith(head)
-        assert b"Matplotlib v" not in data
-    assert b"dc:date" not in first["crank-reach.svg"]
-
-
 def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_path: Path):  # noqa: F811
     result = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--steps", 36)
     assert result.exit_code == 0, result.stderr
@@ -99,23 +82,6 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
     assert not again.stdout
     forced = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--force")
     assert forced.exit_code == 0
-
-
-@pytest.mark.parametrize(
-    ("args", "words"),
-    [
-        (("--format", "pdf"), "pdf is not svg, png, gif, html or svg,png,gif,html"),
-        (("--driver", "2"), "there is no driver 2"),
-        (("--steps", "1"), "--steps"),
-        (("--from", "50", "--to", "40"), "a window that grows"),
-    ],
-)
-def test_what_the_command_cannot_do_it_says(run: Run, tmp_path: Path, args, words):  # noqa: F811
-    result = run("cycle", "pump", "-o", tmp_path, *args)
-    assert result.exit_code == 2
-    assert words in result.stderr
-    assert "Traceback" not in result.stderr
-    assert not list(tmp_path.iterdir())
 
 
 def test_a_mechanism_that_never_closes_is_a_message(run: Run, tmp_path: Path):  # noqa: F811
@@ -173,16 +139,6 @@ def test_a_follower_between_dead_points_swings():
     assert "link 1 (line O-A) swings 188.939°" in text
 
 
-def test_a_label_is_never_run_into_its_line():
-    assert labelled("in range 12", ["link upper"]) == ["in range 12 link upper"]
-
-
-def test_a_title_is_text_and_no_formula():
-    scene = replace(slider_crank(2, 5).scene, title="50 $ and 5 \\\\$ more $x^$ a_b^c \\\\frac{")
-    files = picture_files(cycle(Mechanism(scene), steps=8), "title", ["png"])
-    assert len(files) > 5
-
-
 def test_words_stand_to_the_right_of_their_lines_but_for_the_last():
     """At the end of the range there is room on the left alone."""
     found = sampled(cycle(load("pump", n=7), steps=24), 24)
@@ -193,26 +149,9 @@ def test_words_stand_to_the_right_of_their_lines_but_for_the_last():
     assert [at for at, right in sides.items() if not right] == [max(sides)]
 
 
-def test_a_picture_of_many_links_shows_some_and_says_of_how_many():
-    """Legends of a hundred names leave no room for curves."""
-    found = sampled(cycle(Mechanism(read_text(chain(20), "chain", None, {})), steps=8), 24)
-    with look():
-        for name, noun in (("velocities", "points"), ("turning", "links")):
-            figure = pictures(found)[name]()
-            figure.canvas.draw()
-            assert f" of {21 if noun == 'points' else 40} {noun}; the table holds all" in (
-                figure.get_suptitle()
-            )
-            assert min(ax.get_position().height for ax in figure.axes) > 0.08
-
-
-def test_of_a_very_long_mechanism_a_picture_shows_the_links_that_it_is_about(tmp_path):
-    path = tmp_path / "chain.toml"
-    path.write_text(chain(40), encoding="utf-8")
-    found = cycle(load(str(path)), steps=8)
-    stand = stand_about(found, 1.0, ["B0"])
-    assert set(stand.scene.links) == {"crank", "rod1"}
-    assert set(stand.places) == {"O0", "B0", "B1"}
-    assert stand.left_out == "2 of 81 links drawn"
-    short = cycle(load("pump"), steps=8)
-    assert stand_about(short, 1.0, ["B"]).left_out == ""
+def test_a_path_has_a_dot_at_every_twelfth_of_a_turn():
+    found = sampled(cycle(load(f"{SCENES}/crank-rocker.toml"), steps=24), 24)
+    dots = dotted(found, found.at + 0j)
+    assert dots.real.tolist() == [
+        30 * k for k in range(-40, 40) if 0 <= 30 * k - found.at[0] <= 360
+    ]

@@ -8,19 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.cli.report.check_report import Checking
-from graphkin.construction.core.given_data import given
 from graphkin.diagnosis.ranges import closing
-from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated
-from graphkin.motion.motion_curves import curves_of
 from graphkin.motion.period import strangers, turns_to_return
 from graphkin.scene.read_scene import read_text
 from graphkin.tape.tape_outputs import runner
-from graphkin.text import words
 from graphkin.text.errors import GraphkinError
 from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing
@@ -130,11 +124,6 @@ def test_a_turn_more_is_what_the_motion_leads_to_in_a_turn():
     assert abs(later.velocity[-1] - stated.velocity) < 1e-14
 
 
-def test_the_witness_holds_a_solution_against_the_turns_that_the_scene_states():
-    other = planet(1)
-    assert not other.witness(planet(0).solve()).agrees
-
-
 def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
     mechanism = scene("whitworth-gears")
     assert closing(mechanism.scene).ranges == [(0.0, 360.0)]
@@ -164,38 +153,6 @@ def test_a_mechanism_comes_back_after_as_many_turns_as_its_wheels_need(name, lin
     assert path.returns is (turns == 1)
     assert strangers(path) == links
     assert turns_to_return(path) == turns
-
-
-def test_a_path_that_does_not_come_back_is_drawn_from_end_to_end():
-    (curve,) = (each for each in curves_of(scene("drag-link-planet")) if each.kind == "trajectory")
-    (run,) = curve.runs
-    ways = np.abs(np.diff(run))
-    assert ways.max() < 3 * np.median(ways)
-    assert abs(run[-1] - run[0]) > 0.02
-
-
-def test_check_says_near_which_angle_a_link_counts():
-    text = "\n".join(Checking(planet(1, 90)).lines())
-    assert "link 3 stands at 393.51°, the angle within half a turn of 450°" in text
-    assert "links.4.rolls" in text
-    assert "turns  " not in "\n".join(Checking(load(FILES["gears-planet"])).lines())
-
-
-SAID = {
-    "en": "from its starting position O2B has turned by{} at most 180° either way",
-    "ro": "din poziția inițială O2B s-a rotit cu{} cel mult 180° într-un sens sau în celălalt",
-    "it": "dalla posizione iniziale O2B ha compiuto una rotazione di{} al più 180° in un verso "
-    "o nell’altro",
-}
-AND = {"en": " −2·360° and", "ro": " −2·360° și cu", "it": " −2·360° e di"}
-
-
-@pytest.mark.parametrize("language", SAID)
-def test_a_sheet_says_how_far_a_link_has_turned_where_wheels_depend_on_it(language):
-    for mechanism, more in ((planet(0), ""), (planet(-2), AND[language])):
-        verdict = proved(mechanism, mechanism.solve())
-        drawing = drawings_of(mechanism, verdict, words(language))[0]
-        assert SAID[language].format(more) in [plain(piece) for piece in given(drawing)]
 
 
 WRONG = {

@@ -20,7 +20,6 @@ from graphkin.numbers.kinds import ball_kind, decimal_kind
 from tests.chosen import CHOSEN
 from tests.mechanisms import HEAD, mechanism_of
 from tests.numbers.conftest import TOUCHING
-from tests.scene_files import scene_text
 
 COMPARED = ("position", "velocity", "acceleration", "omega", "epsilon")
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -144,20 +143,6 @@ def test_a_velocity_across_a_level_guide_is_nought():
     assert found["undecided"] == {}
 
 
-def test_the_structure_is_that_of_the_usual_record():
-    mechanism = load("pump", n=7)
-    usual = record(mechanism.scene, mechanism.solve(), None, None)
-    found = certified(mechanism, 20)
-    assert set(found) - set(usual) == {"digits", "bits", "undecided"}
-    for section in ("points", "links", "slides"):
-        plain, proved = dict(leaves(usual[section])), dict(leaves(found[section]))
-        assert list(plain) == list(proved)
-        for path, value in plain.items():
-            assert (value is None) == (proved[path] is None)
-            if value is not None:
-                assert float(proved[path]) == pytest.approx(value, rel=1e-12, abs=1e-13)
-
-
 @pytest.mark.parametrize("name", CHOSEN)
 def test_every_scene_prints_and_tells_what_it_does_not_print(name):
     mechanism = load(SCENES / f"{name}.toml")
@@ -215,23 +200,6 @@ def test_a_ball_prints_where_both_ends_round_alike(middle, radius, digits, text)
     assert (found.text, found.doubt) == (text, "")
 
 
-@pytest.mark.parametrize(
-    ("middle", "radius", "digits", "doubt"),
-    [
-        ("0", "1e-61", 30, "zero within ±1e-60: not decided"),
-        ("1e-70", "9e-61", 30, "zero within ±1e-60: not decided"),
-        ("1.2345", "0.0006", 3, "known within ±1e-3 only: not decided"),
-        ("1.235", "1e-50", 3, "known within ±1e-49 only: not decided"),
-        ("1", "1e-30", 40, "known within ±1e-29 only: not decided"),
-        ("3", "4", 3, "zero within ±1e1: not decided"),
-    ],
-)
-def test_a_ball_whose_ends_round_apart_says_so(middle, radius, digits, doubt):
-    found = decimals(ball(middle, radius), digits)
-    assert found.text is None
-    assert found.doubt == doubt
-
-
 def test_digits_are_those_of_fractions():
     """The digits of a third, of a seventh and of their powers of ten, by long division."""
     from flint import arb
@@ -280,19 +248,6 @@ def test_a_moment_that_is_no_fraction_is_not_rounded():
     place = 2 * context.expj(context.radians(100 * context.pi / 7))
     texts = found["points"]["A"]["position"]
     assert [Decimal(text) for text in texts] == [digits_of(p, 40) for p in (place.real, place.imag)]
-
-
-def test_a_way_that_is_the_moment_itself_is_not_rounded_either():
-    """A block stands t metres from its zero at t = pi/7 seconds."""
-    found = certified(mechanism_of_law(scene_text("numbers/block")), 40)
-    context = decimal_kind(80).pi.context
-    assert Decimal(found["points"]["B"]["position"][0]) == digits_of(context.pi / 7, 40)
-    assert found["points"]["B"]["velocity"] == [written_one(40), "0"]
-
-
-def written_one(digits: int) -> str:
-    """One, with so many digits."""
-    return f"1.{'0' * (digits - 1)}"
 
 
 def test_a_centre_is_at_infinity_only_where_the_link_surely_does_not_turn():

@@ -73,22 +73,6 @@ def test_what_is_wrong_with_a_profile_is_said(written, place, found, expected):
     assert expected in problem.expected
 
 
-def test_points_that_are_written_at_one_spot_make_no_profile():
-    with pytest.raises(SceneError) as told:
-        scene_with('profiles = { about = "O1", through = "P" }')
-    (problem,) = told.value.problems
-    assert problem.place == "frame.profiles"
-    assert problem.found == "O1 and P are written at one spot"
-    assert problem.hint == "a profile is an arc: it needs a radius"
-
-
-def test_a_profile_misspelt_is_named():
-    with pytest.raises(SceneError) as told:
-        scene_with(first=f"profil = {ONE}")
-    (problem,) = told.value.problems
-    assert problem.hint == "did you mean profiles?"
-
-
 def test_all_mistakes_are_told_at_once():
     with pytest.raises(SceneError) as told:
         scene_with(

@@ -140,12 +140,6 @@ def test_an_error_carries_a_hundred_problems_and_says_that_there_are_more(
     assert (error.problems[-1] == MORE) == (found > 100)
 
 
-def test_a_long_chain_of_links_is_read() -> None:
-    links = "".join(f"[links.{i}]\nP{i - 1}-P{i} = 1\n" for i in range(1, 501))
-    scene = read_text(f"{HEAD}[frame]\nP0 = [0, 0]\n{links}{DRIVER}", "chain")
-    assert len(scene.links) == 500
-
-
 @pytest.fixture
 def written(tmp_path: Path) -> Callable[[bytes], Path]:
     def write(data: bytes) -> Path:
@@ -161,11 +155,6 @@ def test_a_byte_order_mark_is_passed_over(written: Callable[[bytes], Path], data
     assert read_scene(path).title == "Pump mechanism"
     assert read_scene(path).name == path.parent.name
     assert read_scene(path).source == path
-
-
-def test_windows_line_ends(written: Callable[[bytes], Path], data: Path) -> None:
-    path = written((data / "pump.toml").read_bytes().replace(b"\n", b"\r\n"))
-    assert len(read_scene(path).links) == 5
 
 
 @pytest.mark.parametrize(

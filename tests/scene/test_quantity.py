@@ -12,7 +12,7 @@ import pytest
 from graphkin.numbers.arithmetic import Kind, batch_kind
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.measures import quantity
-from graphkin.scene.quantity import Quantity, exact, expression, shortest
+from graphkin.scene.quantity import Quantity, exact, expression
 from graphkin.text.errors import SceneError
 
 SEVEN = {"n": Fraction(7)}
@@ -142,27 +142,6 @@ def test_a_batch_masks_what_does_not_exist() -> None:
     assert np.isfinite(expression("1/(n - 7)").number(many, batch_kind())).tolist() == [1, 0, 1]
     assert np.isnan(expression("sqrt(n - 7)").number(many, batch_kind())).tolist() == [1, 0, 0]
     assert expression("2*3").si(many, batch_kind()) == 6
-
-
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (Fraction(44), "44"),
-        (Fraction(1, 4), "0.25"),
-        (Fraction(-3, 10), "-0.3"),
-        (Fraction(0), "0"),
-        (Fraction(1, 3), "0.333333333333"),
-        (Fraction(2, 3), "0.666666666667"),
-        (Fraction(1000), "1000"),
-        (Fraction("12.3456789012345"), "12.3456789012345"),
-        (Fraction(1, 10**9), "1e-9"),
-        (10 ** Fraction(20), "1e+20"),
-        (math.sqrt(2), "1.41421356237"),
-        (0.1 + 0.2, "0.3"),
-    ],
-)
-def test_numbers_are_written_shortly(value: Fraction, text: str) -> None:
-    assert shortest(value) == text
 
 
 def test_a_quantity_knows_what_it_uses() -> None:
@@ -296,9 +275,3 @@ def test_the_tree_is_reckoned_again_for_each_setting() -> None:
 )
 def test_numbers_of_every_kind_are_taken_exactly(raw: object, value: Fraction) -> None:
     assert quantity(raw, "", "here").number({}) == value
-
-
-@pytest.mark.parametrize("raw", [True, np.bool_(True), 1j, np.array(3), np.float64("nan"), None])
-def test_what_is_no_number_is_refused(raw: object) -> None:
-    with pytest.raises(UnreadableError):
-        quantity(raw, "", "here")

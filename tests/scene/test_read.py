@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.scene.model import Angled, Apart, At, Closure, Scene, Side, Slide, Triangle, Way
+from graphkin.scene.model import Apart, At, Closure, Scene, Side, Slide, Triangle, Way
 from graphkin.scene.quantity import exact
 from graphkin.scene.read_scene import read_scene, read_text
 from tests.scene_files import scene_text
@@ -40,36 +40,6 @@ def test_the_pump(data: Path) -> None:
     assert pump.branches == {"B": Side("A", "O2", -1), "5": Way(1)}
     assert pump.ask.velocity == pump.ask.acceleration == ("D",)
     assert pump.ask.poles == ("3", "4")
-
-
-def test_the_driver_of_the_pump(data: Path) -> None:
-    pump = read_scene(data / "pump.toml")
-    (driver,) = pump.drivers
-    assert (driver.kind, driver.link, driver.against, driver.of) == ("turn", "1", "0", None)
-    assert driver.position.number(pump.values) == 44
-    assert driver.speed.written(pump.values) == "370"
-    assert driver.acceleration.is_zero()
-    assert driver.acceleration.unit == "rad/s²"
-
-
-def test_the_shaper(data: Path) -> None:
-    shaper = read_scene(data / "shaper.toml")
-    assert shaper.links["2"].slides[0].along == ("O2", "B")
-    assert shaper.links["2"].slides[0].on == "3"
-    through = shaper.links["5"].slides[0].through
-    assert through == (exact(0, "mm"), exact(350, "mm"))
-    assert shaper.ask.velocity == ("C", "A@3")
-    assert shaper.drivers[0].speed == exact(60, "rev/min")
-
-
-def test_the_planet(data: Path) -> None:
-    planet = read_scene(data / "planet.toml")
-    wheel = planet.links["planet"].wheels[0]
-    assert (wheel.centre, wheel.radius, wheel.inside) == ("P", exact(30, "mm"), False)
-    (rolling,) = planet.links["planet"].rolls
-    assert (rolling.on, rolling.through, rolling.angle) == ("sun", None, None)
-    assert rolling.start == dict.fromkeys(("arm", "sun", "planet"), exact(0, "deg"))
-    assert [driver.link for driver in planet.drivers] == ["arm", "sun"]
 
 
 @pytest.mark.parametrize("lab", ["pump", "pump-collinear"])
@@ -156,10 +126,6 @@ pe două rânduri.'''
     assert scene.notes == {"ro": "O notă\npe două rânduri."}
 
 
-def test_texts_are_composed(changed: Callable[..., Scene]) -> None:
-    assert changed("Pump mechanism", "Pompa\u0306").title == "Pompă"
-
-
 def test_parameters_in_both_forms(changed: Callable[..., Scene]) -> None:
     scene = changed(
         "[parameters]", "[parameters]\nr = 0.1\nq = { value = '1/3', max = 1 }", r="0.2"
@@ -177,14 +143,6 @@ def test_settings_are_exact(changed: Callable[..., Scene], value: object) -> Non
 def test_a_float_setting_is_the_decimal_it_shows(changed: Callable[..., Scene]) -> None:
     scene = changed("step = 1", "step = 0.1", n=7.1)
     assert scene.values["n"] == Fraction(71, 10)
-
-
-def test_an_arm_with_an_angle(changed: Callable[..., Scene]) -> None:
-    scene = changed('C = "left of A-B"', "C-E = 5\nB-C-E = '10*n'\nC = 'left of A-B'")
-    angled = scene.links["3"].placings[-1]
-    assert isinstance(angled, Angled)
-    assert (angled.point, angled.vertex, angled.arm) == ("E", "C", "B")
-    assert angled.angle.number(scene.values) == 70
 
 
 def test_reading_needs_no_numpy() -> None:

@@ -15,11 +15,6 @@ Reader = Callable[[str], Link]
 Breaker = Callable[[str], list[Problem]]
 
 
-def test_the_first_two_points_make_the_axes(crank: Reader) -> None:
-    assert crank("O-A = 30").placings == (At("O", MM[0], MM[0]), Apart("A", "O", MM[30]))
-    assert crank("A-O = 30").points == ("A", "O")
-
-
 def test_a_link_in_coordinates_keeps_its_axes(crank: Reader) -> None:
     link = crank("O = [3, 4]\nA = [10, 5]")
     assert link.placings == (At("O", MM[3], MM[4]), At("A", MM[10], MM[5]))
@@ -78,11 +73,6 @@ def test_points_wait_for_each_other(crank: Reader) -> None:
     )
     assert link.points == ("O", "A", "D", "C")
     assert [placing.point for placing in link.placings] == ["O", "A", "C", "D"]
-
-
-def test_a_wheel_is_a_point_with_a_circle(crank: Reader) -> None:
-    link = crank('O = [0, 0]\nwheel = { centre = "O", teeth = 20, module = 2.5 }')
-    assert link.wheels[0].radius is not None and link.wheels[0].radius.number({}) == 25
 
 
 BROKEN = {
@@ -164,11 +154,6 @@ def test_coincident_points_make_no_line(broken_crank: Breaker) -> None:
 def test_a_number_that_cannot_be_read_is_told_once(broken_crank: Breaker) -> None:
     (problem,) = broken_crank('O-A = nan\nO-B = 30\nA-B = 30\nB = "left of O-A"')
     assert problem.place == "links.crank.O-A"
-
-
-def test_points_without_count(broken_crank: Breaker) -> None:
-    (problem,) = broken_crank("\n".join(f"P{i} = [{i}, 0]" for i in range(201)))
-    assert problem.found == "201 points"
 
 
 def test_a_point_on_the_axis_may_be_written_before_its_end(crank):

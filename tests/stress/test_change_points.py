@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.motion.cycle import cycle
 from graphkin.text.errors import ClosureError
-from tests.stress.cases import LONG, FourBar, Lever, commanded, held, held_batch, statuses
+from tests.stress.cases import LONG, FourBar, Lever, commanded, held, statuses
 
 BAR = FourBar(bars=("2", "4", "2", "4"))
 KITE = FourBar(bars=("3", "2", "2", "3"), at="50")
@@ -94,12 +94,6 @@ def test_a_parallelogram_in_line_has_no_velocity_and_says_so(at, tmp_path):
     assert codes["cycle"] == 0
 
 
-def test_batches_over_change_points():
-    held_batch(BAR, [30, 1, *NEAR, 179, *(180 - near for near in NEAR)])
-    held_batch(KITE, [30, 1, *NEAR, 0.0, 83, 84, 90, 180])
-    held_batch(replace(KITE, side="right"), [-30, -1, *(-near for near in NEAR), 0.0])
-
-
 # --- a slot through its pivot --------------------------------------------------------------------
 
 
@@ -141,8 +135,3 @@ def test_the_commands_on_a_pin_that_falls_on_the_pivot_of_its_slot(at, expected,
     assert codes["cycle"] == 0
     if expected:
         assert "falls on P" in said["solve"].stderr
-
-
-def test_a_batch_over_the_pivot_of_a_slot():
-    held_batch(SLOT, [60, 1, *NEAR, *(-near for near in NEAR), 179])
-    assert np.isnan(SLOT.mechanism().batch(at=[0.0, 1.0]).links["3"].omega[0])

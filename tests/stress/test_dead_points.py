@@ -122,12 +122,6 @@ def test_the_commands_say_what_is_wrong(case, at, expected, tmp_path):
         assert "dead point" in said["solve"].stderr or "miss each other" in said["solve"].stderr
 
 
-def test_a_mechanism_that_stands_in_line_only_has_no_cycle():
-    """Crank, coupler and rocker fill the frame: it closes at one angle and moves at none."""
-    with pytest.raises(ClosureError, match="where nothing moves"):
-        cycle(FourBar(bars=("2", "1", "1", "4"), at="0").mechanism())
-
-
 def test_what_is_not_fair_is_never_told_without_a_word():
     """Below the fair sine the margin says so, and the bound of the witness holds the error."""
     for k in range(4, 16):

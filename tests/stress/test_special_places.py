@@ -19,7 +19,6 @@ from tests.stress.cases import (
     assert_near,
     commanded,
     held,
-    held_batch,
     statuses,
 )
 from tests.stress.closed import EPS, Motion, Moving, number
@@ -57,18 +56,6 @@ def test_the_slider_crank_in_line_stands_moves_and_turns_round_exactly(at, place
     assert block.position == place
     assert block.velocity == 0
     assert block.acceleration == pytest.approx(pull, rel=2 * EPS)
-
-
-@pytest.mark.parametrize("case", CASES, ids=lambda case: type(case).__name__)
-def test_batches_at_whole_quarters(case):
-    held_batch(case, [0, 90, 180, 270, 360, -90, 720.0])
-
-
-@pytest.mark.parametrize("at", ["0", "90", "180", "270"])
-def test_the_commands_at_whole_quarters(at, tmp_path):
-    for case in (SliderCrank(at=at), FourBar(at=at)):
-        said = commanded(case, tmp_path, DRAWN)
-        assert set(statuses(said).values()) == {0}, {k: v.stderr for k, v in said.items()}
 
 
 # --- at rest, without acceleration, in translation -----------------------------------------------
@@ -182,10 +169,3 @@ def test_the_point_beside_the_line_moves_as_the_one_on_it():
     for what in ("position", "velocity", "acceleration"):
         apart = abs(getattr(on, what) - getattr(off, what))
         assert 1e-13 < apart < 3e-12
-
-
-@pytest.mark.parametrize("aside", ["0", "-1/1000000000000"])
-def test_the_commands_on_a_point_beside_its_line(aside, tmp_path):
-    said = commanded(Plate(beside=("1", aside)), tmp_path, DRAWN)
-    assert set(statuses(said).values()) == {0}, {k: v.stderr for k, v in said.items()}
-    held_batch(Plate(beside=("1", aside)), [0, 60, 90, 180, 270])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.structure.pairs import contacts, contacts_between, pairs, turns
+from graphkin.structure.pairs import contacts, turns
 from graphkin.text.errors import StructureError
 from tests.mechanisms import scene_of
 from tests.scene_files import scene_text
@@ -108,15 +108,6 @@ slides = { on = 0, through = [0, 2], angle = 0 }
     assert (contact.arm, contact.taken) == ("2", 1)
 
 
-def test_a_carriage_on_a_slope_does_not_keep_its_wheel_on_the_rail():
-    carriage = """[links.2]
-C = [0, 0]
-slides = { on = 0, through = [0, 2], angle = 30 }
-"""
-    (contact,) = contacts(made(ALONE + carriage))
-    assert (contact.arm, contact.taken) == (None, 2)
-
-
 def test_the_height_of_a_carriage_counts_its_offset_and_its_own_axes():
     """The axle lies 1 to the left of the carriage's first point, that 4 right of a guide at 5."""
     carriage = """[links.2]
@@ -203,16 +194,6 @@ def test_wheels_that_do_not_touch_are_refused_with_their_numbers():
     )
     assert refusal(rack(side="right")).endswith('expected 2 m to the right; write side = "left"')
     assert "link 1 keeps its centre C 1.5 m to the right of it" in refusal(plates(radius=2.5))
-
-
-def test_contacts_are_found_from_either_of_their_links():
-    scene = made(train())
-    assert [c.links for c in contacts_between(scene, "sun", frozenset({"0", "2"}))] == [
-        ("2", "sun")
-    ]
-    assert len(contacts_between(scene, "2", frozenset({"0", "sun"}))) == 2
-    assert contacts_between(scene, "2", frozenset({"1"})) == ()
-    assert all(pair.links != ("2", "sun") for pair in pairs(scene))
 
 
 # --- what turns ----------------------------------------------------------------------------------

@@ -36,12 +36,6 @@ def test_a_missing_pin_is_suspected_where_links_hang_by_one_pair():
     )
 
 
-def test_points_of_the_frame_are_suspected_too_but_for_those_that_guides_pass():
-    text = SLIDER_CRANK.replace("O = [0, 0]", "O = [0, 0]\nG = [0, 0]\nH = [3, 0]", 1)
-    text = text.replace("A-B = 3", "A-C = 3").replace('through = "O"', 'through = "G"')
-    assert words(text + DRIVEN).endswith("only one link has the points H (the frame), C (2), B (3)")
-
-
 def test_too_many_are_told_with_the_drivers_to_choose_from():
     """The rod is driven beside the crank: it alone can be spared and leaves a chain of dyads."""
     second = DRIVEN.replace("turn = 1", "turn = 2")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.folder import Folder, stem_of
+from graphkin.studio.folder import Folder
 from graphkin.studio.saving import WantedSheets, lab_of, save_files, save_scene, sheets_of
 from graphkin.text.errors import PageError, SceneError
 from tests.studio.pump import PUMP, desk_in, ordered
@@ -81,11 +81,6 @@ def test_scenes_are_listed_and_other_files_are_not(place):
     assert Folder(place).scenes() == ["lab/scene.toml", "one.toml", "within.toml"]
 
 
-def test_a_folder_reached_by_a_link_is_a_folder_like_any(place, tmp_path):
-    (tmp_path / "way").symlink_to(place)
-    assert Folder(tmp_path / "way").read("one.toml") == PUMP
-
-
 def test_a_pipe_is_no_scene(place):
     os.mkfifo(place / "pipe.toml")
     assert "pipe.toml" not in Folder(place).scenes()
@@ -138,15 +133,6 @@ def test_sheets_are_named_as_the_command_names_them(place):
     assert list(sheets_of(Folder(place), wanted)) == names
 
 
-def test_sheets_of_a_value_that_the_text_states_are_named_alike(place):
-    """A value written into the text and one that is set give the same names."""
-    names = []
-    for text, settings in ((PUMP.replace("value = 7", "value = 9"), {}), (PUMP, {"n": "9.0"})):
-        wanted = WantedSheets(text, "one.toml", settings, "en", "key", ("svg",))
-        names.append(list(sheets_of(Folder(place), wanted)))
-    assert names[0] == names[1] == ["one-n9-velocity-key.svg", "one-n9-acceleration-key.svg"]
-
-
 @pytest.mark.parametrize(
     ("name", "meant"),
     [
@@ -169,15 +155,6 @@ def test_a_text_is_saved_whatever_is_wrong_with_it_and_while_something_is_drawn(
     with session.drawing():
         assert session.save(ordered(text=bad, name="bad.toml"))["files"] == ("bad.toml",)
     assert (place / "bad.toml").read_text(encoding="utf-8") == bad
-
-
-@pytest.mark.parametrize(
-    ("name", "file"),
-    [("lever", "lever.toml"), ("lab/lever", "lab/lever.toml"), ("a.toml", "a.toml")],
-)
-def test_a_name_without_an_ending_gets_that_of_a_scene(place, name, file):
-    assert desk_in(place).save(ordered(name=name))["files"] == (file,)
-    assert (place / file).read_text(encoding="utf-8") == PUMP
 
 
 @pytest.mark.parametrize("name", ["lab/lab.toml", "lab.toml", "pyproject.toml"])
@@ -204,22 +181,10 @@ def test_a_scene_is_saved_where_it_was_opened_until_somebody_else_changes_it(pla
     assert (place / "one.toml").read_text(encoding="utf-8") == theirs
 
 
-def test_only_the_first_changes_are_shown(place):
-    found = desk_in(place).save(ordered(text="x\n" * 500, name="one.toml"))
-    assert found["exist"]
-    assert 0 < len(found["changes"]) < 20
-    assert found["changes"][-1] == "…"
-
-
 def test_values_that_cannot_be_written_are_told(place):
     found = desk_in(place).write(ordered(settings={"n": "seven"}))
     assert not found["edits"]
     assert found["problems"][0]["setting"] == "n"
-
-
-def test_a_name_of_a_scene_cannot_lead_its_sheets_elsewhere(place):
-    wanted = WantedSheets(PUMP, "../../evil.toml", {}, "en", "key", ("svg",))
-    assert all("/" not in name for name in sheets_of(Folder(place), wanted))
 
 
 def test_the_form_is_that_of_the_scene_s_own_lab(place):
@@ -227,11 +192,6 @@ def test_the_form_is_that_of_the_scene_s_own_lab(place):
     assert lab_of(folder, "lab/scene.toml", "any") == str(folder.root / "lab")
     assert lab_of(folder, "pump.toml", PUMP) == "pump"
     assert lab_of(folder, "pump.toml", PUMP + "\n") == "pump.toml"
-
-
-def test_a_scene_is_called_as_the_command_calls_it():
-    names = {"pump.toml": "pump", "lab/scene.toml": "lab", "a/b/x.toml": "x", "scene.toml": "scene"}
-    assert {name: stem_of(name) for name in names} == names
 
 
 def test_the_page_is_told_why_nothing_was_written(place):

@@ -16,13 +16,12 @@ from graphkin.construction.core.results import smallest_margin
 from graphkin.construction.core.vocabulary import action
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind, pick
-from graphkin.numbers.plane import Line, Ratio
-from graphkin.tape.batch_runner import COMPILED_FROM, EMITTED_FROM, BatchRunner, best_way
-from graphkin.tape.emit import loop_source, numpy_source
+from graphkin.numbers.plane import Ratio
+from graphkin.tape.batch_runner import EMITTED_FROM, BatchRunner
+from graphkin.tape.emit import loop_source
 from graphkin.tape.emitted import BLOCK, loop_names, sin45
 from graphkin.tape.graph import COMMUTING, Graph
 from graphkin.tape.traced import TracedNumber, UntraceableError
-from graphkin.tape.tracer import traced_kind
 from tests.chosen import CHOSEN
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -172,14 +171,6 @@ def test_a_scene_that_can_be_followed_runs_the_same_by_source(name):
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_margins_come_with_the_values(tmp_path, way):
-    mechanism, arrays = case(tmp_path, "pump")
-    ours, plain = both(mechanism, arrays, way=way, margins=True)
-    assert len(plain) > len(mechanism.program.answers if way == "numpy" else mechanism.asked())
-    assert_same(ours, plain, mechanism.program.steps)
-
-
-@pytest.mark.parametrize("way", WAYS)
 def test_what_cannot_be_drawn_is_nan_in_both(tmp_path, way):
     """A coupler too short to reach round: the linkage closes only on a part of the turn."""
     mechanism, arrays = case(tmp_path, "crank-rocker")
@@ -205,20 +196,6 @@ def test_a_value_given_as_an_array_takes_the_place_of_a_step(way):
     ours = BatchRunner(program).run(needed, values, keep, overrides=ways, way=way)
     plain = run_batch(program, needed, values, batch_kind(), keep, overrides=ways)
     assert_same(flat(ours), flat(plain), program.steps)
-
-
-def test_quarters_of_a_turn_stay_exact():
-    """90 degrees gives i, and not nearly i, in any number of turns."""
-    graph = Graph()
-    way = traced_kind().direction(TracedNumber(graph, graph.input("angle")))
-    source, rooms = numpy_source(graph, (way.node, way.down))
-    names = dict(vars(np))
-    exec(source, names)
-    degrees = np.arange(-1080.0, 1081.0, 90.0)
-    x, y = np.empty(degrees.size), np.empty(degrees.size)
-    names["block"]({"angle": degrees}, (x, y), np.empty((rooms, degrees.size)))
-    quarters = np.array([1, 1j, -1, -1j])[np.arange(-12, 13) % 4]
-    np.testing.assert_array_equal(x + 1j * y, quarters)
 
 
 def test_the_sine_of_the_loop_is_good_to_the_last_digit():
@@ -304,20 +281,6 @@ def test_a_root_that_need_not_exist_keeps_its_nan():
     assert rule(lambda x, y: np.sqrt(x) * np.sqrt(x)) == "mul(sqrt(x), sqrt(x))"
 
 
-def test_what_is_not_asked_is_not_emitted():
-    program = load("pump").program
-    arrays = {"n": np.linspace(1, 30, SIZE)}
-
-    def lines(*targets):
-        press, keep = BatchRunner(program), [program.targets[target] for target in targets]
-        press.run(program.needed(targets), arrays, keep, way="numpy")
-        (emitted,) = press.kept.values()
-        return numpy_source(emitted.graph, emitted.outputs)[0].count("\n")
-
-    counts = [lines((what, "B")) for what in ("position", "velocity", "acceleration")]
-    assert counts[0] < 0.8 * counts[1] < 0.8 * 0.8 * counts[2]
-
-
 @pytest.mark.parametrize(
     "looks",
     [
@@ -355,19 +318,6 @@ def test_a_program_that_cannot_be_followed_runs_as_before():
     np.testing.assert_array_equal(found.values[1], 2 * found.values[0])
 
 
-@pytest.mark.parametrize("way", ["steps", "numpy"])
-def test_where_a_block_ends_does_not_show(way):
-    program = load("pump").program
-    keep = [program.targets["acceleration", "D"]]
-    needed = program.needed([("acceleration", "D")])
-    press, n = BatchRunner(program), np.linspace(1, 30, SIZE)
-
-    def found(part: np.ndarray) -> np.ndarray:
-        return press.run(needed, {"n": part}, keep, way=way).values[keep[0]]
-
-    np.testing.assert_array_equal(found(n), np.concatenate([found(n[:1000]), found(n[1000:])]))
-
-
 def test_source_made_for_one_constant_is_not_used_for_another(tmp_path):
     mechanism, arrays = case(tmp_path, "crank-rocker")
     program, target = mechanism.program, ("position", "B")
@@ -389,25 +339,3 @@ def test_source_is_written_when_it_pays():
     for size in (EMITTED_FROM, EMITTED_FROM + 1):
         mechanism.batch(n=np.linspace(1, 30, size))
         assert len(mechanism.press.kept) == 1
-
-
-def test_the_way_is_chosen_by_the_number_of_variants(monkeypatch):
-    assert best_way(EMITTED_FROM - 1) == "steps"
-    monkeypatch.setattr("graphkin.tape.batch_runner.find_spec", lambda name: name)
-    assert (best_way(COMPILED_FROM - 1), best_way(COMPILED_FROM)) == ("numpy", "numba")
-    monkeypatch.setattr("graphkin.tape.batch_runner.find_spec", lambda name: None)
-    assert best_way(COMPILED_FROM) == "numpy"
-
-
-def test_records_of_lines_come_back_as_records():
-    @action("upright")
-    def upright(x):
-        return Line(x + 0j, x * 1j)
-
-    given = load("pump", n=7).program.steps
-    first = next(n for n, s in enumerate(given) if s.given and "n" in s.given.uses())
-    steps = (given[first], Step(upright, (0,), Part.SHAPE, Plane.NUMBERS))
-    press = BatchRunner(Program(steps, {("line", "n"): 1}))
-    found = press.run((0, 1), {"n": np.linspace(1, 30, SIZE)}, (0, 1), way="numpy")
-    assert isinstance(found.values[1], Line)
-    np.testing.assert_array_equal(found.values[1].along, 1j * found.values[0])

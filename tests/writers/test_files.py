@@ -17,7 +17,7 @@ import pytest
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.too_short import TINY
 from graphkin.construction.normal_component.normal_component import NormalComponent
-from graphkin.drawing.marks import LineMark, Text
+from graphkin.drawing.marks import LineMark
 from graphkin.numbers.plane import Vector
 from graphkin.writers.pdf import write_pdf
 from graphkin.writers.svg import write_svg
@@ -53,12 +53,6 @@ def page(request) -> Drawn:
 def tree_of(page: Drawn) -> ET.Element:
     """The SVG file of a sheet, read again."""
     return ET.fromstring(write_svg(page.page))
-
-
-def elements(tree: ET.Element) -> list[ET.Element]:
-    """The elements of the marks: texts, lines, circles, polygons, paths."""
-    kinds = ("line", "circle", "polyline", "polygon", "path", "text")
-    return [e for e in tree if e.tag in {SVG + kind for kind in kinds}]
 
 
 def ends(element: ET.Element) -> tuple[complex, complex]:
@@ -105,21 +99,6 @@ def expected_vectors(page: Drawn) -> dict[tuple[str, str], tuple[complex, comple
             found["mechanism", f"v_{index}"] = (tail, tail + 1000 * relative / kv)
             found["mechanism", f"a_{index}^ν"] = (tail, tail + 1000 * value / ka)
     return found
-
-
-def test_the_svg_is_well_formed_and_has_the_size_of_a3(page):
-    tree = tree_of(page)
-    assert tree.tag == f"{SVG}svg"
-    assert tree.get("width") == "420mm"
-    assert tree.get("height") == "297mm"
-    assert tree.get("viewBox") == "0 0 420 297"
-
-
-def test_the_pdf_has_the_size_of_a3(page):
-    (sheet,) = pypdf.PdfReader(io.BytesIO(write_pdf([page.page]))).pages
-    assert [float(v) / MM for v in sheet.mediabox] == pytest.approx([0, 0, 420, 297], abs=TRUE)
-    assert not sheet.get("/Rotate")
-    assert sheet.get("/UserUnit", 1) == 1
 
 
 def test_every_vector_in_the_svg_has_the_ends_that_the_trace_and_the_scales_give(page):
@@ -178,34 +157,6 @@ def test_no_matrix_moves_or_scales_the_lines_of_the_pdf(page):
     assert not re.search(r"transform=\"(?!rotate)", write_svg(page.page))
 
 
-def test_every_mark_is_in_the_svg_with_its_class_name_and_step(page):
-    found = [
-        (e.get("class"), e.get("data-name", ""), e.get("data-step"))
-        for e in elements(tree_of(page))
-    ]
-    wanted = [(m.cls, m.name, None if m.step is None else str(m.step)) for m in page.page.marks]
-    assert found == wanted
-    assert all(cls for cls, _, _ in found)
-
-
-def test_every_class_has_a_rule_in_the_style_sheet(page):
-    tree = tree_of(page)
-    rules = "".join(tree.itertext())
-    for element in elements(tree):
-        kind, classes = element.tag.removeprefix(SVG), element.get("class", "").split()
-        assert f"{kind}.{'.'.join(classes)}{{" in rules
-
-
-def test_the_points_of_the_plans_and_poles_are_named_in_the_svg():
-    velocity, acceleration = (tree_of(sheet) for sheet in both("pump", 7))
-    names = {e.get("data-name") for e in elements(velocity)}
-    assert {"o", "a", "b", "c", "d", "oa", "ab", "od", "A", "B", "O1", "I3"} <= names
-    names = {e.get("data-name") for e in elements(acceleration)}
-    prime = "\N{PRIME}"
-    assert {f"{letter}{prime}" for letter in "oabcd"} <= names
-    assert {f"o{prime}a{prime}", "a_BA^ν", "a_BA^τ", "J3", "J4"} <= names
-
-
 def test_the_svg_reaches_for_nothing_outside_itself(page):
     text = write_svg(page.page)
     addresses = set(re.findall(r"https?://[^\"'\s<>)]+", text))
@@ -251,11 +202,3 @@ def test_two_processes_write_the_same_bytes():
     first, second = (run.communicate()[0] for run in runs)
     assert len(first.splitlines()) >= 12
     assert first == second
-
-
-def test_no_text_of_a_file_is_lost():
-    sheet = drawn("pump", 7, "velocity", "key", "ro")
-    tree = tree_of(sheet)
-    texts = ["".join(e.itertext()) for e in tree.iter(f"{SVG}text")]
-    assert len(texts) == sum(isinstance(mark, Text) for mark in sheet.page.marks)
-    assert any("Mecanism de pompă" in text for text in texts)

@@ -14,7 +14,7 @@ from threading import Thread
 import pytest
 
 from graphkin.text.errors import PageError
-from graphkin.writers.lock import HOLDER, LOCK, ago, alive, locked
+from graphkin.writers.lock import HOLDER, LOCK, locked
 
 ROOT = Path(__file__).resolve().parents[2]
 HOLD = """
@@ -63,28 +63,11 @@ def test_a_killed_process_holds_nothing_and_is_told(tmp_path, holder):
         assert left == ""
 
 
-def test_nothing_is_left_behind(tmp_path):
-    with locked(tmp_path) as left:
-        assert left == ""
-        assert {path.name for path in tmp_path.iterdir()} == {LOCK, HOLDER}
-    assert not list(tmp_path.iterdir())
-
-
 @pytest.mark.parametrize("said", [b"\xff[1, 2", b"[" * 4096])
 def test_a_lock_that_says_nothing_readable_is_taken(tmp_path, said):
     (tmp_path / HOLDER).write_bytes(said)
     with locked(tmp_path) as left:
         assert left == ""
-
-
-def test_ages_are_told_in_the_unit_that_suits():
-    assert [ago(s) for s in (0, 119, 120, 7199, 7200)] == [
-        "0 s ago",
-        "119 s ago",
-        "2 min ago",
-        "119 min ago",
-        "2 h ago",
-    ]
 
 
 def test_a_lock_that_is_waited_for_is_taken_when_it_is_free(tmp_path):
@@ -113,13 +96,3 @@ def test_a_folder_without_locks_is_written_all_the_same(tmp_path, monkeypatch):
     monkeypatch.setattr(fcntl, "flock", none)
     with locked(tmp_path) as left:
         assert left == ""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="processes are not asked there")
-def test_processes_that_live_are_known(holder):
-    assert alive(os.getpid())
-    assert alive(holder.pid)
-    holder.kill()
-    holder.wait()
-    assert not alive(holder.pid)
-    assert not alive(10**30)

@@ -5,7 +5,7 @@ import re
 import pypdf
 import pytest
 
-from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
+from graphkin.drawing.frame import TitleBlock, sheet_frame
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Text
 from graphkin.text.errors import PageError
 from graphkin.writers.pdf import write_pdf
@@ -24,7 +24,6 @@ TEXTS = (
     Text(50, 70, "αβγδ ε φ τ", "label", 3.5, rotate=20),
 )
 A3 = Page(420, 297, sheet_frame(TitleBlock(title="Mecanism patrulater")), "Planul", "ro")
-A4 = Page(210, 297, page_frame(), "Calcul", "ro")
 
 
 def read(*pages, **options):
@@ -40,15 +39,6 @@ def places(code, pattern):
     for match in re.finditer(pattern, code):
         values = [float(value) / MM for value in match[0].split() if value[-1].isdigit()]
         yield [297 - value if i % 2 else value for i, value in enumerate(values)]
-
-
-def test_pages_have_their_true_size():
-    sizes = [
-        (float(page.mediabox.width) / MM, float(page.mediabox.height) / MM)
-        for page in read(A3, A4).pages
-    ]
-    assert sizes[0] == pytest.approx((420, 297), abs=0.01)
-    assert sizes[1] == pytest.approx((210, 297), abs=0.01)
 
 
 def test_lines_come_back_to_two_thousandths_of_a_millimetre_and_equal_the_svg():
@@ -80,13 +70,6 @@ def test_curves_leave_their_circle_by_less_than_two_thousandths(mark):
         assert here == pytest.approx(mark.at(mark.end), abs=0.002)
 
 
-def test_romanian_and_greek_can_be_searched():
-    text = read(Page(420, 297, TEXTS)).pages[0].extract_text()
-    assert "Mișcarea mecanismului: ăâîșț ĂÂÎȘȚ" in text
-    for sign in "ωνα⊥φτ":
-        assert sign in text
-
-
 def test_texts_stand_where_the_page_says():
     code = content(Page(420, 297, TEXTS[:1]))
     ((_, _, _, _, x, y),) = (
@@ -103,20 +86,6 @@ def test_the_print_is_not_scaled_and_the_document_is_named():
     assert reader.trailer["/Root"]["/Lang"] == "ro"
     assert reader.metadata.title == "Foaia 1"
     assert reader.metadata.author == "Ștefan Țîrlea"
-
-
-def test_every_font_is_embedded_under_its_own_name():
-    fonts = [font.get_object() for font in read(A3).pages[0]["/Resources"]["/Font"].values()]
-    used = [font for font in fonts if "/FontDescriptor" in font]
-    assert used
-    assert all("GraphkinSans" in font["/BaseFont"] for font in used)
-    assert all("/FontFile2" in font["/FontDescriptor"] for font in used)
-
-
-def test_the_same_pages_give_the_same_bytes():
-    page = Page(420, 297, A3.marks + TEXTS + LINES, "t", "ro")
-    assert write_pdf([page]) == write_pdf([page])
-    assert write_pdf([page], "black") != write_pdf([page])
 
 
 def test_a_page_that_cannot_be_drawn_is_refused():

@@ -80,13 +80,6 @@ def test_each_student_has_a_bookmark_to_the_first_page(files):
     assert pages == [0, 3]
 
 
-def test_title_language_and_true_size_stand_in_the_file(files):
-    root = read(joined(map(PdfPart, files), title="Clasă")[1]).trailer["/Root"]
-    assert root["/Lang"] == "ro"
-    assert root["/ViewerPreferences"]["/PrintScaling"] == "/None"
-    assert read(joined(map(PdfPart, files), title="Clasă")[1]).metadata.title == "Clasă"
-
-
 def test_no_files_make_a_file_without_pages():
     count, data = joined([])
     assert count == 0

@@ -6,7 +6,6 @@ from xml.etree import ElementTree
 import pytest
 
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text, polygon
-from graphkin.drawing.style import STYLES, style_of
 from graphkin.text.errors import PageError
 from graphkin.writers.svg import write_svg
 
@@ -27,32 +26,11 @@ def read(page=PAGE, **options):
     return ElementTree.fromstring(write_svg(page, **options).encode())
 
 
-def test_the_page_has_its_true_size_title_and_language():
-    root = read()
-    assert (root.get("width"), root.get("height")) == ("420mm", "297mm")
-    assert root.get("viewBox") == "0 0 420 297"
-    assert root.get("lang") == "ro"
-    assert root.findtext(f"{NS}title") == "Planul vitezelor: ă & ț"
-    assert read(Page(210, 297, ())).get("width") == "210mm"
-
-
 def test_lines_come_back_to_a_ten_thousandth_of_a_millimetre():
     line = read().find(f"{NS}line")
     found = [float(line.get(key)) for key in ("x1", "y1", "x2", "y2")]
     assert found == pytest.approx([10.12345, 20, 30.5, 40.00004], abs=1e-4)
     assert line.get("y1") == "20"
-
-
-def test_marks_carry_class_name_and_step():
-    root = read()
-    line, area, text = root.find(f"{NS}line"), root.find(f"{NS}polygon"), root.find(f"{NS}text")
-    assert (
-        line.attrib.items()
-        >= {"class": "velocity", "data-name": "v_A & co", "data-step": "3"}.items()
-    )
-    assert area.get("data-step") == "0"
-    assert area.get("data-name") is None
-    assert text.get("class") == "label acceleration"
 
 
 def test_every_run_has_its_own_place_and_the_words_can_be_searched():
@@ -71,24 +49,6 @@ def test_fonts_are_embedded_only_where_used():
     assert write_svg(PAGE).count("@font-face") == 2
     assert write_svg(Page(420, 297, MARKS[-1:])).count("@font-face") == 1
     assert "@font-face" not in write_svg(PAGE, embed_fonts=False)
-
-
-def test_a_second_class_gives_the_colour_where_the_first_has_none():
-    assert style_of("arrowhead velocity").fill == STYLES["velocity"].colour
-    assert style_of("label").colour == "#000000"
-    assert style_of("velocity", "black").colour == "#000000"
-    sheet = write_svg(PAGE, ink="black", embed_fonts=False)
-    assert STYLES["velocity"].colour not in sheet
-
-
-def test_components_differ_without_colour():
-    dashes = [style_of(cls, "black").dash for cls in ("normal", "tangential", "coriolis")]
-    assert len({*dashes, style_of("acceleration", "black").dash}) == 4
-
-
-def test_an_unknown_class_is_an_error():
-    with pytest.raises(KeyError):
-        write_svg(Page(420, 297, (LineMark(1, 1, 2, 2, "lnik"),)))
 
 
 def test_a_page_that_cannot_be_drawn_is_refused():

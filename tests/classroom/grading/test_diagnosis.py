@@ -10,7 +10,6 @@ import pytest
 
 from graphkin.classroom.grading.graded import Answer, EarnedMark, Status
 from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.slip_diagnosis import judged
 from graphkin.classroom.grading.standard import Standard
 from tests.classroom.grading.students import LABS, drawn, given, marker_of, row, taker
 
@@ -109,18 +108,6 @@ def test_a_factor_has_one_name_in_all_the_values_that_it_spoils(name, case):
         assert names(marker, answers, fields) == {slip}, (n, fields)
 
 
-@pytest.mark.parametrize("vectors", [True, False])
-@pytest.mark.parametrize("name", ["pump", "pump-collinear", "slotted-lever"])
-def test_a_forgotten_scale_of_lengths_is_named_for_velocities_and_accelerations(name, vectors):
-    for n in VARIANTS:
-        marker = marker_of(name, n)
-        factor = 1 / marker.standard.paper.mechanism
-        assert factor != 1
-        fields = values(marker.standard, vectors)
-        answers = off_by(marker.standard, right_set(name, n), fields, factor, factor)
-        assert names(marker, answers, fields) == {"wrong_scale"}, n
-
-
 def test_ten_times_and_thirty_over_pi_times_are_told_apart_by_the_own_segment():
     """They differ by 5 %, and the drawing alone by more: what was measured tells them apart."""
     for n in VARIANTS:
@@ -129,14 +116,6 @@ def test_ten_times_and_thirty_over_pi_times_are_told_apart_by_the_own_segment():
         for factor, slip in ((10.0, "power_of_ten"), (RPM, "rpm_as_rad")):
             found = off_by(marker.standard, answers, ["v_D"], factor, factor)
             assert names(marker, found, ["v_D"]) == {slip}
-
-
-def test_a_scale_of_ones_own_is_named_only_beside_segments_that_are_right():
-    """A set drawn for other data, at the scale of those, earns nothing for its values."""
-    marker = marker_of("slotted-lever", 5)
-    fields = values(marker.standard, vectors=True)
-    for other in (14, 20, 26):
-        assert names(marker, handed_in("slotted-lever", other), fields) == {""}
 
 
 def spoiled(answers: Mapping[str, Answer], random: np.random.Generator) -> dict[str, Answer]:
@@ -170,26 +149,6 @@ def test_chance_gives_hardly_any_name_to_numbers_at_random():
             for seed in (1, 2):
                 marks += lost(name, n, spoiled(handed_in(name, n, seed), random))
     assert share_named(marks) < 0.01
-
-
-def test_answers_to_other_data_are_hardly_taken_for_slips():
-    marks = []
-    for name in LABS:
-        for n in range(1, 31, 3):
-            marks += lost(name, n, handed_in(name, (n + 9) % 30 + 1))
-    assert share_named(marks) < 0.015
-
-
-def test_a_value_that_just_follows_from_its_own_segment_is_no_further_evidence():
-    marker = marker_of("pump", 7)
-    slip = next(each for each in marker.slips if each.whole and each.name == "normal_missing")
-    own = slip.values["a_D_mm"]
-    value = own * marker.standard.paper.accelerations / 1000
-    answers = given({"a_D_mm": own, "a_D": value})
-    alone = judged(marker.standard, slip, answers, ("a_D_mm",), ())
-    both = judged(marker.standard, slip, answers, ("a_D_mm", "a_D"), ())
-    assert both.fields == ("a_D_mm", "a_D")
-    assert both.odds == pytest.approx(alone.odds)
 
 
 def test_one_wrong_number_among_right_ones_seldom_has_a_name():

@@ -162,19 +162,6 @@ def test_the_words_of_the_feedback_may_be_written_on_the_form(language):
         assert sense_of(spoken(key), turning=turning) == sign, key
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_words_that_a_refusal_names_are_understood(language):
-    spoken = words(language)
-    for key, turning in (("unread.turning", True), ("unread.sliding", False)):
-        named = spoken(key).partition(":")[2]
-        for mark in (" sau ", " or ", " oppure ", ","):
-            named = named.replace(mark, "|")
-        found = [sense_of(part, turning=turning) for part in named.split("|") if part.strip()]
-        assert len(found) >= 4, named
-        assert None not in found, named
-        assert {1, -1} == set(found)
-
-
 @pytest.mark.parametrize(
     ("quantity", "text", "value"),
     [("omega", "orar", -1), ("epsilon", "orar", -1), ("slide speed", "avanti", 1)],

@@ -5,14 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from math import asin, degrees
 
-import numpy as np
 import pytest
-from msgspec.structs import replace
 
 from graphkin import load
 from graphkin.classroom.lab.fairness import judged
-from graphkin.classroom.lab.items import items
-from graphkin.classroom.lab.lab_model import Fair, Range
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.results import smallest_margin
@@ -85,19 +81,6 @@ def test_triangles_are_relative_velocity_over_bar_as_drawn(judgement):
             pytest.fail("no right triangle was found")
 
 
-def test_places_are_on_the_page_where_the_layout_has_them(judgement):
-    lab, mechanism, found, singles = judgement
-    for i, sheets in enumerate(singles):
-        for sheet in sheets:
-            field = lay_out(sheet).mechanism
-            for item in items(mechanism, lab):
-                if item.quantity != PLACES[sheet.kind]:
-                    continue
-                point = sheet.place(sheet.trace.value(item.quantity, item.of))
-                on_page = point is not None and field.holds(point, 2.0)
-                assert found.on_page[item.field][i] == on_page
-
-
 @pytest.fixture(scope="module")
 def turning(tmp_path_factory):
     """A slider-crank over a whole turn, whose centre and pole come and go; a tall one as well."""
@@ -134,65 +117,6 @@ def test_centres_that_come_and_go_are_where_the_layout_has_them(turning, name):
             flat = found.rays[field][i] < lab.fair.crossing
             assert (field in found.computed(i)) == (flat or not on_page)
     assert len(seen) == 4
-
-
-def test_the_new_labs_are_fair_for_every_number(judgement):
-    lab, _, found, _ = judgement
-    if lab.name in ("offset-slider-crank", "slotted-lever"):
-        assert found.fair.all()
-
-
-def test_the_pump_is_unfair_where_its_piston_hardly_accelerates():
-    found = judged(load("pump"), read_lab("pump"), NUMBERS)
-    unfair = [n for n, good in enumerate(found.fair, 1) if not good]
-    assert unfair == [25, 26, 30]
-    fault = found.faults(24)[0]
-    assert (fault.limit, fault.where, fault.bound) == ("segment", "a_D_mm", 3)
-    assert found.computed(24) == ("a_D_mm", "a_D")
-    assert not found.faults(0)
-
-
-def test_faults_are_told_exactly_where_a_variant_is_unfair(judgement):
-    _, _, found, _ = judgement
-    for i, good in enumerate(found.fair):
-        assert bool(found.faults(i)) != good
-
-
-@pytest.mark.parametrize(
-    "stricter",
-    [{"crossing": 70.0}, {"segment": 12.0}, {"triangle": (0.2, 4.0)}, {"triangle": (0.05, 0.5)}],
-)
-def test_a_stricter_limit_makes_nobody_fair(judgement, stricter):
-    lab, mechanism, found, _ = judgement
-    strict = replace(lab, fair=replace(lab.fair, **stricter))
-    now = judged(mechanism, strict, NUMBERS)
-    assert not (now.fair & ~found.fair).any()
-
-
-def test_what_does_not_close_is_unfair_and_has_no_other_fault(tmp_path):
-    text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
-    path = tmp_path / "open.toml"
-    path.write_text(
-        text.replace("[parameters]", "[parameters]\ncoupler = 90", 1).replace(
-            next(line for line in text.splitlines() if line.startswith("A-B")), 'A-B = "coupler"'
-        ),
-        encoding="utf-8",
-    )
-    many = [{"coupler": Fraction(length)} for length in (1, 90, 10_000)]
-    lab = lab_of(path, Fair(0, 0, (0, 1e9)), coupler=Range(Fraction(1), Fraction(9), Fraction(1)))
-    found = judged(load(path), lab, many)
-    assert not found.closes[0] and not found.closes[2]
-    assert [str(fault) for fault in found.faults(0)] == ["does not close"]
-    assert found.computed(0) == ()
-
-
-def test_blocks_of_a_large_batch_are_one():
-    many = [{"n": Fraction(1 + i % 30)} for i in range(5000)]
-    lab, mechanism = read_lab("pump"), load("pump")
-    whole, part = judged(mechanism, lab, many), judged(mechanism, lab, NUMBERS)
-    assert len(whole) == 5000
-    assert whole.shortest == pytest.approx(np.resize(part.shortest, 5000))
-    assert (whole.fair == np.resize(part.fair, 5000)).all()
 
 
 @pytest.mark.parametrize("name", ["gears-planet.toml", "centrodes-four-bar.toml"])

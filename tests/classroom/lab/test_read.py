@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 from click.testing import CliRunner
 
-from graphkin.classroom.lab.items import all_fields, asked_fields, items
+from graphkin.classroom.lab.items import all_fields, items
 from graphkin.classroom.lab.lab_model import Fair, Formula, Range, Ranges, Rubric
 from graphkin.classroom.lab.read_lab import find, read_lab, with_rules
 from graphkin.cli.main import app
@@ -47,35 +47,10 @@ def test_the_shipped_labs_are_read():
         assert isinstance(lab.rule, Formula)
 
 
-@pytest.mark.parametrize("name", LABS)
-def test_a_shipped_lab_is_complete_in_three_languages(name):
-    scene = load(name).scene
-    assert set(scene.titles) == {"en", "ro", "it"}
-    assert len(set(scene.titles.values())) == 3
-
-
-@pytest.mark.parametrize("name", LABS)
-def test_every_asked_field_of_a_shipped_lab_earns_marks(name):
-    assert set(asked_fields(load(name))) <= set(read_lab(name).rubric.points)
-
-
 def test_a_lab_has_its_defaults(mine):
     lab = read_lab(mine(RULE))
     assert (lab.fair, lab.rubric, lab.name) == (Fair(), Rubric(), "mine")
     assert lab.text == RULE
-
-
-def test_a_lab_may_be_called_otherwise(mine):
-    assert read_lab(mine(RULE), "pump").name == "pump"
-
-
-def test_a_byte_order_mark_does_not_matter(mine):
-    assert read_lab(mine(RULE, "utf-8-sig")).text == RULE
-
-
-def test_folder_and_file_are_the_same_lab(mine):
-    folder = mine(RULE)
-    assert read_lab(folder / "lab.toml") == read_lab(folder)
 
 
 def test_everything_that_is_stated_is_read(mine):
@@ -182,13 +157,6 @@ def test_what_is_no_lab_is_told(name, expected):
         find(name)
 
 
-def test_a_scene_beside_no_rule_is_told(mine):
-    folder = mine(RULE)
-    (folder / "lab.toml").unlink()
-    with pytest.raises(SceneError, match=r"is a scene without lab\.toml"):
-        read_lab(folder)
-
-
 # ------------------------------------------------------------------------------------ items
 
 
@@ -215,24 +183,6 @@ def test_every_field_of_every_scene_is_plain_ascii_and_unique():
             assert name.isascii() and name.isidentifier()
 
 
-def test_points_under_points_and_slides_have_fields():
-    fields = asked_fields(load("slotted-lever"))
-    assert {"v_A3_mm", "a_A3", "v_slide_2", "v_slide_2_sense", "a_slide_2"} <= set(fields)
-    assert fields["v_A3"].of == "A@3"
-    assert "a_AA3_cor_mm" in all_fields(load("slotted-lever"))
-
-
-def test_names_that_look_alike_get_fields_of_their_own(tmp_path):
-    """A point A3 and the point of link 3 under A are two fields."""
-    text = (ROOT / "sheets" / "slotted-lever" / "scene.toml").read_text(encoding="utf-8")
-    text = text.replace("O2-B = 620\n", 'O2-B = 620\nO2-A3 = 100\nA3 = "on O2-B"\n')
-    path = tmp_path / "alike.toml"
-    text = text.replace('velocity = ["C", "A@3"]', 'velocity = ["A3", "A@3"]')
-    path.write_text(text, encoding="utf-8")
-    fields = asked_fields(load(path))
-    assert (fields["v_A3"].of, fields["v_A3_2"].of) == ("A3", "A@3")
-
-
 @pytest.mark.parametrize("formula", ["n", "nubmer", "2*nr", "x + y"])
 def test_a_formula_of_anything_else_is_asked_whether_the_number_is_meant(mine, formula):
     found = problems(mine(RULE.replace('"number"', f'"{formula}"')))
@@ -246,15 +196,6 @@ def test_mistakes_of_the_rule_name_its_file_and_no_other(mine):
     said = CliRunner().invoke(app, ["check", str(folder)])
     (line,) = said.stderr.splitlines()
     assert line.startswith("graphkin: lab.toml: variants.set.n: ")
-
-
-def test_mistakes_of_the_scene_name_the_scene(mine):
-    folder = mine(RULE)
-    scene = folder / "scene.toml"
-    text = scene.read_text(encoding="utf-8").replace("O1-A = 30", "O1-A = -30")
-    scene.write_text(text, encoding="utf-8")
-    (line,) = problems(folder)
-    assert line.startswith("scene.toml: links.1.O1-A: ")
 
 
 def test_a_slip_that_nobody_knows_earns_no_silent_nothing(mine):

@@ -7,7 +7,7 @@ import shutil
 import pytest
 
 from graphkin.classroom.lab.fairness_words import trial_lines
-from graphkin.classroom.lab.lab_trial import quantiles, tried
+from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.lab.new_lab import new_lab
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.text.errors import PageError, SceneError
@@ -38,31 +38,12 @@ def test_a_formula_is_tried_on_every_number_that_the_scene_allows(name):
     assert not trial.unasked and not trial.unmarked
 
 
-def test_the_report_names_limit_and_numbers():
-    lines = "\n".join(trial_lines(tried(read_lab("pump"))))
-    assert "27 of 30 variants" in lines
-    assert "segment a_D_mm   2      number 25, 26  1.79 mm against 3 mm" in lines
-    assert "20.5 points for 22 fields" in lines
-    assert "flattest crossing, °" in lines
-    assert "flattest rays to a centre or pole, °" in lines
-
-
 def test_ranges_are_tried_on_a_thousand_draws(mine):
     trial = tried(mine(RANGES.format(1, 30)))
     assert len(trial.many) == 1000
     assert trial.different == 30
     assert 0 < trial.unfair < 1000
     assert not trial.spoilt  # what is unfair is drawn again
-
-
-def test_ranges_that_are_never_fair_spoil_a_lab(mine):
-    assert tried(mine(RANGES.format(25, 26))).spoilt
-
-
-def test_a_formula_that_suits_nobody_is_told(mine):
-    text = 'graphkin = 1\n[variants]\nset = { n = "number + 30" }\n'
-    with pytest.raises(SceneError, match=r"variants\.set: number 1 gives n = 31"):
-        tried(mine(text))
 
 
 def test_fields_that_no_sheet_draws_are_told(mine):
@@ -81,20 +62,7 @@ def test_fields_that_no_sheet_draws_are_told(mine):
     assert any("drawn on no sheet: a_D_mm" in line for line in trial_lines(trial))
 
 
-def test_the_quantiles_of_a_spread():
-    assert quantiles([5.0, 1.0, 3.0, 2.0, 4.0, float("inf")]) == [1, 2, 3, 4, 5]
-    assert quantiles([]) == []
-
-
 # --------------------------------------------------------------------------------------- new
-
-
-def test_a_new_lab_passes_as_it_is(tmp_path):
-    written = new_lab("crank-lab", tmp_path)
-    assert [path.name for path in written] == ["scene.toml", "lab.toml"]
-    trial = tried(read_lab(tmp_path / "crank-lab"))
-    assert not trial.unfair and not trial.spoilt and not trial.unmarked
-    assert len(trial.many) == 30
 
 
 def test_a_new_lab_passes_with_ranges_too(tmp_path):

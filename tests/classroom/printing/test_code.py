@@ -14,14 +14,12 @@ from graphkin.classroom.printing.qr_code import (
     modules,
     overlap,
     rectangles,
-    square,
     stamped,
 )
 from graphkin.drawing.areas import A3_AREA, A4_AREA
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
-from graphkin.drawing.marks import LineMark, Page, Text, reach
+from graphkin.drawing.marks import Page, Text, reach
 from graphkin.writers.pdf import write_pdf
-from graphkin.writers.svg import write_svg
 
 CODE = "TZHG6MXPZY"
 GRID = st.lists(st.lists(st.booleans(), min_size=7, max_size=7), min_size=1, max_size=9)
@@ -54,24 +52,6 @@ def test_ten_signs_of_base_32_take_the_smallest_symbol_at_its_best_correction():
     assert tuple(tuple(map(bool, row)) for row in again.matrix) == rows
 
 
-def test_the_marks_are_the_modules():
-    marks, rows = square(CODE, 30, 40), modules(CODE)
-    size = SIDE / len(rows)
-    found = set()
-    for mark in marks:
-        left, top, right, bottom = reach(mark)
-        for y in range(len(rows)):
-            for x in range(len(rows)):
-                u, v = 30 + (x + 0.5) * size, 40 + (y + 0.5) * size
-                if left < u < right and top < v < bottom:
-                    found.add((x, y))
-    assert found == cells(rows)
-    edges = [reach(mark) for mark in marks]
-    assert min(e[0] for e in edges) == pytest.approx(30)
-    assert max(e[2] for e in edges) == pytest.approx(30 + SIDE)
-    assert max(e[3] for e in edges) == pytest.approx(40 + SIDE)
-
-
 def stamp(page):
     """The box that what stamping added takes up."""
     added = stamped(page, CODE).marks[len(page.marks) :]
@@ -97,18 +77,6 @@ def test_the_square_gives_way_to_what_stands_there_or_stays_away(places):
     added = stamped(page, CODE).marks[len(page.marks) :]
     for mark in added:
         assert not [m for m in texts if overlap(reach(mark), reach(m))]
-
-
-def test_a_full_page_stays_as_it_is():
-    lines = tuple(LineMark(21, y, 199, y, "panel") for y in range(19, 279, 10))
-    page = Page(210, 297, (*A4.marks, *lines))
-    assert stamped(page, CODE) is page
-
-
-def test_svg_and_pdf_hold_the_same_black_rectangles():
-    page = Page(210, 297, square(CODE, 30, 40))
-    assert write_svg(page).count("<polygon") == len(page.marks)
-    assert b"%PDF" in write_pdf([page])
 
 
 def test_the_square_on_a_printed_page_can_be_read():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from click.testing import CliRunner, Result
 
-from graphkin.cli import print_command
 from graphkin.cli.main import app
 from tests.classroom.printing.conftest import LEVER, LEVER_LAB, tree
 
@@ -27,26 +26,6 @@ def test_it_tells_how_far_it_is_and_names_the_files(make):
     again = ran(folder, "--jobs", 1)
     assert again.stdout.splitlines()[0] == "0 students printed, 2 stood already"
     assert again.stderr.splitlines() == ["2 of 2 students"]
-
-
-def test_a_large_class_is_told_in_tenths(capsys):
-    with print_command.progress() as tell:
-        for done in range(1001):
-            tell(done, 1000)
-    lines = capsys.readouterr().err.splitlines()
-    assert lines == [f"{done} of 1000 students" for done in range(0, 1001, 100)]
-
-
-def test_a_terminal_gets_a_bar(monkeypatch, capsys):
-    import sys
-
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    with print_command.progress() as tell:
-        for done in range(0, 31, 10):
-            tell(done, 30)
-    said = capsys.readouterr()
-    assert "30/30" in said.err
-    assert said.out == ""
 
 
 def test_who_gets_nothing_is_told_and_the_status_is_1(make):
@@ -82,17 +61,3 @@ def test_words_that_are_not_understood_change_nothing(make, words, said):
     assert result.exit_code == 2
     assert said in result.stderr
     assert tree(folder) == before
-
-
-def test_a_folder_that_is_no_class_is_refused(tmp_path):
-    result = ran(tmp_path)
-    assert result.exit_code == 2
-    assert "graphkin variants" in result.stderr
-    assert not list(tmp_path.iterdir())
-
-
-def test_views_and_formats_come_in_one_order_however_they_are_written(make):
-    one, other = make("a", ["1"]), make("b", ["1"])
-    assert ran(one, "--view", "key, TASK", "--format", "svg,pdf", "--jobs", 1).exit_code == 0
-    assert ran(other, "--view", "task,key", "--format", "pdf,svg", "--jobs", 1).exit_code == 0
-    assert tree(one / "print") == tree(other / "print")

@@ -5,20 +5,9 @@ from __future__ import annotations
 from concurrent.futures import Future, ThreadPoolExecutor
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from graphkin.classroom.printing.workers import AHEAD, CHUNK, SHARES, chunks, engine, results
+from graphkin.classroom.printing.workers import AHEAD, results
 from graphkin.text.errors import PageError
-
-
-@given(st.integers(0, 2000), st.integers(1, 64))
-def test_chunks_hold_every_student_once_and_feed_all_workers(count, workers):
-    found = chunks(range(count), workers)
-    assert [i for chunk in found for i in chunk] == list(range(count))
-    assert all(1 <= len(chunk) <= CHUNK for chunk in found)
-    if count >= SHARES * workers:
-        assert len(found) >= SHARES * workers
 
 
 @pytest.mark.parametrize("workers", [1, 2, 5])
@@ -49,9 +38,3 @@ def test_a_broken_way_to_the_workers_is_told():
 
     with Cut(1) as pool, pytest.raises(PageError, match="a worker ended suddenly"):
         list(results(pool, 1, sum, [(1,)]))
-
-
-def test_one_job_needs_no_process():
-    with engine(1) as (executor, workers):
-        assert executor is None
-        assert workers == 1

@@ -29,17 +29,6 @@ def test_a_part_is_finished_when_all_its_files_stand_as_noted(tmp_path):
     assert not Journal(tmp_path).finished("A task pdf", "k")
 
 
-def test_files_of_other_settings_are_known(tmp_path):
-    journal = Journal(tmp_path)
-    journal.write([entry(tmp_path, "A task pdf", "k", one=b"1")])
-    assert journal.otherwise("A task pdf", "new") == ["one"]
-    assert journal.otherwise("A task pdf", "k") == []
-    assert journal.ours("A task pdf", "k") == {"one"}
-    assert not journal.ours("A task pdf", "new")
-    (tmp_path / "one").unlink()
-    assert journal.otherwise("A task pdf", "new") == []
-
-
 @pytest.mark.parametrize("cut", range(1, 60, 7))
 def test_a_line_that_was_cut_short_is_as_if_not_written(tmp_path, cut):
     Journal(tmp_path).write([entry(tmp_path, part, "k", one=b"1") for part in ("A", "B")])
@@ -49,12 +38,6 @@ def test_a_line_that_was_cut_short_is_as_if_not_written(tmp_path, cut):
     assert list(again.entries) == ["A"]
     again.write([entry(tmp_path, "C", "k", two=b"2")])
     assert list(Journal(tmp_path).entries) == ["A", "C"]
-
-
-def test_lines_that_are_no_entries_are_passed_over(tmp_path):
-    lines = [b"nonsense", b"[]", b"{}", b'{"part": 1, "key": "k", "files": 3}', b"\xff\xfe", b""]
-    (tmp_path / JOURNAL).write_bytes(b"\n".join(lines) + b"\n")
-    assert not Journal(tmp_path).entries
 
 
 def test_a_full_disk_leaves_no_part_of_a_line(tmp_path, monkeypatch):

@@ -9,7 +9,6 @@ from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
 from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.cli.main import app
-from graphkin.text.errors import PageError
 from tests.classroom.printing.conftest import tree
 
 IDS = ["1", "2", "3", "=5"]
@@ -34,13 +33,6 @@ def own(files, stem):
     return {name: data for name, data in files.items() if name.split("/")[-1].startswith(stem)}
 
 
-def test_the_column_is_read_by_code_and_by_name(make):
-    variants = read_edition(listed(make, "a")).variants
-    assert [variant.spoken for variant in variants] == SPOKEN
-    assert [variant.language for variant in variants] == ["it", "", "Română", "klingon"]
-    assert {variant.spoken for variant in read_edition(make("b", IDS)).variants} == {None}
-
-
 def test_sheets_forms_and_pages_are_those_of_a_whole_class_in_that_language(make):
     """Byte for byte; who names none, or one that no page has, gets that of the class."""
     folder = listed(make, "a")
@@ -55,19 +47,6 @@ def test_sheets_forms_and_pages_are_those_of_a_whole_class_in_that_language(make
         assert own(found, stem) == wanted
 
 
-def test_another_language_of_one_student_is_that_students_alone(make):
-    folder = listed(make, "a")
-    printed(folder)
-    before = tree(folder / "print")
-    (folder / "variants.csv").write_text(LISTED.replace("2,\n", "2,it\n"), encoding="utf-8")
-    with pytest.raises(PageError, match=r"task/2-task\.pdf, task/2-form\.pdf"):
-        printed(folder)
-    assert printed(folder, force=True).made == 1
-    after = tree(folder / "print")
-    changed = {name for name in after if after[name] != before[name] and "/" in name}
-    assert changed == set(own(after, "2-"))
-
-
 def test_a_table_that_cannot_be_read_is_told_before_anything_is_printed(make):
     folder = listed(make, "a", 'id,Limba\n1,"it\n')
     with pytest.raises(RosterError, match=r"variants\.csv, row 2"):
@@ -76,9 +55,3 @@ def test_a_table_that_cannot_be_read_is_told_before_anything_is_printed(make):
     assert result.exit_code == 2
     assert "variants.csv, row 2" in result.stderr
     assert not (folder / "print").exists()
-
-
-def test_a_language_that_no_page_has_is_told(make):
-    result = CliRunner().invoke(app, ["print", str(listed(make, "a")), "--jobs", "1"])
-    assert result.exit_code == 0
-    assert '1 student: "klingon" is no language of the pages' in result.stderr

@@ -64,18 +64,6 @@ def test_what_is_no_manifest_is_refused(make, text):
     assert len(told(folder)) == 1
 
 
-def test_a_newer_format_is_refused(make):
-    folder = make("a", ["1"])
-    change(folder, format=2)
-    assert "update graphkin" in told(folder)[0]
-
-
-def test_no_student_is_no_class(make):
-    folder = make("a", ["1"])
-    change(folder, students=[])
-    assert "no student" in told(folder)[0]
-
-
 def test_every_student_who_is_wrong_is_told(make):
     folder = make("a", ["1"])
     right = {"id": "1", "code": "AAAA", "parameters": {"n": "1"}}

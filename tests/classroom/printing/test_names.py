@@ -62,15 +62,6 @@ def test_no_ids_make_names_that_are_alike(students):
     hold_the_laws(stems([id_ for id_, _ in students], [code for _, code in students]))
 
 
-@given(st.lists(st.text("aAbB-_1", max_size=4), min_size=1, max_size=40))
-def test_names_that_look_like_made_ones_stay_apart(ids):
-    hold_the_laws(stems([*ids, "a-b"], ["B"] * (len(ids) + 1)))
-
-
-def test_plain_ids_are_the_names_and_keep_their_zeros():
-    assert stems(["0012", "12", "A-7_b"], codes(3)) == ["0012", "12", "A-7_b"]
-
-
 def test_twins_by_case_both_get_their_codes():
     assert stems(["Ab", "aB"], ["XX", "YY"]) == ["Ab-xx", "aB-yy"]
 

@@ -8,26 +8,21 @@ from time import sleep
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from msgspec.structs import replace
 
 from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.items import items
-from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.printing.answer_form import advice, form, quantity_of
+from graphkin.classroom.printing.answer_form import form
 from graphkin.classroom.printing.edition import Variant, read_edition
-from graphkin.classroom.printing.personal import fits, lost, owner, shortened, writable
+from graphkin.classroom.printing.personal import fits, owner
 from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
 from graphkin.classroom.printing.qr_code import modules
 from graphkin.drawing.glyphs import measures
-from graphkin.drawing.marks import Page, Text, reach
+from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
 from graphkin.text import LANGUAGES, words
 from graphkin.writers import pdf
 from tests.classroom.printing.conftest import LAB, SCENE, write_class
-
-KINDS = {"senses", "slides"}
-"""What a form may tell of senses: of what turns, and of what slides."""
 
 
 @pytest.fixture(scope="module")
@@ -61,22 +56,6 @@ def test_name_group_and_code_stand_on_every_page(edition, view):
             for word in (*variant.name.split(), "331"):
                 assert word in said, (view, word)
             assert variant.id not in said
-
-
-def test_the_code_stands_beside_a_drawing_number_of_the_scene(edition):
-    text = edition.scene + '[sheet]\nnumber = "M-12"\n'
-    numbered = replace(order(edition), scene=text)
-    variant = edition.variants[0]
-    (page,) = pages(Sheets(numbered, variant), "overlay")
-    assert variant.code in " ".join(texts(page))
-    (page, *_) = pages(Sheets(numbered, variant), "task")
-    assert f"M-12 / {variant.code}" in texts(page)
-
-
-def test_an_overlay_says_whose_it_is_below_its_caption(edition):
-    (page,) = pages(Sheets(order(edition), edition.variants[0]), "overlay")
-    caption, owned = (next(m for m in page.marks if m.name == n) for n in ("title", "owner"))
-    assert reach(owned)[1] - reach(caption)[3] > 0.5
 
 
 def test_files_are_made_by_one_thread_at_a_time(edition, monkeypatch):
@@ -156,32 +135,6 @@ def test_a_segment_too_short_to_be_measured_leaves_one_row_with_all_the_points(e
         assert sum(line.startswith("vB = ") for line in lines) == 1
 
 
-def table_of(page: Page, name: str) -> list[str]:
-    """The cells of a row of the tables."""
-    found = (m for m in page.marks if isinstance(m, Text) and (m.cls, m.name) == ("table", name))
-    return [plain(mark.markup) for mark in found]
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_tables_of_the_sheets_tell_which_lengths_are_computed(edition, language):
-    """In brackets on the key, with the form's own words below the tables; never else."""
-    spoken = words(language)
-    why, said = spoken("form.compute"), []
-    for variant in edition.variants:
-        sheets = Sheets(order(edition, language), variant)
-        for view in ("task", "key"):
-            page = sheets.of(view)[0].pages[0]
-            said.append(
-                [plain(m.markup) for m in page.marks if getattr(m, "name", "") == "computed"]
-            )
-        measured = [table_of(page, name)[-2] for name in ("v_A", "v_B")]
-        exact = standard(sheets.mechanism, items(sheets.mechanism, edition.lab), edition.lab.rubric)
-        length = spoken.fixed(exact.key["v_B_mm"], 2)
-        wanted = f"({length})" if "v_B" in variant.compute else length
-        assert measured == [spoken.fixed(60, 2), wanted]
-    assert said == [[], [], [f"vB: {why}"], [f"vB: {why}"]]
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     """In mm on paper from the first fixed pivot, to the right and up, which the form says."""
@@ -200,23 +153,6 @@ def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     assert plain(words(language)("form.places", pivot="*O*")) in texts(page)
 
 
-def test_a_place_that_cannot_be_drawn_says_so_and_not_that_it_is_small(edition):
-    place = Item("J_3_x_mm", "place", "*x*(*J*_3)", "mm", "pole", "3")
-    (page,) = form([place], {}, ("J_3_x_mm",), words("en"), ("Title", "Answers"), ("A", "A"), "O1")
-    assert hints(page) == [words("en")("form.compute_place")]
-    assert quantity_of(place) == "*J*_3"
-    assert plain(words("en")("form.senses")) not in texts(page)
-
-
-def test_a_form_tells_the_senses_that_it_asks_for():
-    turns = Item("omega_3_sense", "sense", "*ω*_3", "", "omega", "3")
-    slides = Item("v_slide_2_sense", "sense", "*v*_{2/3}", "", "slide speed", "2")
-    spoken = words("en")
-    for asked, keys in (([turns], {"senses"}), ([slides], {"slides"}), ([turns, slides], KINDS)):
-        told = advice(asked, spoken, "")
-        assert {key for key in KINDS if spoken(f"form.{key}") in told} == keys
-
-
 def test_a_long_form_goes_on_on_further_pages(edition):
     sheets = Sheets(order(edition), edition.variants[0])
     fields = items(sheets.mechanism, edition.lab)[:1] * 70
@@ -226,38 +162,11 @@ def test_a_long_form_goes_on_on_further_pages(edition):
     assert texts(found[2]).count("3/3") == 1
 
 
-def test_without_fields_there_is_no_form(edition):
-    assert form([], {}, (), words("en"), ("", ""), ("Ana", "AAAA")) == ()
-
-
 @given(st.text(max_size=60))
 def test_any_name_can_be_written_and_fits(text):
     whose = owner(Variant(text or "id", "CODE", {}, name=text, group=text))
     assert fits(whose.name)
     assert set(whose.name) <= measures(italic=False).keys()
-
-
-def test_names_keep_their_letters_and_lose_only_what_the_font_lacks():
-    assert writable("Ștefan Țăran-Łukasz Müller") == "Ștefan Țăran-Łukasz Müller"
-    assert writable("S\u0327tefan") == "Ştefan"
-    assert writable("a\u202eb\x00c\nd") == "abc d"
-    assert writable("王 Wang") == "? Wang"
-    assert lost("王")
-    assert not lost("Ștefan?")
-
-
-def test_a_name_too_long_ends_with_dots():
-    name = "Maria-Magdalena " * 20
-    short = shortened(name.strip())
-    assert short.endswith("…")
-    assert name.startswith(short[:-1])
-    assert fits(short)
-    assert shortened("W" * 500).startswith("WWWWWW")
-
-
-def test_who_has_no_name_is_called_by_the_id():
-    assert owner(Variant("0012", "CODE", {})).name == "0012"
-    assert owner(Variant("0012", "CODE", {}, group="331")).name == "0012, 331"
 
 
 def test_a_student_who_cannot_be_drawn_keeps_nobody_else_back(edition):

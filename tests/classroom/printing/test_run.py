@@ -10,7 +10,6 @@ import sys
 import time
 from pathlib import Path
 
-import pypdf
 import pytest
 
 from graphkin.classroom.printing import print_run as running
@@ -20,7 +19,7 @@ from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, 
 from graphkin.text.errors import PageError
 from graphkin.writers import files
 from graphkin.writers.lock import LOCK, locked
-from tests.classroom.printing.conftest import LEVER, LEVER_LAB, code_of, tree, write_class
+from tests.classroom.printing.conftest import tree, write_class
 
 ROOT = Path(__file__).resolve().parents[3]
 IDS = [f"{i:04d}" for i in range(1, 9)]
@@ -42,49 +41,6 @@ def whole(tmp_path_factory) -> dict[str, bytes]:
     outcome = printed(folder)
     assert (outcome.made, outcome.stood, outcome.refused) == (8, 0, [])
     return tree(folder / "print")
-
-
-def test_every_student_has_sheet_form_and_key_and_the_printer_one_file_of_each(whole):
-    names = {f"task/{i}-task.pdf" for i in IDS} | {f"task/{i}-form.pdf" for i in IDS}
-    names |= {f"key/{i}-key.pdf" for i in IDS}
-    assert set(whole) == names | {"class-task.pdf", "class-key.pdf", JOURNAL}
-
-
-def test_the_file_for_the_printer_follows_the_roster(make):
-    folder = make("a", ["3", "1", "2"], names=["C", "A", "B"])
-    printed(folder)
-    reader = pypdf.PdfReader(folder / "print" / "class-task.pdf")
-    assert [mark.title for mark in reader.outline] == ["C, 331 A", "A, 331 A", "B, 331 A"]
-    pages = [page.extract_text() for page in reader.pages]
-    assert len(pages) == 9  # a sheet, a page of calculations and a form of each
-    for place in range(3):
-        assert all(code_of(place) in text for text in pages[3 * place : 3 * place + 3])
-
-
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_the_same_again_gives_the_same_bytes(whole, make, jobs):
-    folder = make("again", IDS)
-    printed(folder, jobs=jobs)
-    assert tree(folder / "print") == whole
-    outcome = printed(folder, jobs=jobs)
-    assert (outcome.made, outcome.stood) == (0, 8)
-    assert tree(folder / "print") == whole
-
-
-@pytest.mark.parametrize(
-    ("name", "harm"),
-    [("task/0003-form.pdf", "cut"), ("key/0008-key.pdf", "gone"), ("class-key.pdf", "other")],
-)
-def test_what_is_lost_or_spoilt_is_made_again(whole, tmp_path, name, harm):
-    folder = copied(whole, tmp_path)
-    path = folder / "print" / name
-    data = path.read_bytes()
-    path.unlink()
-    if harm != "gone":
-        path.write_bytes(data[: len(data) // 2] if harm == "cut" else data + b" ")
-    outcome = printed(folder)
-    assert outcome.made == (0 if name.startswith("class") else 1)
-    assert tree(folder / "print") == whole
 
 
 def copied(whole: dict[str, bytes], tmp_path: Path) -> Path:
@@ -262,18 +218,6 @@ def test_a_file_of_somebody_else_is_not_replaced_without_force(make):
     assert mine.read_bytes() != b"mine"
 
 
-def test_the_printers_file_of_somebody_else_is_not_replaced_without_force(make):
-    folder = make("foreign", ["0001"])
-    (folder / "print").mkdir()
-    mine = folder / "print" / "class-task.pdf"
-    mine.write_bytes(b"mine")
-    with pytest.raises(PageError, match=r"class-task\.pdf"):
-        printed(folder)
-    assert mine.read_bytes() == b"mine"
-    printed(folder, PrintRequest(force=True))
-    assert mine.read_bytes() != b"mine"
-
-
 def test_a_forced_run_that_was_cut_short_goes_on_without_force(make, monkeypatch):
     """What it had begun to replace is known to be its own."""
     folder, wishes = make("forced", ["0001"]), PrintRequest(language="ro")
@@ -290,24 +234,6 @@ def test_a_forced_run_that_was_cut_short_goes_on_without_force(make, monkeypatch
     assert printed(folder, wishes).stood == 1
 
 
-def test_further_views_join_what_stands(whole, tmp_path):
-    folder = copied(whole, tmp_path)
-    outcome = printed(folder, PrintRequest(views=("task", "overlay"), formats=("pdf", "svg")))
-    assert outcome.made == 8
-    found = tree(folder / "print")
-    assert {name: found[name] for name in whole if name != JOURNAL} == {
-        name: data for name, data in whole.items() if name != JOURNAL
-    }
-    new = {name.replace("0001", "") for name in found if name not in whole and "0001" in name}
-    assert new == {
-        "task/-task-velocity.svg",
-        "task/-task-form-01.svg",
-        "task/-task-form-02.svg",
-        "overlay/-overlay.pdf",
-        "overlay/-overlay-velocity.svg",
-    }
-
-
 def test_hostile_ids_write_nothing_outside(make, tmp_path):
     folder = make("inner/class", HOSTILE)
     before = set(tree(tmp_path))
@@ -318,15 +244,6 @@ def test_hostile_ids_write_nothing_outside(make, tmp_path):
     sheets = [Path(name).name for name in new if name.endswith("-task.pdf") and "/task/" in name]
     assert len({name.casefold() for name in sheets}) == len(HOSTILE)
     assert all(name.isascii() for name in new)
-
-
-def test_who_cannot_be_drawn_is_told_and_the_others_printed(make):
-    numbers = [60, 180, 70]
-    folder = make("lever", ["1", "2", "3"], numbers=numbers, scene=LEVER, lab=LEVER_LAB)
-    outcome = printed(folder)
-    assert [variant.id for variant, _ in outcome.refused] == ["2"]
-    assert outcome.made == 2
-    assert len(pypdf.PdfReader(folder / "print" / "class-key.pdf").outline) == 2
 
 
 def test_a_worker_that_dies_is_told(make, monkeypatch):
@@ -355,9 +272,3 @@ def test_a_cluster_gives_the_same_bytes(whole, make):
     finally:
         local.close()
     assert tree(folder / "print") == whole
-
-
-def test_without_dask_the_extra_is_named(make, monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(PageError, match=r"graphkin\[cluster\]"):
-        printed(make("none", ["1"]), cluster="dask://127.0.0.1:9")
