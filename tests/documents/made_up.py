@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.program import Given, Part, Plane, Program, Step
+from graphkin.construction.core.program import Drive, Given, Part, Plane, Program, Step
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Verdict
 from graphkin.construction.drivers import driver_symbols
@@ -47,7 +47,13 @@ def made_up(
             values[len(steps)] = value
             plane = Plane.MECHANISM if what == "position" else Plane.NUMBERS
             steps.append(Step(None, (), Part.POSITION, plane, name, (), Given("point", ())))
-    trace = Trace(Program(tuple(steps), targets), values, {})
+    drives = []
+    for n, driver in enumerate(scene.drivers, 1):
+        speed = len(steps)
+        steps.append(Step(None, (), Part.POSITION, Plane.NUMBERS, "", (), Given("number", ())))
+        values[speed] = float(driver.speed.si(scene.values))
+        drives.append(Drive(driver=n, position=speed, speed=speed, acceleration=speed))
+    trace = Trace(Program(tuple(steps), targets, drives=tuple(drives)), values, {})
     verdict = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return Drawing("velocity", scene, trace, Scales(1.0, 1.0), verdict, words("en"))
 

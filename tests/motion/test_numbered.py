@@ -70,7 +70,7 @@ def test_pieces_of_one_number_are_told_as_one_and_what_lies_between_has_no_rows(
     assert len(found.pieces) > 1
     assert told(found) == [
         'φ from 80.000° to 280.000°: 2 = "closure 2"',
-        "φ from 89.958° to 90.500°: no rows, two closures lie too close together",
+        "φ from 90.000° to 90.500°: no rows, two closures lie too close together",
         "φ from 270.000° to 270.500°: no rows, two closures lie too close together",
     ]
     assert {90.0, 270.0} == set(found.left_out)

@@ -48,6 +48,8 @@ OTHERWISE = {
     ("excavator-absolute", "sense"): "the place of the arrow is chosen where the scene stands",
     ("excavator-relative", "sense"): "the place of the arrow is chosen where the scene stands",
     ("jumper", "sense"): "the place of the arrow is chosen where the scene stands",
+    ("trammel", "drive"): "a dimension that is short somewhere is left out there on paper",
+    ("trammel", "sense"): "the heads of that dimension",
     ("rod-and-wheel", ""): "the construction has other steps in a closure of another number",
 }
 """What is not compared, and why: marks of a class, or a whole scene."""
