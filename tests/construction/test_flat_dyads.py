@@ -158,6 +158,19 @@ def test_decimals_hold_to_all_digits(near, offset):
         assert abs(MP.mpmathify(str(trace.value("position", "D").real)) - pins[1].real) < 1e-35
 
 
+@pytest.mark.parametrize("near", NEAR)
+@pytest.mark.parametrize("offset", ["+1e-4", "-1e-6", "+1e-8"])
+def test_no_more_digits_are_promised_than_there_are(near, offset):
+    angle = flat_at(near) + MP.mpf(offset)
+    for number, pins in enumerate(places(angle), 1):
+        asked = mechanism(angle, number)
+        solution = asked.solve()
+        share = 10.0 ** -asked.witness(solution).digits["position"]
+        for point, place in zip("CD", pins, strict=True):
+            off = abs(solution.points[point].position - complex(place))
+            assert off <= share * abs(complex(place))
+
+
 def test_a_dyad_that_is_flat_for_all_that_balls_tell_is_not_proved():
     angle = flat_at(NEAR[0])
     balls = Certifier.of(mechanism(angle, 2), [("position", "D")]).run(64)

@@ -170,13 +170,15 @@ def of_slides(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> P
 def digits_of(differences: Differences) -> dict[str, int]:
     """How many significant digits are sure of every position, velocity and acceleration.
 
-    Of one smaller than a thousandth of the largest of its kind, digits of that thousandth.
+    As many as rounding leaves the loops, and no more than those in which both routes agree. Of one
+    smaller than a thousandth of the largest of its kind, digits of that thousandth.
     """
     found: dict[str, int] = {}
     for name, each in differences.items():
         kind = KINDS_OF.get(name.rpartition(".")[2])
         if kind is not None:
-            digits = sure_digits(float(each.share[0]))
+            apart = each._replace(bound=np.fmax(each.bound, each.found))
+            digits = sure_digits(float(apart.share[0]))
             found[kind] = min(found.get(kind, MOST_DIGITS), digits)
     return found
 
