@@ -890,6 +890,13 @@ class Reader:
     def normal_again(self, a: str, q: str, m: str, n: str, v: str) -> None:
         self.triangle(a, v, n if m == q else m, q, q[0].lower())
 
+    @says(
+        r"⟨a:vector⟩ = ⟨v:vector⟩\^\{2\}/⟨m⟩⟨n⟩ at ⟨q⟩ on ⟨p⟩⟨r⟩, towards ⟨c⟩, by number: "
+        "⟨drawn:number⟩ mm"
+    )
+    def normal_computed(self, a: str, drawn: str, **_: str) -> None:
+        self.lengths[a] = number(drawn)
+
     @says("what is too short to be drawn is left out: .*")
     def too_short(self) -> None:
         """Left out, as the page says."""
