@@ -56,8 +56,7 @@ SCENES = (
     "watt-2-centre",
 )
 """Not among them: what needs trials or a locus, Klein's construction, Kennedy's theorem."""
-SIDE = "step 1: no word tells on which side of its track the wheel lies"
-DEFECTS = {("roller", "velocity"): SIDE, ("roller", "acceleration"): SIDE}
+DEFECTS: dict[tuple[str, str], str] = {}
 """What a page does not carry, by scene and sheet."""
 
 
