@@ -199,7 +199,7 @@ KINDS = {
     "point": NAME,
     "number": NUMBER,
     "vector": VECTOR,
-    "turning": rf"{TURNING}(?: = [^,;:]*? rad/s(?:\^\{{2\}})?)?",
+    "turning": rf"{TURNING}(?: = (?:[^,;:]*? rad/s(?:\^\{{2\}})?|{VECTOR}/{NAME}{NAME}))?",
     "word": r"[^;:]+?",
 }
 
@@ -249,6 +249,12 @@ class Reader:
     ray: Line | None = None
     end: complex | None = None
     tail: complex | None = None
+    senses: dict[str, int] = field(default_factory=dict)
+    """Senses of what turns, as sentences have told them by a velocity over a length."""
+    coriolis_before: tuple[str, str, str] | None = None
+    """The centre, the line and the turning of the Coriolis triangle drawn last."""
+    away: bool = False
+    """Whether the guide drawn last goes through a point that is told by its coordinates alone."""
     lengths: dict[str, float] = field(default_factory=dict)
     """Lengths of components found at the mechanism, by their symbols."""
     vectors: dict[str, complex] = field(default_factory=dict)
@@ -299,6 +305,13 @@ class Reader:
             except DefectError:
                 continue
             return number(value) * MILLIMETRES[unit] / self.scale
+        for item in self.items:
+            own = dict(re.findall(rf"({NAME}) \(({NUMBER}; {NUMBER})\)", item))
+            if "in the axes of link" in item and p in own and q in own:
+                unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
+                ends = (complex(*map(number, own[end].split("; "))) for end in (p, q))
+                one, two = ends
+                return abs(two - one) * unit / self.scale
         return abs(self.at(q) - self.at(p))
 
     def angle(self, text: str) -> float:
@@ -311,6 +324,12 @@ class Reader:
 
     def sense(self, turning: str) -> int:
         """The sense of ω or ε: given with the data, or seen in the velocity plan."""
+        if quotient := re.search(rf" = ({VECTOR})/", turning):
+            q, p = re.findall(r"[A-Z]\d*", quotient[1][3:-1])
+            turned = cross(self.at(q) - self.at(p), self.set_off(quotient[1]))
+            self.senses[turning.split(" = ")[0]] = 1 if turned > 0 else -1
+        if turning.split(" = ")[0] in self.senses:
+            return self.senses[turning.split(" = ")[0]]
         if " = " in turning:
             told = re.findall(NUMBER, turning.rpartition(" = ")[2])
             if told:
@@ -373,6 +392,8 @@ class Reader:
             p, q = bar[1], bar[2]
             q = q if self.stands(q) else point
             return Line.of(self.at(p), self.at(q) - self.at(p))
+        if match := re.match(rf"the line of link \w+ through the point .*? at ({NUMBER}°)", words):
+            return Line.of(self.at(point), cmath.rect(1, self.angle(match[1])))
         match = re.match(
             rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER}); ({NUMBER})\) (mm|cm|m)) "
             rf"at ({NUMBER}°) to (?:the x axis|({NAME})({NAME}))",
@@ -432,8 +453,7 @@ class Reader:
         """The sense in which a block or wheel is driven along its guide or track."""
         kind, _, link = of.partition(" ")
         if kind == "guide":
-            point = self.links[link].removeprefix("block ")
-            item = self.told_of(rf"(?:pin )?{re.escape(point)} slides")
+            item = self.told_of(rf"(?:pin )?{re.escape(self.sliding_point(link))} slides")
             line = self.positive(self.guide(link), item)
         else:
             item = self.told_of(rf"wheel {link} rolls")
@@ -444,10 +464,15 @@ class Reader:
 
     def guide(self, link: str) -> Line:
         """The guide of a block by the number of its link."""
-        words = self.links.get(link, "")
-        if not words.startswith("block "):
-            raise DefectError(f"no guide {link}: link {link} is no block")
-        return self.block(words.removeprefix("block "))
+        return self.block(self.sliding_point(link))
+
+    def sliding_point(self, link: str) -> str:
+        """The point of a link that slides along its guide."""
+        points: list[str] = re.findall(NAME, self.links.get(link, "").removeprefix("block "))
+        for point in points:
+            if any(re.match(rf"(?:pin )?{re.escape(point)} slides", item) for item in self.items):
+                return point
+        raise DefectError(f"no point of link {link} slides along a guide")
 
     def track(self, link: str) -> Line:
         """The track of a wheel by the number of its link."""
@@ -586,13 +611,11 @@ class Reader:
 
     @says("(?:through ⟨p⟩ )?draw guide ⟨k:number⟩")
     def draw_guide(self, k: str, p: str | None) -> None:
-        point = self.links.get(k, "").removeprefix("block ")
-        item = self.told_of(rf"(?:pin )?{re.escape(point)} slides")
-        of_link = re.search(rf"along the line of link \w+ through ({NAME})", item)
-        moving = bool(of_link) or bool(re.search(r"along (?!the line)", item))
-        if p is None and moving:
+        item = self.told_of(rf"(?:pin )?{re.escape(self.sliding_point(k))} slides")
+        self.away = "through the point (" in item
+        if p is None and "along the line of link" in item:
             raise DefectError(f"guide {k} moves: no point is told through which to draw it")
-        self.loci.append(Line(self.at(p), self.guide(k).along) if p else self.guide(k))
+        self.loci.append(Line(self.at(p), self.direction(f"guide {k}")) if p else self.guide(k))
 
     @says("draw track ⟨k:number⟩")
     def draw_track(self, k: str) -> None:
@@ -600,7 +623,9 @@ class Reader:
 
     @says("shift it by the offset")
     def shifted(self) -> None:
-        """Done with the guide."""
+        """Done with the guide, where its offset is given with its side."""
+        if self.away:
+            raise DefectError("no side is told to which to shift it by the offset, and no length")
 
     @says(
         "parallel to it, on the wheel’s side, the path of the centre at the radius of wheel "
@@ -735,7 +760,24 @@ class Reader:
     def velocity_normal(self, p: str, v: str) -> None:
         self.loci.append(Line.of(self.at(p), self.set_off(v) * 1j))
 
-    @says("they meet in ⟨name⟩(?:, the instantaneous centre of link ⟨k:number⟩)?")
+    @says(r"pins are the centres of their links: (?P<pairs>[^;]*)")
+    def pins(self, pairs: str) -> None:
+        for name, point in re.findall(rf"({NAME}) = ({NAME})", pairs):
+            self.put(name, self.at(point))
+
+    @says("join ⟨m⟩ and ⟨n⟩")
+    def kennedy_line(self, m: str, n: str) -> None:
+        self.loci.append(Line.of(self.at(m), self.at(n) - self.at(m)))
+
+    @says("they meet in ⟨name⟩, which is ⟨same⟩ again: a check")
+    def kennedy_check(self, name: str, same: str) -> None:
+        self.put(name, self.at(same))
+        self.meet(name, None)
+
+    @says(
+        "they meet in ⟨name⟩(?:, the instantaneous centre of link ⟨k:number⟩"
+        "|, the centre of links [^;]*)?"
+    )
     def meet(self, name: str, k: str | None) -> None:
         if len(self.loci) != 2:
             raise DefectError(f"{len(self.loci)} lines are drawn, of which two should meet")
@@ -764,6 +806,24 @@ class Reader:
         small = canonical(name)
         primes = "′" if "′" in small else ""
         self.put(name, self.at(p[0].lower() + primes + p[1:]))
+
+    @says(
+        "rack ⟨k:number⟩ has moved with the rim, from where it touched the wheel at the start, by "
+        "the arc that the wheel has turned through since, ⟨arc:number⟩ mm: ⟨name⟩"
+    )
+    def rack(self, k: str, arc: str, name: str) -> None:
+        item = self.told_of(rf"gear \d+ meshes in {NAME} with a rack along the line of link {k}")
+        gear = re.match(r"gear (\d+)", item)[1]  # type: ignore[index]
+        start = re.search(
+            rf"touching it at {re.escape(name)} when {NAME}{NAME} is at ({NUMBER}°)", item
+        )
+        if start is None:
+            raise DefectError(f"nothing tells when the rack stood at the wheel in {name}")
+        guide, centre = self.block(name), self.centre(gear)
+        touched = guide.point + guide.along * dot(guide.along, centre - guide.point)
+        turned = self.angle("φ") - self.angle(start[1])
+        way = (touched - centre) * 1j * math.copysign(1, turned)
+        self.put(name, touched + way / abs(way) * number(arc))
 
     @says("⟨name⟩ falls on ⟨s⟩(?:, (?:for|because) .*? is (?:constant|zero))?")
     def falls(self, name: str, s: str) -> None:
@@ -913,14 +973,31 @@ class Reader:
     def coriolis(
         self, a: str, p: str, x: str, y: str, e: str, f: str, line: str, w: str, **_: str
     ) -> None:
+        self.coriolis_before = p, line, w
         plan = self.velocity
         slide = plan[canonical(y)] - plan[canonical(x)]
         foot = self.at(p)
         tip = foot + 2 * slide
         (cut,) = crossings(Line.of(tip, slide * 1j), Line.of(foot, self.line_of(line, p, tip)))
         index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
+        e, f = e[0], f[0]
         self.place[canonical(e) + index], self.place[canonical(f) + index] = tip, cut
         self.vectors[a] = slide / abs(slide) * 1j * self.sense(w) * abs(cut - tip)
+
+    @says("in the same way ⟨a:vector⟩ from 2⟨v:vector⟩ = 2·⟨x⟩⟨y⟩")
+    def coriolis_again(self, a: str, x: str, y: str, **_: str) -> None:
+        if self.coriolis_before is None:
+            raise DefectError("no Coriolis component came before")
+        p, line, w = self.coriolis_before
+        self.coriolis(a, p, x, y, "e", "f", line, w)
+
+    @says(
+        "⟨a:vector⟩ = 2⟨w:turning⟩·⟨v:vector⟩, drawn ⟨drawn:number⟩ mm, as ⟨v2:vector⟩ turned by "
+        "90° in the sense of ⟨w2:turning⟩"
+    )
+    def coriolis_computed(self, a: str, v: str, drawn: str, w2: str, **_: str) -> None:
+        slide = self.set_off(v)
+        self.vectors[a] = slide / abs(slide) * 1j * self.sense(w2) * number(drawn)
 
     def line_of(self, words: str, p: str, tip: complex) -> complex:
         """The direction from a point of the line that a Coriolis triangle is cut by."""
