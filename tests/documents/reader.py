@@ -230,6 +230,7 @@ SIDES = {
     "above": 1j,
     "below": -1j,
 }
+WAYS = {"to the right": 1, "to the left": -1, "upwards": 1j, "downwards": -1j}
 GLOSS = re.compile(r" ?\(an index behind the point’s own names a link: [^)]*\)")
 POLE_GLOSS = re.compile(rf" ?\(({NAME}) is the image of ({NAME}), for ({NAME}) is the pole\)")
 
@@ -249,12 +250,12 @@ class Reader:
     ray: Line | None = None
     end: complex | None = None
     tail: complex | None = None
+    offset: complex = 0j
+    """By how much the sentence shifts a guide that it draws when it is cut."""
     senses: dict[str, int] = field(default_factory=dict)
     """Senses of what turns, as sentences have told them by a velocity over a length."""
     coriolis_before: tuple[str, str, str] | None = None
     """The centre, the line and the turning of the Coriolis triangle drawn last."""
-    away: bool = False
-    """Whether the guide drawn last goes through a point that is told by its coordinates alone."""
     lengths: dict[str, float] = field(default_factory=dict)
     """Lengths of components found at the mechanism, by their symbols."""
     vectors: dict[str, complex] = field(default_factory=dict)
@@ -324,12 +325,13 @@ class Reader:
 
     def sense(self, turning: str) -> int:
         """The sense of ω or ε: given with the data, or seen in the velocity plan."""
+        name = turning.partition(" = ")[0]
         if quotient := re.search(rf" = ({VECTOR})/", turning):
             q, p = re.findall(r"[A-Z]\d*", quotient[1][3:-1])
             turned = cross(self.at(q) - self.at(p), self.set_off(quotient[1]))
-            self.senses[turning.split(" = ")[0]] = 1 if turned > 0 else -1
-        if turning.split(" = ")[0] in self.senses:
-            return self.senses[turning.split(" = ")[0]]
+            self.senses[name] = 1 if turned > 0 else -1
+        if name in self.senses:
+            return self.senses[name]
         if " = " in turning:
             told = re.findall(NUMBER, turning.rpartition(" = ")[2])
             if told:
@@ -412,7 +414,9 @@ class Reader:
         return Line.of(where, along)
 
     def shifted_line(self, line: Line, words: str) -> Line:
-        """The parallel to a line at the offset that its words tell."""
+        """The parallel to a line at the offset that its words tell, or the sentence before."""
+        if self.offset:
+            return Line(line.point + self.offset, line.along)
         sides = "|".join(SIDES)
         offset = re.search(rf", ({NUMBER}) (mm|cm|m) ({sides}) it", words)
         if offset is None:
@@ -427,7 +431,7 @@ class Reader:
         if way := re.search(
             r"\(positive from [^)]*?(to the right|to the left|upwards|downwards)\)", words
         ):
-            side = {"to the right": 1, "to the left": -1, "upwards": 1j, "downwards": -1j}[way[1]]
+            side = WAYS[way[1]]
             return Line(line.point, line.along * math.copysign(1, dot(side, line.along)))
         if way := re.search(rf"\(positive from ({NAME}) to ({NAME})\)", words):
             return Line.of(line.point, self.at(way[2]) - self.at(way[1]))
@@ -511,7 +515,7 @@ class Reader:
         for image, point, _ in POLE_GLOSS.findall(sentence):
             self.image_of[canonical(point)] = canonical(image).replace("′", "")
         rest = POLE_GLOSS.sub("", GLOSS.sub("", sentence))
-        self.loci, self.ray, self.end, self.tail = [], None, None, None
+        self.loci, self.ray, self.end, self.tail, self.offset = [], None, None, None, 0j
         while rest:
             for form, rule in RULES:
                 match = form.match(rest)
@@ -612,7 +616,6 @@ class Reader:
     @says("(?:through ⟨p⟩ )?draw guide ⟨k:number⟩")
     def draw_guide(self, k: str, p: str | None) -> None:
         item = self.told_of(rf"(?:pin )?{re.escape(self.sliding_point(k))} slides")
-        self.away = "through the point (" in item
         if p is None and "along the line of link" in item:
             raise DefectError(f"guide {k} moves: no point is told through which to draw it")
         self.loci.append(Line(self.at(p), self.direction(f"guide {k}")) if p else self.guide(k))
@@ -621,11 +624,17 @@ class Reader:
     def draw_track(self, k: str) -> None:
         self.loci.append(self.track(k))
 
-    @says("shift it by the offset")
-    def shifted(self) -> None:
-        """Done with the guide, where its offset is given with its side."""
-        if self.away:
-            raise DefectError("no side is told to which to shift it by the offset, and no length")
+    @says("shift it by ⟨drawn:number⟩ mm (?P<way>to the right|to the left|upwards|downwards)")
+    def shifted(self, drawn: str, way: str) -> None:
+        """At once where the guide stands already, otherwise when it is cut."""
+        if not self.loci:
+            self.offset = WAYS[way] * number(drawn)
+            return
+        line = self.loci[-1]
+        assert isinstance(line, Line)
+        away = line.along * 1j
+        away *= math.copysign(1, dot(WAYS[way], away))
+        self.loci[-1] = Line(line.point + away * number(drawn), line.along)
 
     @says(
         "parallel to it, on the wheel’s side, the path of the centre at the radius of wheel "
