@@ -2,8 +2,8 @@
 
 It knows what a student knows: the words printed on the sheets (sentences, given data, scale, list
 of links) and the fixed pins and poles drawn on the task sheet. It shares no code with graphkin: the
-pages are read from their SVG files, the geometry is here. Points are complex numbers, in mm, *y*
-upwards. What it reaches is compared with the marks of the key by ``deviations``.
+pages are read from their SVG files (``printed_sheet``), the geometry is ``ruler_and_compass``. What
+it reaches is compared with the marks of the key by ``deviations``.
 
 A sentence that does not carry enough raises ``DefectError``: a length that is nowhere given, a
 point without a place, two crossings on the side that is named, words that no rule knows.
@@ -18,177 +18,21 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
-from xml.etree import ElementTree
 
-NAME = r"[A-Za-z][′″‴]*(?:_\{[^}]*\})?(?:\^\{IV\})?"
-NUMBER = r"−?\d+(?:\.\d+)?"
+from tests.documents.printed_sheet import NAME, NUMBER, Printed, bare, canonical, number, printed
+from tests.documents.ruler_and_compass import (
+    APART,
+    Circle,
+    DefectError,
+    Line,
+    cross,
+    crossings,
+    dot,
+)
+
 VECTOR = r"[av]_\{[^}]*\}(?:\^\{[^}]*\})?"
 TURNING = r"[ωε]_\{[^}]*\}"
-MARKED, ENLARGED = {"pin", "point", "pole", "centre"}, {"inset", "detail"}
-"""The kinds of circles that mark a point, and those of them that stand in a lens."""
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
-PIN_SEPARATE = 1e-6
-
-
-class DefectError(Exception):
-    """A sentence that cannot be followed with what is printed."""
-
-
-# -- what is printed ------------------------------------------------------------------------------
-
-
-@dataclass
-class Printed:
-    """The words and marks of one sheet."""
-
-    lines: list[str]
-    marks: dict[str, complex]
-
-    @property
-    def sentences(self) -> list[str]:
-        """The numbered sentences of the construction, each in one line."""
-        found: list[str] = []
-        open_at = -1
-        for line in self.lines:
-            if re.fullmatch(r"\d+\.", line):
-                found.append("")
-                open_at = int(line[:-1])
-            elif line.startswith(("Checked by", "Flattest")):
-                open_at = -1
-            elif open_at > 0:
-                found[-1] = f"{found[-1]} {line}".strip()
-        return found
-
-    @property
-    def data(self) -> str:
-        """The given data, in one line."""
-        start = next(n for n, line in enumerate(self.lines) if line.startswith("Given:"))
-        stop = next(n for n, line in enumerate(self.lines) if line.startswith("Mechanism, scale"))
-        return " ".join(self.lines[start:stop]).removeprefix("Given:").strip()
-
-    @property
-    def scale(self) -> float:
-        """The millimetres of the mechanism that one of paper stands for."""
-        line = next(line for line in self.lines if line.startswith("Mechanism, scale"))
-        drawn, real = re.findall(r"[\d.]+", line)[:2]
-        return float(real) / float(drawn)
-
-    @property
-    def links(self) -> dict[str, str]:
-        """What the links are by their numbers, as a task lists them."""
-        line = next((line for line in self.lines if line.startswith("Links: ")), "Links: ")
-        return dict(re.findall(r"(\d+) = ([^,]+)", line))
-
-
-def printed(path: Path) -> Printed:
-    """The words and marks of an SVG file: indices as ``_{…}``, exponents as ``^{…}``."""
-    lines, marks = [], {}
-    for item in ElementTree.parse(path).iter():
-        kind = set((item.get("class") or "").split())
-        name = item.get("data-name")
-        if item.tag.endswith("}text") and kind == {"caption"}:
-            lines.append(marked_up(item))
-        elif item.tag.endswith("}circle") and name and kind & MARKED and not kind & ENLARGED:
-            marks[name] = complex(float(item.get("cx", 0)), -float(item.get("cy", 0)))
-    return Printed(lines, marks)
-
-
-def marked_up(item: ElementTree.Element) -> str:
-    """The words of one text, what stands below or above its line in braces."""
-    spans = list(item) or [item]
-    size = max(float(span.get("font-size", 0)) for span in spans)
-    line = next(float(s.get("y", 0)) for s in spans if float(s.get("font-size", 0)) == size)
-    words = ""
-    for span in spans:
-        text, below = span.text or "", float(span.get("y", 0)) - line
-        if abs(below) < 0.05:
-            words += text
-        else:
-            bare = text.rstrip(" ")
-            words += ("_{" if below > 0 else "^{") + bare + "}" + text[len(bare) :]
-    return words.replace("\xa0", " ")
-
-
-def canonical(name: str) -> str:
-    """The name of a mark: O_{1} is O1, a′_{3} is a′_3, b_{BA}^{IV} is b⁗_BA."""
-    match = re.fullmatch(r"([A-Za-z])([′″‴]*)_?\{?([^}^]*)\}?(\^\{IV\})?", name)
-    assert match, name
-    letter, primes, index, fourth = match.groups()
-    index = index if letter.isupper() else f"_{index}" if index else ""
-    return letter + ("⁗" if fourth else primes) + index
-
-
-def bare(name: str) -> str:
-    """A name without the signs that set its parts apart: t1′_2 and t′_12 are one."""
-    letter, rest = name[0], name[1:].replace("_", "").replace(",", "")
-    primes = "".join(sign for sign in rest if sign in "′″‴⁗")
-    index = "".join(sign for sign in rest if sign not in "′″‴⁗")
-    trials = {"II": "²", "I": "¹"}
-    for roman, raised in trials.items():
-        if index.endswith(roman):
-            index = index.removesuffix(roman) + raised
-    return letter + primes + index
-
-
-def number(text: str) -> float:
-    return float(text.replace("−", "-"))
-
-
-# -- ruler and compass ----------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Line:
-    """A line through a point along a unit vector."""
-
-    point: complex
-    along: complex
-
-    @classmethod
-    def of(cls, point: complex, along: complex) -> Line:
-        if abs(along) < PIN_SEPARATE:
-            raise DefectError("a line without a direction")
-        return cls(point, along / abs(along))
-
-
-@dataclass(frozen=True)
-class Circle:
-    """A circle about a centre."""
-
-    centre: complex
-    radius: float
-
-
-def cross(one: complex, two: complex) -> float:
-    return (one.conjugate() * two).imag
-
-
-def dot(one: complex, two: complex) -> float:
-    return (one.conjugate() * two).real
-
-
-def crossings(one: Line | Circle, two: Line | Circle) -> list[complex]:
-    """The points that two lines, a line and a circle, or two circles have in common."""
-    if isinstance(one, Line) and isinstance(two, Line):
-        square = cross(one.along, two.along)
-        if abs(square) < 1e-9:
-            raise DefectError("the lines are parallel")
-        return [one.point + one.along * cross(two.point - one.point, two.along) / square]
-    if isinstance(one, Circle) and isinstance(two, Circle):
-        between = two.centre - one.centre
-        apart = abs(between)
-        to_chord = (apart**2 + one.radius**2 - two.radius**2) / (2 * apart)
-        foot = one.centre + between / apart * to_chord
-        chord = Line.of(foot, between * 1j)
-        return crossings(chord, one)
-    line, circle = (one, two) if isinstance(one, Line) else (two, one)
-    assert isinstance(line, Line) and isinstance(circle, Circle)
-    foot = line.point + line.along * dot(line.along, circle.centre - line.point)
-    rest = circle.radius**2 - abs(foot - circle.centre) ** 2
-    if rest < -1e-6:
-        raise DefectError("the arc does not reach the line")
-    half = math.sqrt(max(rest, 0.0)) * line.along
-    return [foot + half, foot - half]
 
 
 # -- the rules ------------------------------------------------------------------------------------
@@ -350,7 +194,7 @@ class Reader:
         plan = self.velocity or self.place
         for p, q in pairwise(points):
             turned = cross(self.at(q) - self.at(p), self.moved(q, plan) - self.moved(p, plan))
-            if abs(turned) > PIN_SEPARATE:
+            if abs(turned) > APART:
                 return 1 if turned > 0 else -1
         raise DefectError(f"the sense of {turning} cannot be seen")
 

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 
 from graphkin.cli.main import app
 from tests.chosen import FOLDER, SCENES
-from tests.documents import reader
+from tests.documents import printed_sheet, reader, ruler_and_compass
 from tests.documents.reader import Followed, follow
 
 CLOSE = 0.3
@@ -96,6 +96,15 @@ def test_a_side_that_is_not_told_is_a_defect(folder):
 
 
 def test_the_reader_imports_nothing_of_graphkin():
-    source = Path(reader.__file__).read_text(encoding="utf-8")
-    assert "import graphkin" not in source
-    assert "from graphkin" not in source
+    for module in (reader, printed_sheet, ruler_and_compass):
+        source = Path(module.__file__).read_text(encoding="utf-8")
+        assert "import graphkin" not in source
+        assert "from graphkin" not in source
+
+
+@pytest.mark.parametrize("name", (*LABS, *READ))
+def test_a_task_gives_the_hand_no_more_than_fixed_points_and_the_pole(folder, name):
+    for sheet in followed(folder, name):
+        key, task = reader.sheets(folder, name, sheet)
+        hand = reader.Reader(key.data, key.scale, task.links, dict(task.marks))
+        assert set(task.marks) - set(hand.frame) == {"o" if sheet == "velocity" else "o′"}
