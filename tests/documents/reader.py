@@ -44,7 +44,6 @@ KINDS = {
     "number": NUMBER,
     "vector": VECTOR,
     "turning": rf"{TURNING}(?: = (?:[^,;:]*? rad/s(?:\^\{{2\}})?|{VECTOR}/{NAME}{NAME}))?",
-    "word": r"[^;:]+?",
 }
 
 
@@ -89,7 +88,6 @@ class Reader:
     place: dict[str, complex]
     velocity: dict[str, complex] = field(default_factory=dict)
     """The points of the velocity plan, while the accelerations are drawn."""
-    pole: str = "o"
     loci: list[Line | Circle] = field(default_factory=list)
     ray: Line | None = None
     end: complex | None = None
@@ -886,8 +884,7 @@ class Reader:
 
 @dataclass(frozen=True)
 class Followed:
-    """What came of one sheet: where the points fell, the key, and the step that stopped the "
-    "hand."""
+    """What came of one sheet: where the points fell, the key, the step that stopped the hand."""
 
     reached: dict[str, complex]
     key: dict[str, complex]
@@ -929,7 +926,7 @@ def follow(folder: Path, name: str) -> Iterator[tuple[str, Followed]]:
         if not (folder / f"{name}-{sheet}-key.svg").exists():
             continue
         key, task = sheets(folder, name, sheet)
-        reader = Reader(key.data, key.scale, task.links, dict(task.marks), pole=pole)
+        reader = Reader(key.data, key.scale, task.links, dict(task.marks))
         step, defect = None, ""
         try:
             if plan:
