@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
+
+from msgspec import Struct
 
 from graphkin.construction.compile import write
 from graphkin.construction.core.batch import run_blocks
@@ -58,8 +59,7 @@ def load(name: str | Path, /, **settings: object) -> Mechanism:
     return Mechanism(read_scene(scene_files.find(str(name)), settings))
 
 
-@dataclass(frozen=True)
-class Mechanism:
+class Mechanism(Struct, frozen=True, dict=True):
     """A scene with what follows from it; lengths in m, angles in rad, times in s."""
 
     scene: Scene

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.accuracy.compared_answers import Found, Reference, rows_of
 from graphkin.accuracy.methods import batch_work, found_singly, radii_in
@@ -20,8 +20,7 @@ DOUBLE = 53
 """Bits of a ball that has as many as a double."""
 
 
-@dataclass(frozen=True, slots=True)
-class Agreement:
+class Agreement(Struct, frozen=True):
     """How doubles and balls of as many bits stand to the certified answers.
 
     ``bound`` is the largest bound of a double's error over the largest of its quantity, ``single``

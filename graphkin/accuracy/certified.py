@@ -8,10 +8,11 @@ precision, such as whether a number is nought, is said and not printed.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from math import ceil, log2
 from typing import Any
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.program import Step, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
@@ -45,8 +46,7 @@ def precisions(digits: int) -> Iterator[tuple[int, bool]]:
         yield bits << doublings, True
 
 
-@dataclass(frozen=True)
-class Certifier:
+class Certifier(Struct, frozen=True):
     """A mechanism to be run in balls: the steps that are needed, and their values in formal
     numbers as they are found."""
 
@@ -91,8 +91,7 @@ class Certifier:
         return Balls(bits, Trace(program, found, margins), blame, self.formal)
 
 
-@dataclass(frozen=True, slots=True)
-class Balls:
+class Balls(Struct, frozen=True):
     """A run in balls: what was found, and for every other step the failure that it hangs on."""
 
     bits: int
@@ -220,8 +219,7 @@ def is_real_ball(ball: Any) -> bool:
 # --- decimals ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Decimals:
+class Decimals(Struct, frozen=True):
     """How a real ball prints: ``text`` where its digits are proved, else ``doubt`` says why not."""
 
     text: str | None

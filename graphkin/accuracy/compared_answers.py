@@ -6,13 +6,13 @@ Differences from the certified reference are taken in balls, so that no rounding
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.accuracy.compared_positions import ComparedPositions
 from graphkin.construction.core.program import Program, Target, is_in_scene
@@ -34,8 +34,7 @@ Found = Mapping[Target, Any]
 """Values by target, of one position."""
 
 
-@dataclass(frozen=True, slots=True)
-class ComparedTargets:
+class ComparedTargets(Struct, frozen=True):
     """The targets that are compared, for each of position, velocity and acceleration."""
 
     targets: tuple[tuple[Target, ...], ...]
@@ -73,8 +72,7 @@ def of_all(known: Mapping[Target, int], quantities: Sequence[str]) -> list[str]:
     ]
 
 
-@dataclass(frozen=True, eq=False)
-class Reference:
+class Reference(Struct, frozen=True, eq=False, dict=True):
     """Certified answers at every position, and what errors are counted in.
 
     ``sizes`` and ``radii`` have the shape (P, 3): largest distance of two points, largest speed,

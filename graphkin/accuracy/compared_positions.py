@@ -7,11 +7,11 @@ that single precision holds too, so that an error tells of the reckoning and not
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.motion.course import Course, Reals
 from graphkin.motion.driving import TURN
@@ -41,8 +41,7 @@ APART = 0.2
 End = Literal["dead", "change", "range"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ComparedPositions:
+class ComparedPositions(Struct, frozen=True, eq=False):
     """Positions that one choice of closures reaches, with every driver's motion there.
 
     ``at`` (P,) is the driver's position in degrees or metres, or the time in seconds; ``values``
@@ -77,8 +76,7 @@ def exact(value: Any, number: int) -> Any:
     return Fraction(value) if isinstance(value, float) else value
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Ground:
+class Ground(Struct, frozen=True, eq=False):
     """A scene's sweep with its reachable ranges, and where on it the scene stands."""
 
     sweep: Sweep
@@ -152,8 +150,7 @@ def smallest_sines(course: Course, at: Reals) -> Reals:
     return np.asarray(course.margins(at).min(axis=0))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Approach:
+class Approach(Struct, frozen=True, eq=False):
     """Positions on the way to a dead point or change point, in groups of equal distance.
 
     ``end`` says to what; "range" where there is neither, and the places run through the range.

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import isfinite, log10
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from graphkin.accuracy.methods import MethodRow
 from graphkin.accuracy.pencil_rows import PENCILS
@@ -54,8 +55,7 @@ TICKS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class MethodSpot:
+class MethodSpot(Struct, frozen=True):
     """A method on the picture: its time, its quartiles, its error."""
 
     row: MethodRow

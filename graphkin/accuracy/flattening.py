@@ -8,9 +8,9 @@ as large as the mechanism. So counted they grow as 1/s, 1/s² and 1/s³ with the
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.accuracy.compared_answers import ComparedTargets, Reference, reference_of, rows_of
 from graphkin.accuracy.compared_positions import Approach
@@ -31,8 +31,7 @@ LOST = 0.1
 """An error from which it is no longer one of rounding, but an answer lost."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Flattening:
+class Flattening(Struct, frozen=True, eq=False):
     """Errors (G, 3) in groups of equal sines (G,), by kind of number; NaN where a kind fails.
 
     ``reference`` are the positions, ``group`` (P,) tells to which group each belongs. ``roots``

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.accuracy.compared_answers import Found, Reference, radii_of, rows_of
 from graphkin.accuracy.stopwatch import Effort, Work
@@ -27,8 +27,7 @@ FEW = 1_000
 """Variants of a batch with a group of higher class, each of which is a search."""
 
 
-@dataclass(frozen=True, slots=True)
-class MethodRow:
+class MethodRow(Struct, frozen=True):
     """A method: its largest errors in parts of the largest of each quantity, and its time.
 
     An error is None for what a method does not give, inf where it fails at some position.
@@ -47,8 +46,7 @@ class MethodRow:
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
+class Method(Struct, frozen=True):
     """A row still without its time, and the work on so many positions that is to be timed."""
 
     row: MethodRow

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.accuracy.compared_answers import ComparedTargets, Reference, reference_of
 from graphkin.accuracy.compared_positions import Ground, approach
@@ -25,8 +25,7 @@ NEAREST = 1e-3
 """The distance of the last of them, in parts of that of the first."""
 
 
-@dataclass(frozen=True, slots=True)
-class PaperScales:
+class PaperScales(Struct, frozen=True):
     """The scales of a drawing: kL, kL over kv in seconds, and a time that gives ka apart."""
 
     kL: float  # noqa: N815

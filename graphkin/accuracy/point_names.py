@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, hypot, radians, sin
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.writers.plot_style import FAINT
 
@@ -32,8 +32,7 @@ DOT = 4.0
 Box = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class PointName:
+class PointName(Struct, frozen=True):
     """A name that belongs to a point in the axes' own numbers."""
 
     x: float

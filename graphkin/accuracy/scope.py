@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.accuracy.compared_answers import Reference
 from graphkin.accuracy.methods import batch_work, can_be_emitted, variants_of
@@ -23,8 +24,7 @@ CENTRES = "+ centres, poles"
 ASKED = "asked only"
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(Struct, frozen=True):
     """What is wanted, how many steps that needs, and the time of a position in both ways."""
 
     name: str

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from statistics import quantiles
 from time import perf_counter
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.timing import Timing
 
@@ -14,8 +15,7 @@ FEWEST = 5
 """Rounds of work that alone takes longer than the patience allows."""
 
 
-@dataclass(frozen=True, slots=True)
-class Effort:
+class Effort(Struct, frozen=True):
     """How much is measured: positions compared, rounds of a time, variants of a batch.
 
     ``timed`` are the positions at which decimals and balls are timed, ``drawn`` those on the way to
@@ -55,8 +55,7 @@ QUICK = Effort(
 Work = Callable[[], object]
 
 
-@dataclass(slots=True)
-class TimedWork:
+class TimedWork(Struct):
     """Work on so many positions, how often it is done in a round, and the rounds' times."""
 
     work: Work
@@ -72,8 +71,7 @@ class TimedWork:
         return Timing(median, low, high, len(self.seconds))
 
 
-@dataclass(frozen=True, slots=True)
-class Stopwatch:
+class Stopwatch(Struct, frozen=True):
     """Times work on positions with a clock that tests may replace."""
 
     effort: Effort

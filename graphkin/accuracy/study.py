@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 import numpy as np
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.accuracy.agreement import Agreement, agreement
 from graphkin.accuracy.compared_answers import Reference, answers_of, reference_of
@@ -25,8 +26,7 @@ from graphkin.text.errors import GraphkinError
 Say = Callable[[str], None]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Study:
+class Study(Struct, frozen=True, eq=False):
     """What was found of a scene.
 
     ``flattening`` is None where the driver cannot move, or nothing on the way can be certified;

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.answer_numbers import LONGEST, MISTYPED, NUMBER, UNITS
 from graphkin.classroom.lab.items import items as fields_of
@@ -29,8 +30,7 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 
-@dataclass(frozen=True, slots=True)
-class Identity:
+class Identity(Struct, frozen=True):
     """Whose a form is: the id as the class list has it, and the name that is shown beside it.
 
     Without an id the student writes it in. ``stem`` begins the name of the saved file; ``memory``
@@ -131,8 +131,7 @@ def kind_of(item: Item) -> tuple[str, str]:
     return item.quantity, item.of
 
 
-@dataclass(frozen=True, slots=True)
-class FormField:
+class FormField(Struct, frozen=True):
     """One field: its item, what is said of it, its points, and the senses to choose from."""
 
     item: Item

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing

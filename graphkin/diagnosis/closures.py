@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.branches import has_two_ways
 from graphkin.construction.core.program import Part, Program, Step
@@ -15,8 +17,7 @@ from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
 
 
-@dataclass(frozen=True, slots=True)
-class GroupClosure:
+class GroupClosure(Struct, frozen=True):
     """One way in which a group closes: its words in [branches], and its point's place (m).
 
     ``fails`` names what cannot be drawn then, and is empty when all the rest closes too.
@@ -28,8 +29,7 @@ class GroupClosure:
     fails: str
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(Struct, frozen=True):
     """A group, one of its points, and its closures: of a dyad the picked one first."""
 
     links: tuple[str, ...]

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Program, Step, Target
@@ -42,8 +44,7 @@ BY_COMMAND = {
 """Effects that no scene calls for: they run the same steps on other numbers."""
 
 
-@dataclass(frozen=True, slots=True)
-class EffectRow:
+class EffectRow(Struct, frozen=True):
     """One effect: whether it is in, the steps drawn for it, why, and what those steps cost.
 
     ``time`` is None where nothing is run, and before it is measured.

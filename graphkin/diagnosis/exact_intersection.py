@@ -9,10 +9,11 @@ misjudge one pair in four of circles that touch or nearly touch; as fractions th
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, evaluate
@@ -87,8 +88,7 @@ def length(square: Fraction) -> Fraction:
 # --- the loci of a step, as the scene states them ------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Meeting:
+class Meeting(Struct, frozen=True):
     """By how much two loci miss each other (m), negative where they cross.
 
     ``exactly`` tells that it is so for the rational numbers that the scene states, ``proved`` that

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from graphkin.scene.known_names import quoted
 from graphkin.scene.model import Driver, Scene
@@ -38,8 +39,7 @@ FREE = {
 Range = tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class ClosingRanges:
+class ClosingRanges(Struct, frozen=True):
     """Where a mechanism closes while one driver moves: ranges of its position (degrees or m).
 
     ``searched`` counts the positions that were looked at, where a bound on the work left out some;

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.parameter_words import parameters
@@ -27,8 +28,7 @@ NUMBER = 12.0
 """Width kept at the right for the relation's number, in mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class CalculationRow:
+class CalculationRow(Struct, frozen=True):
     """A line of the page: a heading, or a relation with its number."""
 
     markup: str

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from cmath import isfinite, phase
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from math import degrees
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.solution import UNKNOWN, LinkMotion, PointMotion, Solution
 from graphkin.numbers.arithmetic import at

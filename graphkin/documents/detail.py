@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from math import dist, hypot, sqrt
 from typing import NamedTuple, TypeGuard
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.plan_marks import DOT

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Set
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out

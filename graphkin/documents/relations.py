@@ -6,7 +6,8 @@ What was laid off, what was crossed, and what follows by length.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing

@@ -9,8 +9,9 @@ plan is larger. ka = kv²/kL.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import islice, takewhile
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.component import as_drawn, may_give_way
 from graphkin.construction.core.drawn_scene import Drawing

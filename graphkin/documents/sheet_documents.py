@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.drawn_scene import Drawing
@@ -26,8 +28,7 @@ CALCULATED = ("key", "task")
 """The views that come with calculation pages."""
 
 
-@dataclass(frozen=True)
-class SheetDocument:
+class SheetDocument(Struct, frozen=True):
     """The pages of one document: velocity, acceleration or calculation."""
 
     kind: str

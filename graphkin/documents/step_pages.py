@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from math import degrees
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing, flattest
 from graphkin.construction.core.drawn_scene import Drawing

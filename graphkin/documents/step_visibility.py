@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plan_vector import plan_vector

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import NamedTuple
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import LineMark, Mark, Text, box
@@ -38,16 +40,14 @@ LOOKS = (Look(4.7, 3.4, 1.0), *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2
 """How tables look where there is room, and where there is less and less."""
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """A row of markup cells."""
 
     cells: tuple[str, ...]
     name: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class ColumnTable:
+class ColumnTable(Struct, frozen=True):
     """A head and rows below it; the widths of its columns, in mm, where nothing needs more.
 
     ``among`` are all rows of a table that stands in blocks, which look alike. ``beside``: it stands

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.drawing.areas import Rect
 
@@ -22,8 +23,7 @@ class Carried(tuple[Any, Any]):
         raise NotImplementedError
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(Struct, frozen=True):
     """A rectangle of the page (mm, y down) and where a drawing's points (y up) fall in it."""
 
     rect: Rect

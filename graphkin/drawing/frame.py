@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
 from math import floor
+
+from msgspec import Struct, field
 
 from graphkin.drawing.areas import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
 from graphkin.drawing.marks import LineMark, Mark, Text, box
@@ -21,8 +22,7 @@ CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 
 
-@dataclass(frozen=True, slots=True)
-class TitleBlock:
+class TitleBlock(Struct, frozen=True):
     """The data fields of ISO 7200 in plain text; ``scale`` is markup, ``labels`` name the fields.
 
     ``labels`` is keyed by the names of the fields; a field without a label shows its value alone,

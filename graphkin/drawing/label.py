@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
@@ -19,8 +20,7 @@ GAP, LED = 0.9, 3.4
 """Clear distance of a label from its subject, and of one that always has a leader, in mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+class Label(Struct, frozen=True):
     """A text that wants a place at a subject.
 
     ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader; ``spare``

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
 
 import numpy as np
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.drawing import shapes
 from graphkin.drawing.areas import Rect
@@ -33,8 +34,7 @@ HELPERS = ("construction", "trial")
 """Classes of letters that a drawing can do without where there is no room for them."""
 
 
-@dataclass
-class FieldContent:
+class FieldContent(Struct):
     """One field of the page while it is drawn: its marks, and the labels still to be placed.
 
     ``taken`` are boxes that labels keep clear of, ``notes`` what is said at the field's foot,

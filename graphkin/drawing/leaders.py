@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from math import dist
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import Label, segment_of

@@ -9,9 +9,11 @@ blanks; the first decides the style (see ``style``). ``name`` and ``step`` go in
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from math import cos, isfinite, radians, sin
 from typing import Literal
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.drawing.richtext import extent
 from graphkin.text.errors import PageError, Problem
@@ -21,8 +23,7 @@ Anchor = Literal["start", "middle", "end"]
 SLACK = 1e-6  # mm, rounding forgiven at the page's edge
 
 
-@dataclass(frozen=True, slots=True)
-class LineMark:
+class LineMark(Struct, frozen=True):
     """A straight line between two points; ``part`` tells the lines of one step apart."""
 
     x1: float
@@ -35,8 +36,7 @@ class LineMark:
     part: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Polyline:
+class Polyline(Struct, frozen=True):
     """A broken line; a closed one is a polygon, filled when its class is."""
 
     points: tuple[Point, ...]
@@ -46,8 +46,7 @@ class Polyline:
     closed: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class CircleMark:
+class CircleMark(Struct, frozen=True):
     """A circle, filled when its class is."""
 
     cx: float
@@ -58,8 +57,7 @@ class CircleMark:
     step: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+class Arc(Struct, frozen=True):
     """An arc of less than a full turn from angle ``start`` to ``end``; clockwise if end < start."""
 
     cx: float
@@ -77,8 +75,7 @@ class Arc:
         return self.cx + self.r * cos(turn), self.cy - self.r * sin(turn)
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Struct, frozen=True):
     """Marked-up text: baseline at y, capitals ``height`` mm high, turned by ``rotate``°."""
 
     x: float
@@ -224,8 +221,7 @@ def place_of(mark: Mark) -> str:
     return " ".join(word for word in words if word)
 
 
-@dataclass(frozen=True, slots=True)
-class Page:
+class Page(Struct, frozen=True):
     """One page: its size in mm, its marks in painting order, its title and language code."""
 
     width: float

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import ArrayLike
 
 from graphkin.drawing.assignment import Assignment
@@ -32,8 +32,7 @@ LAST_RESORT = (
 """What is offered at last to the labels around one without a place, and to that one itself."""
 
 
-@dataclass(frozen=True, slots=True)
-class Wish:
+class Wish(Struct, frozen=True):
     """One label that wants a place; lengths in mm, y down."""
 
     width: float  # of the ink
@@ -46,8 +45,7 @@ class Wish:
     optional: bool = False  # it may stay without a place
 
 
-@dataclass(frozen=True, slots=True)
-class Spot:
+class Spot(Struct, frozen=True):
     """The place of a label, mm: its centre, its leader if it has one, and whether it is free."""
 
     x: float

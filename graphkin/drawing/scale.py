@@ -7,8 +7,9 @@ needs it; with one turning driver kv = omega·kL, so that its bar and its veloci
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from math import floor, log10
+
+from msgspec import Struct
 
 from graphkin.text.errors import PageError, Problem
 
@@ -20,8 +21,7 @@ NARROW = 45.0
 """Least width of a plan in mm, so that its caption has room above it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Scales:
+class Scales(Struct, frozen=True):
     """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper).
 
     ``seconds`` is kL/kv. ``from_driver``: kv follows from the one crank that drives, so that a
@@ -75,8 +75,7 @@ def digits(number: float) -> str:
     return f"{number:.12f}".rstrip("0").rstrip(".") if number < 1 else f"{number:.12g}"
 
 
-@dataclass(frozen=True, slots=True)
-class Extent:
+class Extent(Struct, frozen=True):
     """The upright box that a set of points takes up, in metres of the mechanism."""
 
     left: float

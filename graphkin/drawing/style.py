@@ -8,9 +8,11 @@ mark's next class: ``arrowhead velocity`` and ``label velocity`` are drawn in th
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 Ink = Literal["colour", "black"]
 
@@ -59,8 +61,7 @@ DOTTED = (0.7, 0.7)
 DOUBLE_CHAIN = (3.2, 0.6, 0.6, 0.6, 0.6, 0.6)
 
 
-@dataclass(frozen=True, slots=True)
-class Style:
+class Style(Struct, frozen=True):
     """Line width in mm (0: no line), colour, dashes in mm, fill colour ("ink": the line's)."""
 
     width: float
@@ -70,8 +71,7 @@ class Style:
     round: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class VectorKind:
+class VectorKind(Struct, frozen=True):
     """A kind of component of an acceleration: its class, its sign, how it looks, its legend."""
 
     look: str

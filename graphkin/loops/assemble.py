@@ -7,10 +7,10 @@ held; sides, ways and numbers of closures leave one of them, or the scene says t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.loops.branch_closures import closures, scattered, turned_side
 from graphkin.loops.closing_groups import Group, speaks_of, stages

@@ -7,10 +7,10 @@ slide (metres). All arrays carry the N settings of a batch first.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.rigid_bodies import Complexes, Numbers, Reals
 from graphkin.loops.vector_chains import Chain, Tree
@@ -28,8 +28,7 @@ class Linear(NamedTuple):
     along: Complexes
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Chains:
+class Chains(Struct, frozen=True, eq=False):
     """Many chains as arrays: ``fixed`` (N, R, K + 1) by turning, ``slid`` (R, m) by slide.
 
     ``guide`` (N, m) holds the slide directions in their turning ``carrier`` (m,).

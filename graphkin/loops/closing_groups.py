@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import combinations
 from math import comb
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.equations import Equations, equations
 from graphkin.loops.poses import setting_of
@@ -33,8 +33,7 @@ Set = tuple[int, tuple[int, ...]]
 Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
-@dataclass(frozen=True, slots=True)
-class Joint:
+class Joint(Struct, frozen=True):
     """A pair: a pin by its point, a slide or track by its number among the guides.
 
     Without both it ties coordinates of its links alone: two wheels, or a driver (``drives``).
@@ -52,8 +51,7 @@ class Joint:
         return 2 if self.pin or self.slide >= 0 else 1
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """Links that close together, the joints between them and those to links known before.
 
     ``ties`` are the wheels that touch and the drivers that close it.

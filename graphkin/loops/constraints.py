@@ -7,10 +7,10 @@ a link, so that each can be taken away.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.equations import Equations, undriven
 from graphkin.loops.loop_motion import Motion
@@ -18,8 +18,7 @@ from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.model import FRAME
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Constraint:
+class Constraint(Struct, frozen=True, eq=False):
     """What a joint forbids: ``rows`` (r, 3·links) of unit size, lengths counted in bars."""
 
     name: str

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
@@ -15,8 +15,7 @@ from graphkin.scene.whole_turns import turned as whole_turned
 from graphkin.text.errors import Problem, StructureError
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Drives:
+class Drives(Struct, frozen=True, eq=False):
     """The given motions: row d of ``selects`` (D, K + m) picks the driven coordinate.
 
     A turning driver compares the unit vector e^{i(selected angle)}·``lean`` with ``aim``, a

@@ -9,11 +9,12 @@ carry the N settings of a batch first.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.loops.chains import Chains, Linear, packed
 from graphkin.loops.driver_equations import Drives, drives_of
@@ -41,8 +42,7 @@ from graphkin.scene.model import FRAME, Scene
 from graphkin.text.errors import Problem, StructureError
 
 
-@dataclass(frozen=True, eq=False)
-class Equations:
+class Equations(Struct, frozen=True, eq=False, dict=True):
     """The vector loops of a scene: chains to every link's origin, and the chains that close.
 
     ``bodies`` place each link's points about its origin; ``owners`` gives the first link of each of

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.equations import Equations
 from graphkin.loops.rigid_bodies import Complexes, Reals
@@ -30,8 +30,7 @@ class SlideRates(NamedTuple):
     coriolis: Complexes
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Motion:
+class Motion(Struct, frozen=True, eq=False):
     """Motion of every link, shape (N, links): of its origin, its angle and its heading.
 
     ``heading`` is the unit vector of the link's x axis; ``omega`` (rad/s) and ``epsilon`` (rad/s²)

@@ -8,10 +8,10 @@ One scene is a batch of one: all arrays carry the N settings first.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.closing_groups import Mask
 from graphkin.loops.equations import Equations
@@ -39,8 +39,7 @@ ROUNDED = 4
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Report:
+class Report(Struct, frozen=True, eq=False):
     """How Newton's method went; arrays of shape (N,).
 
     ``residual`` is the closure error (m) before the first iteration, ``remains`` after the last;
@@ -57,8 +56,7 @@ class Report:
     good: Flags
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Ratios:
+class Ratios(Struct, frozen=True, eq=False):
     """Velocity ratios τ (N, unknowns, D) and their derivatives ∂τ_d/∂q_e (N, unknowns, D, D)."""
 
     velocity: Reals
@@ -74,8 +72,7 @@ class Ratios:
         return np.asarray(steady + np.einsum("nud,nd->nu", self.velocity, acceleration))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LoopSolution:
+class LoopSolution(Struct, frozen=True, eq=False):
     """The loop equations solved: unknowns φ (N, unknowns), ratios, motion, bounds and report."""
 
     loops: Equations

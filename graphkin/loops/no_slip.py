@@ -8,10 +8,11 @@ carries both centres; where no link does, an arm without substance from centre t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Reals, radius, written_line
 from graphkin.loops.vector_chains import Tree, Turnings
@@ -53,8 +54,7 @@ class Gear(NamedTuple):
     rolling: Rolling
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Slips:
+class Slips(Struct, frozen=True, eq=False):
     """All rows of no slip: ``rows`` (N, R, K + m) times the unknowns plus ``constant`` (N, R).
 
     Metres. ``links`` are those that each row ties. ``counted`` gives, by turning, the turning

@@ -7,12 +7,12 @@ loses nothing. Lengths in metres; every value is a float or, in a batch, an arra
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real, batch_kind
@@ -39,8 +39,7 @@ Complexes = NDArray[np.complex128]
 Body = Mapping[str, Point]
 
 
-@dataclass(frozen=True, slots=True)
-class Numbers:
+class Numbers(Struct, frozen=True):
     """The scene's parameters as set, and how many settings there are (N; 1 for one scene)."""
 
     values: Mapping[str, Any]
@@ -79,8 +78,7 @@ class Numbers:
         return self.kind is FLOAT
 
 
-@dataclass(frozen=True, slots=True)
-class Guide:
+class Guide(Struct, frozen=True):
     """A sliding pair, or the straight way of a rolling wheel's centre.
 
     The ``point`` of ``block`` stands at through + (s + i·offset)·along, with ``through`` and the

@@ -9,10 +9,11 @@ All sums are of magnitudes, so that no bound depends on errors that cancel.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.loops.equations import Equations
 from graphkin.loops.loop_motion import Motion
@@ -50,8 +51,7 @@ class Loads(NamedTuple):
     slid: Reals
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Vectors:
+class Vectors(Struct, frozen=True, eq=False):
     """Magnitudes of vectors in rows of chains: ``turned`` (N, R, K + 1) by turning, and ``along``
     (N, R, m), which is 1 where a slide is passed; ``carrier`` (m,) are the turnings of the slides.
     """
@@ -95,8 +95,7 @@ class Vectors:
         return Loads(more.turned * (2 * rate.turned + more.turned), coriolis)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Rounding:
+class Rounding(Struct, frozen=True, eq=False):
     """Bounds of the errors of a motion, laid out as it is: SI units, each of shape (N, …).
 
     ``angles`` (N, K + 1) are those of the turnings. ``regular`` (N,) tells where the position is
@@ -151,8 +150,7 @@ class Rounding:
         return SlideBound(position, rate, thrust, 2 * (product + UNIT * omega * speed))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PositionBounds:
+class PositionBounds(Struct, frozen=True, eq=False):
     """How sure a position is: ``off`` (N, K + m) bounds the errors of its unknowns.
 
     ``regular`` marks the unknowns that the equations determine to first order; ``places`` are

@@ -7,9 +7,9 @@ A chain is then a fixed vector per turning, plus or minus one slide vector per g
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
+from msgspec import Struct, field
 
 from graphkin.loops.rigid_bodies import Body, Guide
 from graphkin.numbers.arithmetic import Point, Real
@@ -17,8 +17,7 @@ from graphkin.scene.model import FRAME
 from graphkin.text.errors import Problem, StructureError
 
 
-@dataclass(frozen=True, slots=True)
-class Chain:
+class Chain(Struct, frozen=True):
     """Sum over turnings k of fixed[k]·e^{iθ_k} plus, over slides j, slid[j]·s_j·(its direction)."""
 
     fixed: Mapping[int, Point] = field(default_factory=dict)
@@ -42,8 +41,7 @@ class Chain:
         return Chain(fixed, slid)
 
 
-@dataclass(frozen=True, slots=True)
-class Turnings:
+class Turnings(Struct, frozen=True):
     """The turning that each link belongs to, and its fixed lean (unit vector) against it.
 
     ``angle`` is the lean in radians, summed from guide to guide and not reduced. Turning 0 is the

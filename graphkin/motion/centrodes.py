@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
+from msgspec import Struct
 
 from graphkin.motion.cycle import Cycle
 from graphkin.numbers.plane import Ratio
@@ -16,8 +15,7 @@ MOST = 2
 Complexes = np.ndarray[tuple[int], np.dtype[np.complex128]]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Centrodes:
+class Centrodes(Struct, frozen=True, eq=False):
     """Instantaneous centres of a link at places u (N,): in the plane, and carried by the link.
 
     ``moving`` is in the link's own axes: origin at its first point, x axis towards its second;

@@ -6,10 +6,10 @@ Neither the nearest position nor the same side does.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import KINDS
 from graphkin.motion.course import Branches, Course

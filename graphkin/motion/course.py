@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.compile import write
 from graphkin.construction.core.batch import BLOCK, run_batch, run_blocks
@@ -31,8 +32,7 @@ PLACES = ("position", "slide", "axis", "rolled")
 """Targets that say where the mechanism stands."""
 
 
-@dataclass(frozen=True)
-class Course:
+class Course(Struct, frozen=True, dict=True):
     """One choice of closures throughout a sweep: its scene, its program, and how to run it.
 
     ``here`` is a u at which these closures hold, where the construction may look at the shape of

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from msgspec import Struct, field
 
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Target
@@ -36,8 +36,7 @@ FULL = 10_000_000
 """Values that a cycle holds: its rows times what is told of each."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Witnessed:
+class Witnessed(Struct, frozen=True, eq=False):
     """What the independent route says of every row: its difference (N,), and whether it agrees.
 
     ``refused`` says why it could not judge; ``unsure`` are the quantities of which no digit is
@@ -56,8 +55,7 @@ class Witnessed:
         return float(known.max()) if known.size else float("nan")
 
 
-@dataclass(frozen=True, eq=False)
-class Cycle:
+class Cycle(Struct, frozen=True, eq=False, dict=True):
     """The motion of a mechanism over a turn of its driver or its reachable ranges.
 
     ``at`` (N,) is u, the driver's position (degrees, metres) or the time (s), of every row;
@@ -238,8 +236,7 @@ def filled(
     return Cycle(mechanism, sweep, path, *rows, solution, margins, left_out, targets)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Columns:
+class Columns(Struct, frozen=True, eq=False):
     """Values by target and margins by pin for each place (N,), NaN where there is no piece."""
 
     piece: np.ndarray[Any, np.dtype[np.int_]]

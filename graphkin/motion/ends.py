@@ -6,10 +6,10 @@ at a change point it touches nought. Its square is smooth in both, and goes on b
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.motion.course import Course, Reals
 from graphkin.motion.driving import GRID
@@ -31,8 +31,7 @@ NARROW = 2
 """Positions of the grid in a row that do not close, and may be one change point."""
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(Struct, frozen=True):
     """Where a piece ends: a dead point or a change point with the steps whose loci touch there.
 
     At a ``number`` the closure goes on smoothly under another number. ``beyond`` is a u at which

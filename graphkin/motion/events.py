@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.program import Program
@@ -22,8 +23,7 @@ INSIDE = 1e-7
 """How far before a dead point its loci are looked at, as a share of a step of the grid."""
 
 
-@dataclass(frozen=True, slots=True)
-class Singular:
+class Singular(Struct, frozen=True):
     """A dead point (the driver can go no further) or a change point (the closure may change).
 
     ``at`` is u; ``pin`` what cannot be found beyond; ``lines`` says which lines are in line or

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.construction.core.program import Target
 from graphkin.motion.course import Reals
@@ -28,16 +28,14 @@ APART = 1e-4
 """How far from a singular place (in degrees, or tenths of mm) a sense of motion is trusted."""
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Struct, frozen=True):
     """Where a follower turns round: u, and its angle (degrees) or coordinate (m) there."""
 
     at: float
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Follower:
+class Follower(Struct, frozen=True):
     """How far a link swings or a block slides within one range of the driver.
 
     ``low`` and ``high`` are its extreme places, at a limit or at the end of the range; ``line`` is
@@ -61,8 +59,7 @@ class Follower:
         return self.high.value - self.low.value
 
 
-@dataclass(frozen=True, slots=True)
-class Mover:
+class Mover(Struct, frozen=True):
     """A link or block whose way is asked: its line, and the targets of its place and its speed."""
 
     name: str

@@ -7,10 +7,11 @@ each place, the closure that it leads to; its number there makes the piece.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
@@ -45,8 +46,7 @@ MOST = 20_000
 """Places tried in one sweep at most."""
 
 
-@dataclass(frozen=True, slots=True)
-class Stop:
+class Stop(Struct, frozen=True):
     """Where following ended: ``dead``, or at the end of the sweep; ``beyond`` does not close."""
 
     at: float
@@ -54,8 +54,7 @@ class Stop:
     beyond: float
 
 
-@dataclass(frozen=True, slots=True)
-class NumberedPlace:
+class NumberedPlace(Struct, frozen=True):
     """One place of the motion: u, the closure's number there, and where all points stand.
 
     ``turned`` are the angles (degrees) of the links that only their pins turn and whose wheels

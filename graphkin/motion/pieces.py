@@ -6,11 +6,12 @@ A cycle is followed from where the scene stands, forth and back, from one change
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import floor, lcm, pi, sqrt
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.program import Target
 from graphkin.motion.change_points import beyond
@@ -44,8 +45,7 @@ MOST_WAYS = 200
 """How many turns, or ways of a slide, a motion is followed from where the scene stands."""
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(Struct, frozen=True):
     """A part of a sweep, low to high, on which all signs stay, and how it ends on both sides."""
 
     low: Event
@@ -66,8 +66,7 @@ Range = tuple[Piece, ...]
 """Pieces that join at change points, between two dead points, or all the way round."""
 
 
-@dataclass(frozen=True, slots=True)
-class Path:
+class Path(Struct, frozen=True):
     """The ranges of a sweep, the one in which the scene stands first.
 
     ``whole`` tells that the first range goes all the way round; ``returns`` that the closures are

@@ -8,10 +8,10 @@ along the guide, as wide as the rod on either side. The mechanism closes where t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.motion.cycle import Cycle
 from graphkin.numbers.plane import Line, cross
@@ -25,8 +25,7 @@ EQUAL = 1e-9
 Kind = Literal["four-bar", "slider-crank", "slider-driven"]
 
 
-@dataclass(frozen=True, slots=True)
-class Ring:
+class Ring(Struct, frozen=True):
     """All points between two circles about a centre (m)."""
 
     centre: complex
@@ -34,16 +33,14 @@ class Ring:
     outer: float
 
 
-@dataclass(frozen=True, slots=True)
-class Band:
+class Band(Struct, frozen=True):
     """All points within a distance of a line (m)."""
 
     line: Line
     half: float
 
 
-@dataclass(frozen=True, slots=True)
-class Loop:
+class Loop(Struct, frozen=True):
     """A driven pin, its path, and what the rest of its loop can reach.
 
     ``pins`` are the driver's pivot (empty for a slider), the driven pin, the inner pin and the

@@ -7,9 +7,11 @@ the witness then take arrays for these names as they take arrays for any paramet
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from math import pi
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.motion.driving import COORDINATES, GRID, TURN, Coordinate, What, stated, timed
 from graphkin.motion.turns_counted import named_angles
@@ -20,8 +22,7 @@ from graphkin.scene.quantity import LENGTHS, Quantity
 from graphkin.text.errors import Problem, SceneError
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Sweep:
+class Sweep(Struct, frozen=True, eq=False):
     """A scene whose drivers are named values, and the coordinate u that moves them.
 
     u is the swept driver's position in degrees or metres, or the time in seconds; ``start`` is

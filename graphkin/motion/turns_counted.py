@@ -8,10 +8,10 @@ near which links count are followed from the place where the scene says them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.scene.expression import Name
 from graphkin.scene.model import Scene
@@ -45,8 +45,7 @@ def degrees_of(angle: Quantity, scene: Scene) -> Any:
     return float(np.degrees(angle.si(scene.values)))
 
 
-@dataclass(frozen=True, eq=False)
-class Turned:
+class Turned(Struct, frozen=True, eq=False):
     """Near which angles links count: from each of some places u on (N,), rising, degrees (N,)."""
 
     at: Reals

@@ -12,9 +12,10 @@ import cmath
 import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct, field
 
 Real = Any
 """A real number of some kind: float, or an array of floats."""
@@ -24,8 +25,7 @@ Point = Any
 QUARTERS = (1, 1j, -1, -1j)
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class Kind(Struct, frozen=True):
     """One kind of number: how exact numbers enter it, and its functions of an angle.
 
     ``sound`` tells whether a value can be drawn, where that does not raise; ``working`` is what a

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Kind, nearest_quarter, quarter_turns
 
@@ -14,8 +15,7 @@ class IrrationalError(ArithmeticError):
     """A value that is no rational number, so that it cannot be reckoned with fractions."""
 
 
-@dataclass(frozen=True, slots=True)
-class Exact:
+class Exact(Struct, frozen=True):
     """A point or a number with rational coordinates, which no operation rounds."""
 
     real: Fraction
@@ -84,7 +84,7 @@ def root(square: Fraction) -> Fraction:
     return Fraction(top, bottom)
 
 
-class Rational(Kind):
+class Rational(Kind, frozen=True):
     """Rational numbers: what a scene states as it is written, before anything is rounded."""
 
     def direction(self, degrees: Any) -> Exact:

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import count
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Kind, nearest_quarter
 from graphkin.numbers.exact import Exact, IrrationalError, irrational, root
@@ -25,8 +26,7 @@ WIDEST = 2048
 """Bits above or below the fraction bar beyond which a number is no longer kept as a fraction."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Letter:
+class Letter(Struct, frozen=True, eq=False):
     """What stands for a number: a real one, or a direction; ``over`` is the inverse of a sum."""
 
     number: int
@@ -282,7 +282,7 @@ def product(one: Term, other: Term) -> Term:
     return frozenset((name, power) for name, power in powers.items() if power)
 
 
-class FormalKind(Kind):
+class FormalKind(Kind, frozen=True):
     """Formal numbers: what a scene states as it is written, and letters for what is no fraction."""
 
     def direction(self, degrees: Any) -> Formal:

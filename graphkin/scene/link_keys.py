@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from msgspec import Struct, field
 
 from graphkin.scene.findings import Findings, Table, nearest, shown
 from graphkin.scene.measures import Measures, Pair
@@ -13,8 +13,7 @@ from graphkin.scene.quantity import Quantity
 PHRASES = '"left of A-B", "right of A-B", "on A-B" or "beyond B on A-B"'
 
 
-@dataclass(slots=True)
-class LinkKeys:
+class LinkKeys(Struct):
     """What the keys of a link say, before its points are placed; broken when a key is lost."""
 
     place: str

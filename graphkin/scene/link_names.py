@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.scene.findings import Findings, Table, shown
 from graphkin.scene.known_names import all_points, known_link

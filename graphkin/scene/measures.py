@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral, Rational, Real
+
+from msgspec.structs import replace
 
 from graphkin.scene.expression import FARTHEST, TIME, Number, UnreadableError, decimal, integer
 from graphkin.scene.findings import Findings, listed, nearest, shown

@@ -7,9 +7,10 @@ points before it; where a link is put in the plane is for the construction to fi
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, NamedTuple
+
+from msgspec import Struct, field
 
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.scene.expression import TIME
@@ -290,8 +291,7 @@ class Sheet(NamedTuple):
     method: str = "triangles"
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Struct, frozen=True):
     """A planar mechanism in one position, with what is asked of it.
 
     ``near`` are angles within half a turn of which those of links are taken, where a motion says

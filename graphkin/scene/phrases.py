@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.scene.findings import Findings, nearest, shown, shown_key
 from graphkin.scene.model import FRAME, Branch, Closure, Side, Way
@@ -34,8 +35,7 @@ def line(text: str) -> tuple[str, str] | None:
     return (first, second) if is_name(first) and is_name(second) and first != second else None
 
 
-@dataclass(frozen=True, slots=True)
-class OnWords:
+class OnWords(Struct, frozen=True):
     """``"on A-B"``, or ``"beyond B on A-B"`` with ``beyond`` one of the two ends."""
 
     first: str

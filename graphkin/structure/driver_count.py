@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import combinations
+
+from msgspec.structs import replace
 
 from graphkin.scene.known_names import named, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide

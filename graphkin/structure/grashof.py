@@ -7,9 +7,10 @@ fully against all the others, or no link against any.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal
+
+from msgspec import Struct
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Scene
@@ -29,8 +30,7 @@ Kind = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class FourBar:
+class FourBar(Struct, frozen=True):
     """A loop of four links and four pins: each link with its length (m), the fixed one first."""
 
     links: tuple[str, str, str, str]
@@ -58,8 +58,7 @@ class FourBar:
         return tuple(name for name, long in bars if compare(long, min(self.lengths)) == 0)
 
 
-@dataclass(frozen=True, slots=True)
-class SliderCrank:
+class SliderCrank(Struct, frozen=True):
     """A loop of four links with three pins and one slide.
 
     ``guide`` carries the guide and ``block`` slides on it; ``crank`` is the bar that is pinned to

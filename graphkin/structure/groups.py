@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.assur import assur_class
@@ -13,8 +13,7 @@ LETTERS = {Pin: "R", Sliding: "P", Contact: "W"}
 ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
-@dataclass(frozen=True, slots=True)
-class Crank:
+class Crank(Struct, frozen=True):
     """A link that a driver turns about a pin whose motion is known."""
 
     driver: Driver
@@ -34,8 +33,7 @@ class Crank:
         return f"driven by a crank about {self.pivot}{beside}"
 
 
-@dataclass(frozen=True, slots=True)
-class Driven:
+class Driven(Struct, frozen=True):
     """A link that a driver slides along a guide, or rolls on a track, of a known link."""
 
     driver: Driver
@@ -55,8 +53,7 @@ class Driven:
         return f"driven, {'sliding' if isinstance(self.pair, Sliding) else 'rolling'} on {beside}"
 
 
-@dataclass(frozen=True, slots=True)
-class Dyad:
+class Dyad(Struct, frozen=True):
     """Two links and three pairs: each link joined to what is known, and to the other."""
 
     links: tuple[str, str]
@@ -75,8 +72,7 @@ class Dyad:
         return f"dyad {self.type}"
 
 
-@dataclass(frozen=True, slots=True)
-class Stretched:
+class Stretched(Struct, frozen=True):
     """A dyad of which one bar is a cylinder: a block on a known pin and a rod driven in it.
 
     ``near`` is the link on the known pin, ``dyad`` the rest with the far link as its first; the
@@ -102,8 +98,7 @@ class Stretched:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Geared:
+class Geared(Struct, frozen=True):
     """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
 
     link: str
@@ -121,8 +116,7 @@ class Geared:
         return f"rolls on link {partner(self.contact, self.link)}"
 
 
-@dataclass(frozen=True, slots=True)
-class Train:
+class Train(Struct, frozen=True):
     """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
 
     arm: str
@@ -143,8 +137,7 @@ class Train:
         return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
 
 
-@dataclass(frozen=True, slots=True)
-class Tie:
+class Tie(Struct, frozen=True):
     """A link that two pairs join to known links: at two pins it is idle, on two guides a wedge."""
 
     link: str
@@ -164,8 +157,7 @@ class Tie:
         return "idle: joins what moves together without it"
 
 
-@dataclass(frozen=True, slots=True)
-class TriedLink:
+class TriedLink(Struct, frozen=True):
     """A link whose place in its pair with a known one is tried until the rest closes."""
 
     link: str
@@ -177,8 +169,7 @@ class TriedLink:
         return (self.link,)
 
 
-@dataclass(frozen=True, slots=True)
-class Higher:
+class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
     What closes it at last is a link between two known points, or a driver's given motion.
@@ -209,8 +200,7 @@ class Higher:
         return f"group of class {ROMAN[min(rank, 8)]}, order {order}"
 
 
-@dataclass(frozen=True, slots=True)
-class Unresolved:
+class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies."""
 
     links: tuple[str, ...]

@@ -6,7 +6,8 @@ Cutting one constraint of a group leaves a chain that dyads construct; what was 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.scene.model import Driver, Scene
 from graphkin.structure.groups import Geared, Group, Higher, Tie, TriedLink

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.scene.model import Scene
 from graphkin.structure.pairs import contacts, pairs
 
 
-@dataclass(frozen=True, slots=True)
-class Count:
+class Count(Struct, frozen=True):
     """Moving links, pairs that take two freedoms, and those that take one.
 
     ``pairs`` are pins, slides, and rolling pairs that alone keep their distance; ``singles`` are

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
+
+from msgspec import Struct
 
 from graphkin.scene.contact_letters import contact_letters
 from graphkin.scene.model import FRAME, Rolling, Scene, Slide, Wheel
@@ -26,16 +27,14 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Pin:
+class Pin(Struct, frozen=True):
     """A turning pair: two links share a point."""
 
     point: str
     links: tuple[str, str]
 
 
-@dataclass(frozen=True, slots=True)
-class Sliding:
+class Sliding(Struct, frozen=True):
     """A sliding pair: a block on a guide of another link."""
 
     slide: Slide
@@ -47,8 +46,7 @@ class Sliding:
         return self.links[0]
 
 
-@dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(Struct, frozen=True):
     """A wheel that rolls without slip on a straight track or on a wheel of another link.
 
     ``links`` are the wheel's and the track's; ``track`` is the wheel rolled on, None on a straight

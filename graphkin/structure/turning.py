@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Scene, Slide
@@ -13,8 +14,7 @@ LEVEL = 1e-9
 """Sine of an angle below which two directions count as parallel."""
 
 
-@dataclass(frozen=True, slots=True)
-class Stand:
+class Stand(Struct, frozen=True):
     """How a link stands against another on which it only slides one way.
 
     ``lean`` is the direction of its x axis in the other's axes, ``height`` (m) how far its origin

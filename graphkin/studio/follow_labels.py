@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
@@ -25,8 +27,7 @@ LETTERS = "label"
 """The class of the text of a label."""
 
 
-@dataclass(frozen=True, slots=True)
-class LabelPlace:
+class LabelPlace(Struct, frozen=True):
     """Where a label stood: from the middle of its subject to its own (mm), its height, a leader."""
 
     x: float
@@ -35,8 +36,7 @@ class LabelPlace:
     led: bool
 
 
-@dataclass(frozen=True, slots=True)
-class FollowLabels:
+class FollowLabels(Struct, frozen=True):
     """Where all labels of a field stood; those that were left out have no seat."""
 
     of: Mapping[Key, LabelPlace] = field(default_factory=dict)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, field
 from typing import Any
+
+from msgspec import Struct, field
+from msgspec.structs import asdict
 
 from graphkin.construction.core.solution import FAIR, Verdict
 from graphkin.documents.scaling import shown
@@ -25,8 +27,7 @@ SETTING = "setting "
 STRANGER = "is no parameter"
 
 
-@dataclass(frozen=True, slots=True)
-class Sight:
+class Sight(Struct, frozen=True):
     """What is to be looked at: a text, the values of its sliders, and how it is shown.
 
     ``mechanism`` is the plan whose construction stands on the mechanism, ``quick`` lets labels

@@ -7,9 +7,11 @@ the page's own.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from html import escape
 from math import ceil, floor
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out, spans
@@ -41,8 +43,7 @@ class StaleError(Exception):
     """Something newer is asked for, and what is being drawn is not wanted any more."""
 
 
-@dataclass(frozen=True, slots=True)
-class AtRest:
+class AtRest(Struct, frozen=True):
     """The scale factors and fields of a text's drawings when they were last laid out freely."""
 
     text: str
@@ -50,8 +51,7 @@ class AtRest:
     layouts: Mapping[str, Layout]
 
 
-@dataclass
-class Memory:
+class Memory(Struct):
     """What stays from one answer to the next: scales and fields, seats of labels, edges.
 
     ``frames`` are the edges of the drawings at rest, ``edges`` those of the drawings as they move.
@@ -78,8 +78,7 @@ class Memory:
         return found
 
 
-@dataclass(frozen=True, slots=True)
-class Panel:
+class Panel(Struct, frozen=True):
     """One drawing: which it is, its caption in tags, and its picture."""
 
     name: str

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.scene.file_limits import WHERE
 from graphkin.studio.toml_spans import Path, Span, spans, unquoted
@@ -27,8 +28,7 @@ VERSION = ("graphkin",)
 DRIVERS = ("drivers",)
 
 
-@dataclass(frozen=True, slots=True)
-class MarkedProblem:
+class MarkedProblem(Struct, frozen=True):
     """A problem with where it stands: its line from 1, 0 where it has none, and what to select.
 
     ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two. ``column``,

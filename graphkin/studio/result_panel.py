@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from cmath import isnan
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import chain
 from math import degrees
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing
 from graphkin.construction.core.drawn_scene import METRES, Drawing

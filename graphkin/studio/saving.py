@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from difflib import unified_diff
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
+
+from msgspec import Struct
 
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism
@@ -28,8 +29,7 @@ MOST_LINES = 12
 """Lines that are shown of what saving would change in a file that is in the way."""
 
 
-@dataclass(frozen=True, slots=True)
-class Saved:
+class Saved(Struct, frozen=True):
     """What became of it: the names of the files written, or of those that are in the way.
 
     ``mark`` identifies the content that was written; ``changes`` are the lines in which a scene
@@ -83,8 +83,7 @@ def mark_of_file(path: Path) -> str:
         return ""
 
 
-@dataclass(frozen=True, slots=True)
-class WantedSheets:
+class WantedSheets(Struct, frozen=True):
     """Which sheets are wanted: of which text under which name, in which language and form."""
 
     text: str

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from graphkin.scene.findings import Findings
 from graphkin.scene.parameters import plain, rational
@@ -17,8 +18,7 @@ LONGEST = 100
 """Signs of a value that is written."""
 
 
-@dataclass(frozen=True, slots=True)
-class Edit:
+class Edit(Struct, frozen=True):
     """A piece of the text, counted as a browser does, and what comes in its place.
 
     ``name`` is the parameter, ``before`` the value that stands there now.

@@ -5,9 +5,10 @@ from __future__ import annotations
 import logging
 import socket
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlencode
+
+from msgspec import Struct
 
 from graphkin.studio.app import application
 from graphkin.studio.guard import Guard, new_token
@@ -25,8 +26,7 @@ IDLE, SWEEP = 10, 2
 such connections."""
 
 
-@dataclass(frozen=True, slots=True)
-class Served:
+class Served(Struct, frozen=True):
     """A server that listens; ``address`` holds the token, ``server`` runs and closes."""
 
     address: str

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from threading import Condition, Lock
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import asdict
 
 from graphkin.classroom.lab.new_lab import START
 from graphkin.construction.core.quantities import SHEETS
@@ -39,8 +41,7 @@ FIRST = "graphkin ="
 """How the first line of a scene begins."""
 
 
-@dataclass(frozen=True, slots=True)
-class Opened:
+class Opened(Struct, frozen=True):
     """A text to begin with, and the name of the file as which it would be saved.
 
     ``mark`` identifies the content of that file; it is empty for a text that is in no file here.

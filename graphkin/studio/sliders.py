@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import ceil, floor, log10
+
+from msgspec import Struct
 
 from graphkin.construction.core.parameter_words import unit_of
 from graphkin.scene.expression import TIME
@@ -22,8 +23,7 @@ HALF = Fraction(1, 2)
 """How far a slider without a bound goes either way, in parts of its value."""
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterSlider:
+class ParameterSlider(Struct, frozen=True):
     """A parameter: its value as set, the values at which its slider stands, and which is nearest.
 
     ``low`` and ``high`` are its bounds as the scene states them, empty where it states none.

@@ -8,9 +8,10 @@ the same way whatever has been run before: the ways differ by rounding alone.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from importlib.util import find_spec
 from typing import Any, Literal
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.batch import is_array, run_batch, run_blocks
 from graphkin.construction.core.program import Program
@@ -34,8 +35,7 @@ Way = Literal["steps", "numpy", "numba"]
 """Step by step on arrays, by emitted numpy, or by the compiled loop."""
 
 
-@dataclass(frozen=True)
-class BatchRequest:
+class BatchRequest(Struct, frozen=True):
     """What is asked of a program: the steps to run, the values that enter, and what is kept."""
 
     needed: Sequence[int]
@@ -66,8 +66,7 @@ class BatchRequest:
         return {name: np.ascontiguousarray(array, dtype=float) for name, array in found.items()}
 
 
-@dataclass
-class BatchRunner:
+class BatchRunner(Struct):
     """Runs a program on many variants; ``kept`` holds None for what source cannot follow."""
 
     program: Program

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace
@@ -20,8 +21,7 @@ BLOCK = 8192
 RECORDS = (Ratio, Line, Circle, Vector)
 
 
-@dataclass(frozen=True)
-class Emitted:
+class Emitted(Struct, frozen=True, dict=True):
     """A traced program: its graph, and the kept values and margins in its numbers."""
 
     program: Program

@@ -15,7 +15,7 @@ from graphkin.tape.graph import Graph
 from graphkin.tape.traced import Traced, TracedNumber
 
 
-class TracedKind(Kind):
+class TracedKind(Kind, frozen=True):
     """The number kind of a tracer: as a batch, but an angle in degrees is known to be reduced."""
 
     def direction(self, degrees: Any) -> Any:

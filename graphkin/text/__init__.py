@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from math import floor, log10
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct
 
 HERE = Path(__file__).resolve().parent
 LANGUAGES = ("en", "it", "ro")
@@ -19,8 +20,7 @@ EUPHONIC = re.compile(r"(?<!\S)([ae]) (?=\*?(?i:\1))")
 """The Italian words for "to" and "and" before a name or word that begins with their own vowel."""
 
 
-@dataclass(frozen=True)
-class Words:
+class Words(Struct, frozen=True):
     """The sentences of one language, and how it writes numbers."""
 
     language: str

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from functools import cached_property
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.given_data import angle_symbol
@@ -50,8 +52,7 @@ MECHANISM = "mechanism"
 """The name of the field of the mechanism, beside those of the kinds of plans."""
 
 
-@dataclass(frozen=True)
-class Stage:
+class Stage(Struct, frozen=True, dict=True):
     """Where mechanism and plans stand in every picture, and how large.
 
     ``plans`` are the fields by kind, where the pole need not move aside. ``paths`` are those of

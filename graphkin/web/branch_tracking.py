@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.web.page_driver import LEAST, PARTS, Reach
 from graphkin.web.traced_closings import Solver, State, TracedClosing
@@ -32,8 +33,7 @@ SHARES = (0.0, -1.0, 1.0, -0.25, 0.25, -4.0, 4.0)
 """Where the last value that can be tried is looked for, in parts of such a distance."""
 
 
-@dataclass(frozen=True)
-class TrackedBranch:
+class TrackedBranch(Struct, frozen=True):
     """The way of groups from where the scene stands: positions of the driver, what closes there."""
 
     at: tuple[float, ...] = ()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import lettered
@@ -20,8 +21,7 @@ SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
 """What is asked of a block on each sheet."""
 
 
-@dataclass(frozen=True, slots=True)
-class ResultTable:
+class ResultTable(Struct, frozen=True):
     """A table of results: its rows by the names of their quantities, and which are asked for."""
 
     kind: str

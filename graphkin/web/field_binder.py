@@ -14,9 +14,10 @@ show (or -1). The kinds, as moving.js lays them out:
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from math import atan2, degrees
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
@@ -51,8 +52,7 @@ def rounded(*numbers: float) -> list[float]:
     return [int(r) if (r := round(number, DIGITS)) == int(r) else r for number in numbers]
 
 
-@dataclass(frozen=True)
-class FieldBinder:
+class FieldBinder(Struct, frozen=True):
     """Where the marks of one field are bound: the sheet's places, the field, and the outputs."""
 
     places: MovingSheet

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
@@ -33,8 +34,7 @@ CURVES = ("trajectory", "fixed-centrode")
 """The curves that stay; the locus of a group that is tried is another at each place."""
 
 
-@dataclass(frozen=True)
-class MarkBindings:
+class MarkBindings(Struct, frozen=True, dict=True):
     """The marks of one field, each with how it follows."""
 
     binder: FieldBinder

@@ -7,7 +7,8 @@ this moment alone.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout

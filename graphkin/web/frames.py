@@ -9,8 +9,9 @@ and accelerations grow beyond all bounds; an animation ends before.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import SHEETS
@@ -35,8 +36,7 @@ LEAST, LITTLE = 4, 1e-4
 """Moments that make a motion, and the least part of a turn, or of what is looked at, that does."""
 
 
-@dataclass(frozen=True)
-class Frame:
+class Frame(Struct, frozen=True):
     """The mechanism at one place of its driver (degrees, metres) or at one time (s).
 
     ``drawings`` are those of the plans that the scene asks for, by kind; ``alone`` the positions
@@ -48,8 +48,7 @@ class Frame:
     alone: Drawing
 
 
-@dataclass(frozen=True)
-class FrameSequence:
+class FrameSequence(Struct, frozen=True):
     """The moments of an animation, in ascending order, and the order in which they are shown.
 
     The first that is shown is ``start``, where the scene stands if that lies within; ``low`` to

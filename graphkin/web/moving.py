@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.crossings import is_drawn
 from graphkin.construction.core.plan_vector import plan_vector
@@ -40,8 +41,7 @@ which it cannot move, its construction is no straight line of reckoning, or noth
 law of time is to be shown."""
 
 
-@dataclass(frozen=True)
-class Moving:
+class Moving(Struct, frozen=True):
     """JavaScript that moves the marks of a page.
 
     ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step,

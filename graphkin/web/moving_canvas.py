@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import BEYOND
@@ -17,8 +18,7 @@ from graphkin.web.moving_sheet import place_of
 Ends = tuple[Any, Any]
 
 
-@dataclass
-class MovingCanvas:
+class MovingCanvas(Struct):
     """What the marks of one step are drawn from: its vector, its legs, and what its line faces.
 
     ``stands`` is where its circle is laid; one that ``is_cut`` shows only where the field has room.

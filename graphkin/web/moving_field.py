@@ -6,7 +6,6 @@ this pose, so that a page holds the pose and the lengths, not each of its corner
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from graphkin.drawing.field import XY, Carried, Field
@@ -90,8 +89,7 @@ class MovingWay(tuple[Any, Any]):
         return found
 
 
-@dataclass(frozen=True, slots=True)
-class MovingField(Field):
+class MovingField(Field, frozen=True):
     """A field while it moves."""
 
     binder: FieldBinder

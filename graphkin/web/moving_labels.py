@@ -8,11 +8,12 @@ smoothly with its point and stands clear of bars, walls and other letters where 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from graphkin.drawing.field import XY
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text
@@ -47,8 +48,7 @@ DISTANT = 0.2
 """What it costs a letter to stand farther away."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Struct, frozen=True):
     """The place of a letter: ``far`` from its point, away from others turned by ``turn``.
 
     Without others it is the direction of ``turn`` itself on the page (x to the right, y down).
@@ -79,8 +79,7 @@ def off(at: XY, others: Sequence[XY]) -> XY:
     return (u / size, v / size) if size > 0.1 else (0.0, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
-class PointLetter:
+class PointLetter(Struct, frozen=True):
     """The letter of a point: its markup and look, and the number of its step."""
 
     markup: str
@@ -100,8 +99,7 @@ class PointLetter:
         return Text(x, y, self.markup, look, LETTER, "start", name, self.step)
 
 
-@dataclass(frozen=True)
-class FrameView:
+class FrameView(Struct, frozen=True):
     """What one moment shows of a field: its points with their letters, and what lies about them.
 
     ``near`` are the points by which the letter of another may be led.

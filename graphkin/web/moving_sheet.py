@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import ENDLESS, NOISE, Drawing
 from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined
@@ -17,8 +19,7 @@ from graphkin.tape.tape_outputs import TapeOutputs
 from graphkin.web.body_pose import BodyPose, unit
 
 
-@dataclass(frozen=True)
-class MovingSheet:
+class MovingSheet(Struct, frozen=True, dict=True):
     """One sheet while it moves: its drawing, and the traced values of its steps."""
 
     drawing: Drawing

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from math import pi
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.program import Program
 from graphkin.motion.driving import COORDINATES, TURN, What, stated
@@ -32,8 +33,7 @@ PARTS = 360
 """How many moves of a slider lead through a range that is not one of many degrees."""
 
 
-@dataclass(frozen=True)
-class PageDriver:
+class PageDriver(Struct, frozen=True):
     """What moves: the driver (None for the time), and where it stands, in ``unit``.
 
     ``metres`` is what one unit of a driver that slides or rolls is.
@@ -118,8 +118,7 @@ def time_of(scene: Scene) -> float:
     return 0.0 if scene.time is None else float(scene.time.number(scene.values))
 
 
-@dataclass(frozen=True)
-class Reach:
+class Reach(Struct, frozen=True):
     """How far a mechanism moves from where it stands; ``whole`` tells a turn that is free."""
 
     low: float

@@ -8,8 +8,9 @@ moves aside for one that would not have.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from math import ceil
+
+from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field

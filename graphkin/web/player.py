@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, spans
@@ -118,8 +119,7 @@ def layout_of(drawing: Drawing, mechanism: Field, plan: Field | None) -> Layout:
     return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
 
 
-@dataclass(frozen=True, slots=True)
-class Figure:
+class Figure(Struct, frozen=True):
     """A field: its caption, its window, and its marks, those that stand moved ``back`` in it.
 
     The script moves both at each place of the driver; ``beyond`` is said where a plan leaves it.

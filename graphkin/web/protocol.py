@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.crossings import Crossing, crossings
@@ -40,8 +42,7 @@ DETAIL = "detail"
 """The name of the small circle about what is enlarged beside it."""
 
 
-@dataclass(frozen=True, slots=True)
-class ProtocolSentence:
+class ProtocolSentence(Struct, frozen=True):
     """A sentence of the run: its sheet, its markup, why, the crossings of its lines.
 
     ``of`` are the steps to which the reasons belong, ``letters`` the names of the crossings as the
@@ -59,8 +60,7 @@ class ProtocolSentence:
     aside: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Timed:
+class Timed(Struct, frozen=True):
     """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step."""
 
     mark: Mark
@@ -68,8 +68,7 @@ class Timed:
     step: int | None
 
 
-@dataclass(frozen=True)
-class PageProtocol:
+class PageProtocol(Struct, frozen=True):
     """The run of sentences over all sheets, and for each sheet its marks in their order.
 
     ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;

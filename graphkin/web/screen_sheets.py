@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out
@@ -19,8 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-@dataclass(frozen=True)
-class ScreenSheet:
+class ScreenSheet(Struct, frozen=True):
     """The marks of a sheet's two fields; those of mark k of sheet s have the id ``m{s}-{k}``.
 
     ``left`` is the field of the mechanism, ``right`` that of the plan; k counts through the left

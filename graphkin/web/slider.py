@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import floor, log10
+
+from msgspec import Struct
 
 from graphkin.construction.core.given_data import angle_symbol
 from graphkin.mechanism import Mechanism
@@ -14,8 +15,7 @@ from graphkin.web.page_driver import PageDriver, Reach, window
 from graphkin.web.screen_sheets import ScreenSheet
 
 
-@dataclass(frozen=True, slots=True)
-class Slider:
+class Slider(Struct, frozen=True):
     """The script that moves a mechanism and its plans by ``name``, markup of the driver's symbol.
 
     ``datum`` is that symbol as the data have it, ``unit`` that of its place, ``ends`` the least

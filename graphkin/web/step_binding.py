@@ -36,7 +36,7 @@ SQUARE, ROOMY = 2.0, 6.0
 """Side of the mark of a right angle, and of a triangle that has room for one, in mm."""
 
 
-class Steps(VisibleSteps):
+class Steps(VisibleSteps, frozen=True, dict=True):
     """How the marks of the steps of one field follow."""
 
     def binding(self, mark: Mark) -> Binding | None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import called, scale_of
@@ -45,8 +46,7 @@ STOP_NAMES = {
 """What the buttons say that go to the parts of the work."""
 
 
-@dataclass(frozen=True, slots=True)
-class Form:
+class Form(Struct, frozen=True):
     """A form for answers in a task page: its markup, its rules and its script."""
 
     body: Markup
@@ -171,8 +171,7 @@ def width(rect: Rect) -> float:
 # --- what stands on the page ---------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class SheetFields:
+class SheetFields(Struct, frozen=True):
     """The fields of a sheet: its name, and the id, the markup and the picture of each."""
 
     place: int

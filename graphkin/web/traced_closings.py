@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.numbers.arithmetic import phase
@@ -28,8 +29,7 @@ State = tuple[float, ...]
 """What closes the groups: for each what it tries, in radians or metres, and its dyads' signs."""
 
 
-@dataclass(frozen=True)
-class TracedClosing:
+class TracedClosing(Struct, frozen=True):
     """A step that closes a group: the inputs that hold what it tries and the signs of its dyads,
     these where the scene stands, and by how much it misses.
 
@@ -99,8 +99,7 @@ def trial(trying: Any, known: Sequence[Any], at: Any, signs: Sequence[Any]) -> M
 # --- one place -----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Solver:
+class Solver(Struct, frozen=True):
     """What closes all groups, one after the other, near given values; ``size`` is the mechanism's.
 
     ``misses`` give the misfit and what must be positive, of the driver's place, a state, and the

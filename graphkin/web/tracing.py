@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from math import pi
 from typing import Any
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.construction.core.run import Trace
@@ -34,8 +35,7 @@ SLACK = 1e-6
 """Parts of the mechanism by which a bar's length may be off where it still closes."""
 
 
-@dataclass(frozen=True)
-class Tracing:
+class Tracing(Struct, frozen=True, dict=True):
     """The traced steps of a mechanism: what a sheet has traced, the next ones take over.
 
     ``margins`` are the sines of all crossings, ``closings`` what closes groups of higher class,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import TriangleComponent
@@ -20,8 +21,7 @@ ALIKE = 1e-6
 """Millimetres within which two places of the page are one."""
 
 
-@dataclass(frozen=True)
-class VisibleSteps:
+class VisibleSteps(Struct, frozen=True):
     """The steps of one field, as they are drawn and while they move."""
 
     binder: FieldBinder

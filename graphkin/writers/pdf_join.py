@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
 import pikepdf
+from msgspec import Struct
 from pikepdf import Dictionary, Name, OutlineItem
 
 
-@dataclass(frozen=True, slots=True)
-class PdfPart:
+class PdfPart(Struct, frozen=True):
     """A PDF file to be put in, and the words of its bookmark (none where they are empty)."""
 
     path: Path

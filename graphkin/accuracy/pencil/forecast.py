@@ -14,10 +14,12 @@ they tell otherwise, the error is read from more of them, the same at every run.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, isfinite, sqrt
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil import Pencil
@@ -45,8 +47,7 @@ NORMAL_95 = 1.6448536269514722
 """The number below which 95 of 100 standard normal numbers lie."""
 
 
-@dataclass(frozen=True, slots=True)
-class Expected:
+class Expected(Struct, frozen=True):
     """What is expected of one answer: ``error`` is its 95th percentile in its own SI unit.
 
     ``sources`` are the shares of its variance by the step whose mark is off, which add up to one;
@@ -77,8 +78,7 @@ class Expected:
         return max(self.sources, key=lambda number: self.sources[number], default=None)
 
 
-@dataclass(frozen=True)
-class Forecast:
+class Forecast(Struct, frozen=True, dict=True):
     """What is expected of each answer of a drawing made with a pencil."""
 
     original: Original

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
 from graphkin.construction.core.component import TriangleChoice, component_of
@@ -38,8 +39,7 @@ class DrawingScales(Protocol):
     def apart(self) -> float: ...  # noqa: D102
 
 
-@dataclass(frozen=True)
-class Original:
+class Original(Struct, frozen=True, dict=True):
     """One construction by hand without errors: its trace at some scales, and what is read off."""
 
     trace: Trace

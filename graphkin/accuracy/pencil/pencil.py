@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isfinite, log, radians, sqrt
+
+from msgspec import Struct
 
 from graphkin.text.errors import Problem, SceneError
 
@@ -15,8 +16,7 @@ STRAIGHT = 1.959963984540054
 """Within so many standard deviations lie 95 of 100 numbers, to both sides."""
 
 
-@dataclass(frozen=True, slots=True)
-class Pencil:
+class Pencil(Struct, frozen=True):
     """Of 100 marks 95 lie within ``point`` mm of where they belong, evenly in all directions; of
     100 lines 95 have a direction within ``line`` degrees of theirs.
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.construction.core.kind import construction
@@ -63,8 +64,7 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Paper:
+class Paper(Struct, frozen=True):
     """What a metre of paper stands for in each plan: m, m/s, m/s²."""
 
     mechanism: float

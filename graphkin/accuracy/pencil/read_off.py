@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from math import isfinite
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.original import Original
 from graphkin.construction.core.program import Step, Target
@@ -16,8 +17,7 @@ FAR = 10.0
 """Metres of paper beyond which a centre counts as at infinity: no hand draws it."""
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnQuantity:
+class DrawnQuantity(Struct, frozen=True):
     """One answer: its target, the step that carries it, its exact value and its scale.
 
     ``unit`` is the answer's own unit in SI, ``millimetre`` how much of it a millimetre of paper

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.original import DrawingScales, Original, original
 from graphkin.accuracy.pencil.pencil import Pencil
@@ -21,8 +22,7 @@ COMMON = 95.0
 """Of a hundred drawings so many are to be no farther off."""
 
 
-@dataclass(frozen=True)
-class Drawn:
+class Drawn(Struct, frozen=True, dict=True):
     """The answers of many drawings: for each target an array with an element for each drawing.
 
     Vectors and places are complex; NaN where a drawing does not close.

@@ -6,9 +6,10 @@ A cell that cannot be read is no error of the table: it is told, and does not co
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
+
+from msgspec import Struct, field
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.graded import Answer
@@ -46,8 +47,7 @@ OTHERS = {folded(name) for what, every in BESIDE.items() for name in (what, *eve
 """The same as they are compared."""
 
 
-@dataclass(frozen=True, slots=True)
-class Unread:
+class Unread(Struct, frozen=True):
     """A cell that cannot be read: its file and row, whose it is, its field, what it says and why.
 
     ``problem`` is that of its answer; ``unit`` that of its field.
@@ -62,8 +62,7 @@ class Unread:
     unit: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Stranger:
+class Stranger(Struct, frozen=True):
     """A column, or a row of one student's file, that is no field; ``near`` is the one meant."""
 
     file: str
@@ -71,8 +70,7 @@ class Stranger:
     near: str = ""
 
 
-@dataclass
-class Answers:
+class Answers(Struct):
     """The answers of each student by id, the notes about cells, and columns that are no fields."""
 
     of: dict[str, dict[str, Answer]] = field(default_factory=dict)
@@ -130,8 +128,7 @@ def is_form(sheet: Spreadsheet) -> bool:
     return len(heads) >= 2 and heads[0] in map(folded, FIELD) and heads[1] in map(folded, VALUE)
 
 
-@dataclass
-class AnswerReading:
+class AnswerReading(Struct):
     """Tables being read: the fields that are ``known``, the ids by all that students sign with,
     what was found, and which fields were ``seen``.
     """

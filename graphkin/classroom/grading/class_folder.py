@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.graded import Taker
@@ -11,8 +12,7 @@ from graphkin.classroom.printing.edition import Edition, read_edition, tables
 from graphkin.classroom.roster.student import Student
 
 
-@dataclass(frozen=True)
-class ClassFolder:
+class ClassFolder(Struct, frozen=True):
     """A class: its edition, the book that marks it, and its students in roster order."""
 
     edition: Edition

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, partial
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import wrong_variants
@@ -25,8 +27,7 @@ KEPT = 64
 """Variants whose constructions are held at once; in a class by a formula there are few."""
 
 
-@dataclass
-class Book:
+class Book(Struct, dict=True):
     """The variants of a lab, each constructed once while it is asked for again."""
 
     lab: Lab
@@ -90,8 +91,7 @@ def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
     return tuple(sorted(settings.items())), computed
 
 
-@dataclass(frozen=True)
-class Class:
+class Class(Struct, frozen=True):
     """A class that is marked: its result, and what was expected of each student."""
 
     result: Result

@@ -8,9 +8,10 @@ with a pencil are made for as many variants at once as go into a block, an axis 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.forecast import sources
 from graphkin.accuracy.pencil.original import Original, original
@@ -46,8 +47,7 @@ DRAWINGS = 8_192
 Settings = Mapping[str, str]
 
 
-@dataclass(frozen=True)
-class VariantMechanism(Mechanism):
+class VariantMechanism(Mechanism, frozen=True, dict=True):
     """A mechanism with other data than one that is ready, whose construction has the same steps."""
 
     like: Mechanism
@@ -204,8 +204,7 @@ def as_sheet(mechanism: Mechanism, kL: float, seconds: float, triangles: bool) -
 # --- the pencil -------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Originals(Original):
+class Originals(Original, frozen=True, kw_only=True, dict=True):
     """The constructions of several variants that draw the same: each value holds a row for each
     variant, or stands alone where all share it; ``like`` is the first of them.
     """

@@ -6,9 +6,10 @@ So a component that is turned round shows in every field that hangs on it, and o
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from math import degrees
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.grading.slips import Slip, differs, unit_ratios

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import log
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.graded import Graded, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
@@ -57,8 +58,7 @@ def wrong_variants(
     return tuple(found)
 
 
-@dataclass(frozen=True)
-class Best:
+class Best(Struct, frozen=True):
     """The other variant that some answers fit, in which fields of how many, and how much likelier
     than the own, as a logarithm."""
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.feedback_rows import (
     COLUMNS,
@@ -100,8 +102,7 @@ def how(rubric: Rubric, words: Words) -> str:
 # --- on paper -----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Spacing:
+class Spacing(Struct, frozen=True):
     """Distances of a page, in mm: from a field's cells to its reason, and the room below it.
 
     ``is_brief`` leaves out the reason of what is right, which its points tell.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isnan
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.answer_numbers import shown
 from graphkin.classroom.grading.graded import EarnedMark, Graded, Status
@@ -58,8 +59,7 @@ SCORE, MOST = 20, 1e99
 POWERS = {"²": "^2"}
 
 
-@dataclass(frozen=True, slots=True)
-class FeedbackRow:
+class FeedbackRow(Struct, frozen=True):
     """One field: its cells in the order of COLUMNS, why, and what was found."""
 
     cells: tuple[str, ...]

@@ -8,10 +8,11 @@ construction is run again from it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import chain
 from math import isnan
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import rounding
 from graphkin.classroom.grading.form_relations import Following, Own, computed, si

@@ -8,9 +8,10 @@ says. What is computed is laid off as long as it came out.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from math import hypot, inf
 from typing import NamedTuple
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.probes import Probe
 from graphkin.classroom.grading.standard import Standard
@@ -23,8 +24,7 @@ COARSE = 0.05
 """Numbers as they are written are rounded by no more than this share: two digits."""
 
 
-@dataclass(frozen=True, slots=True)
-class Own:
+class Own(Struct, frozen=True):
     """A student's own size in SI, the share by which it is rounded, and the field that states it;
     the key's where no field does.
     """
@@ -34,8 +34,7 @@ class Own:
     field: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Following:
+class Following(Struct, frozen=True):
     """A value that a field would have, after the own values of others, and how near it must be;
     ``drawn`` where the construction tells it.
     """
@@ -141,8 +140,7 @@ def computed_first(standard: Standard, probe: Probe) -> Component | None:
     return None
 
 
-@dataclass(frozen=True)
-class OwnLengths:
+class OwnLengths(Struct, frozen=True):
     """What components are computed from: own sizes, or the key's where no field states them."""
 
     standard: Standard

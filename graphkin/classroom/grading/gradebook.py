@@ -9,9 +9,10 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
+
+from msgspec import Struct
 
 from graphkin.classroom.roster.read_roster import NAMES
 from graphkin.classroom.roster.spreadsheets import folded
@@ -35,16 +36,14 @@ class GradebookError(GraphkinError):
     """A gradebook that cannot be filled in."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(Struct, frozen=True):
     """The characters of a cell as they stand in the file, and the text that they mean."""
 
     raw: str
     text: str
 
 
-@dataclass(frozen=True)
-class Gradebook:
+class Gradebook(Struct, frozen=True):
     """An export: its rows of cells, each with the end of its line."""
 
     name: str
@@ -67,8 +66,7 @@ class GradebookTable(Protocol):
         """Its cells, row by row, the head first."""
 
 
-@dataclass(frozen=True)
-class MarkPlaces:
+class MarkPlaces(Struct, frozen=True):
     """Where marks go: a column and its head, the student of each line, who of the class is not in.
 
     Lines count from nought, the head's. ``worth`` is what the gradebook holds the column worth.
@@ -82,8 +80,7 @@ class MarkPlaces:
     replaced: int = 0
 
 
-@dataclass(frozen=True)
-class Filled:
+class Filled(Struct, frozen=True):
     """A gradebook with marks in it: its bytes, how many, and who of the class is not in it.
 
     ``worth`` is what it holds the column worth, where it says so, as Canvas does; ``replaced`` how

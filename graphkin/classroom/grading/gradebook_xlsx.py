@@ -12,10 +12,11 @@ import re
 import zipfile
 from collections.abc import Collection, Mapping
 from copy import copy
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from xml.parsers.expat import ExpatError
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.gradebook import (
     Cell,
@@ -51,8 +52,7 @@ def filled_gradebook(
     return filled(read_gradebook(path), marks, column, ids)
 
 
-@dataclass(frozen=True)
-class Workbook:
+class Workbook(Struct, frozen=True):
     """An export as XLSX: its file, and the cells of the sheet that was open last.
 
     A row that holds nothing has no cells. ``formulas`` are the places of formulas, by line and

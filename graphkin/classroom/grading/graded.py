@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
+
+from msgspec import Struct, field
 
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.student import Student
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """One cell of an answer table: its ``text`` and the number that it states, in the field's unit.
 
     A sense is +1 or -1, counter-clockwise or along the guide positive. ``signed`` tells that a
@@ -50,8 +50,7 @@ class Status(Enum):
     UNREADABLE = "unreadable"
 
 
-@dataclass(frozen=True, slots=True)
-class EarnedMark:
+class EarnedMark(Struct, frozen=True):
     """What one field earned, of ``points``, and why.
 
     ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
@@ -83,8 +82,7 @@ class EarnedMark:
         return self.answer.value - self.expected
 
 
-@dataclass(frozen=True, slots=True)
-class Taker:
+class Taker(Struct, frozen=True):
     """A student who takes part: the parameters of the own variant, exact and as written.
 
     ``compute`` are fields too small to be measured, which were to be computed; ``code`` is the
@@ -98,8 +96,7 @@ class Taker:
     language: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Graded:
+class Graded(Struct, frozen=True):
     """A student with the mark of each field, in the order of the form.
 
     ``held`` tells that they are kept back until the lecturer has decided whose answers these are.
@@ -151,8 +148,7 @@ SURE = 10_000.0
 """The largest odds that are reported: no model of hands and pencils is surer than that."""
 
 
-@dataclass(frozen=True, slots=True)
-class Suspicion:
+class Suspicion(Struct, frozen=True):
     """Evidence for the lecturer: answers that fit another's data, or were handed in twice.
 
     ``students`` are ids; ``fields`` what fits, ``odds`` how much better than chance, ``SURE`` at
@@ -165,8 +161,7 @@ class Suspicion:
     of: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Result:
+class Result(Struct, frozen=True):
     """A whole class, marked; ``unsure`` are fields that no drawing of a student's variant tells."""
 
     graded: tuple[Graded, ...]

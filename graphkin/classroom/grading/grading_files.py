@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
+
+from msgspec import Struct, field
 
 from graphkin.classroom.grading.answers import Unread
 from graphkin.classroom.grading.class_marking import Class
@@ -34,8 +35,7 @@ FEEDBACK = "feedback"
 """The folder with a page for each student."""
 
 
-@dataclass(frozen=True)
-class ReportSettings:
+class ReportSettings(Struct, frozen=True):
     """What is told with the marks: the lab's title, the language of the report and of whoever has
     none of the own, cells that cannot be read; the title in other languages.
     """

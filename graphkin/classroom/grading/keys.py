@@ -8,8 +8,9 @@ Cranks that are laid off badly are left out of the pencil and kept apart.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import STRAIGHT
 from graphkin.classroom.grading.answer_numbers import NUMBER, rounding
@@ -21,8 +22,7 @@ COMPUTED = 0.005
 """Share by which a value may be off that is computed from a length as it was read."""
 
 
-@dataclass(frozen=True)
-class Keys:
+class Keys(Struct, frozen=True):
     """The keys of all variants, a row for each: sizes, deviations of a drawing, covariances.
 
     ``rulers`` are the deviations of a reading; ``beside`` the place of each field's own segment,

@@ -7,9 +7,10 @@ What no drawing of these data makes is a mistake, of any size.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import exp, log, pi
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.graded import SURE
 from graphkin.classroom.grading.slip_diagnosis import ASTRAY, HALF
@@ -26,8 +27,7 @@ LAID_OFF = 5.0
 """The deviation, in degrees, of cranks that are laid off badly."""
 
 
-@dataclass(frozen=True)
-class Key:
+class Key(Struct, frozen=True):
     """Right answers as sizes, places with their sign, and how drawings of them are off.
 
     ``spread`` is the covariance of the errors of the forgiven pencil and ruler, ``computed`` the
@@ -42,8 +42,7 @@ class Key:
     places: Any
 
 
-@dataclass(frozen=True)
-class Fit:
+class Fit(Struct, frozen=True):
     """How likely answers are by a key, as a logarithm, which of them are no mistakes, and the
     likeliest pencil, in times of the forgiven one.
     """

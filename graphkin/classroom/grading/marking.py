@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
 from math import hypot, isnan
+
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.construction_slips import constructions
 from graphkin.classroom.grading.field_slips import of_fields

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.lab.items import ARROW, UNITS
@@ -19,8 +20,7 @@ from graphkin.numbers.plane import Ratio
 from graphkin.text.errors import Problem, SceneError
 
 
-@dataclass(frozen=True, slots=True)
-class Probe:
+class Probe(Struct, frozen=True):
     """Reads one field: ``steps`` are the tail and tip of a vector, or the one step of a number.
 
     A place is read from the first fixed pivot, ``steps`` being that and its own. ``plane`` is the

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from graphkin.text.errors import Problem, SceneError
 
@@ -15,8 +16,7 @@ MOST = 1 << 20
 """Bytes of it that are read."""
 
 
-@dataclass(frozen=True)
-class Releases:
+class Releases(Struct, frozen=True):
     """The ids of those whose marks are given, in the order of the class; ``earlier`` tells that
     some run before this one kept a list."""
 

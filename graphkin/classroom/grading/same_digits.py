@@ -11,10 +11,11 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from math import comb, inf, log, pi
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
@@ -38,8 +39,7 @@ CROWD = 12
 Pair = tuple[int, int]
 
 
-@dataclass(frozen=True)
-class AnswerSheet:
+class AnswerSheet(Struct, frozen=True):
     """A student's numbers, how far each may be rounded, which are wrong, and the own variant."""
 
     answers: Any

@@ -12,8 +12,9 @@ better it must be to be named. Places are spread likewise, in millimetres.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from math import exp, inf, log, pi, sqrt
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import STRAIGHT
 from graphkin.classroom.grading.answer_numbers import rounding
@@ -56,8 +57,7 @@ Sources = Mapping[str, tuple[str, ...]]
 NOTHING: Sources = {}
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(Struct, frozen=True):
     """A slip that explains some fields, and its odds against chance."""
 
     slip: Slip

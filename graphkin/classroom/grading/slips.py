@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import isnan, pi
+
+from msgspec import Struct
 
 from graphkin.classroom.grading.standard import Standard
 
@@ -19,8 +20,7 @@ UNITS_TAKEN = (*RATIOS, "rad_as_rpm")
 """The slips of a speed's unit."""
 
 
-@dataclass(frozen=True, slots=True)
-class Slip:
+class Slip(Struct, frozen=True):
     """A slip by name, and what each field that it changes would then be.
 
     ``whole`` tells that it is one of the construction, which goes through all that follows.

@@ -8,6 +8,8 @@ from functools import cached_property
 from math import isfinite, nan, radians
 from typing import Any
 
+from msgspec import Struct
+
 from graphkin.accuracy.pencil.original import DrawingScales, Original, original
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import Paper
@@ -47,8 +49,7 @@ class Expectation:
         return {item.field: item for item in self.items}
 
 
-@dataclass(frozen=True)
-class FormLayout:
+class FormLayout(Struct, frozen=True, dict=True):
     """How the fields of a form are read off a construction; all variants of a program share it.
 
     ``targets`` are what must be constructed for that.
@@ -93,8 +94,7 @@ def layout(mechanism: Mechanism, items: Iterable[Item]) -> FormLayout:
     return FormLayout(program, form, probes(mechanism, form), targets_of(mechanism, form))
 
 
-@dataclass(frozen=True)
-class Standard:
+class Standard(Struct, frozen=True, dict=True):
     """One variant: its construction by hand without errors at the scales of its sheets, its form.
 
     ``errors`` are those of the pencil for each field but senses, where they were worked out for

@@ -9,9 +9,10 @@ are made, the same at every run.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from math import hypot, inf, isfinite
 from typing import Any, NamedTuple
+
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.forecast import BENT, JOINT, NORMAL_95, SEED, WEIGHT, sources
 from graphkin.accuracy.pencil.original import Original
@@ -27,8 +28,7 @@ FINE = 0.5
 """A fine drawing has half the error that is forgiven: no cap takes its marks."""
 
 
-@dataclass(frozen=True, slots=True)
-class Tolerance:
+class Tolerance(Struct, frozen=True):
     """How far a field may be off, in its unit, and of what that is made.
 
     ``pencil`` and ``ruler`` are the errors of drawing and reading; ``unsure`` tells that together
@@ -41,8 +41,7 @@ class Tolerance:
     unsure: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(Struct, frozen=True):
     """A field of one construction, as the forecast of the pencil wants an answer."""
 
     probe: Probe

@@ -7,9 +7,10 @@ the two equal.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.core.component import TriangleChoice, as_drawn
@@ -29,8 +30,7 @@ ON_MECHANISM = {
 Array = Any
 
 
-@dataclass(frozen=True)
-class Boxes:
+class Boxes(Struct, frozen=True):
     """The upright boxes around points, one for each variant; what is not drawn does not count."""
 
     left: Array
@@ -49,8 +49,7 @@ class Boxes:
         return self.top - self.bottom
 
 
-@dataclass(frozen=True)
-class VariantSheet:
+class VariantSheet(Struct, frozen=True, dict=True):
     """The material of one sheet of many variants: the steps that it draws, and their values.
 
     ``seconds`` is the pace of each variant, at which velocities are set on the mechanism.

@@ -8,10 +8,12 @@ sheet does not hold, or whose rays cross flatter than that, spoils nothing else:
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import fields
 from functools import cached_property
 from itertools import product
 from typing import Any
+
+from msgspec import Struct, field
 
 from graphkin.classroom.lab.demands import (
     crossing_angles,
@@ -43,8 +45,7 @@ WORDS = {
 """The limits by name, in words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(Struct, frozen=True):
     """A limit that a variant does not keep: which, where, its value and the bound, in its unit."""
 
     limit: str
@@ -65,8 +66,7 @@ class Fault:
         return WORDS[self.limit]
 
 
-@dataclass
-class Fairness:
+class Fairness(Struct, dict=True):
     """What the drawings of many variants demand of a hand, an array for each thing drawn.
 
     ``form`` names the fields; ``crossings`` are in degrees by the letter of the point, ``lengths``

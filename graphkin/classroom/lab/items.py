@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.construction.core.plan_vector import plan_vector

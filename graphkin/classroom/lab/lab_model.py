@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from typing import Literal
+
+from msgspec import Struct, field
 
 from graphkin.scene.quantity import Quantity
 
@@ -15,8 +16,7 @@ NUMBER = "number"
 What = Literal["segment", "value", "sense", "place"]
 
 
-@dataclass(frozen=True, slots=True)
-class Formula:
+class Formula(Struct, frozen=True):
     """A rule of the student's number: the same number always gets the same data.
 
     ``settings`` gives each parameter of the scene as an expression in ``number``.
@@ -25,8 +25,7 @@ class Formula:
     settings: Mapping[str, Quantity]
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(Struct, frozen=True):
     """From a least to a most, in steps counted from the least."""
 
     least: Fraction
@@ -42,8 +41,7 @@ class Range:
         return self.least + index * self.step
 
 
-@dataclass(frozen=True, slots=True)
-class Ranges:
+class Ranges(Struct, frozen=True):
     """A rule that draws each parameter from a range, by a hash of course, lab and student.
 
     What is unfair is drawn again, at most ``tries`` times.
@@ -54,8 +52,7 @@ class Ranges:
     tries: int = 100
 
 
-@dataclass(frozen=True, slots=True)
-class Fair:
+class Fair(Struct, frozen=True):
     """What a variant must keep to be fair to its student.
 
     ``crossing``: the flattest angle of a crossing in degrees; ``segment``: the shortest length to
@@ -67,8 +64,7 @@ class Fair:
     triangle: tuple[float, float] = (0.05, 4.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Rubric:
+class Rubric(Struct, frozen=True):
     """What earns marks: points of each field of the form, and how they are given.
 
     ``follow`` is the share for what follows rightly from the student's own earlier values;
@@ -89,8 +85,7 @@ class Rubric:
     hold: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Lab:
+class Lab(Struct, frozen=True):
     """A lab's folder, its scene as a file, and what ``lab.toml`` states.
 
     ``text`` is the very text of lab.toml, for the manifest's hash.
@@ -105,8 +100,7 @@ class Lab:
     text: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Item:
+class Item(Struct, frozen=True):
     """One field of the form: what a student reads off or reckons.
 
     ``field`` is its name in files (v_D_mm, v_D, omega_3, omega_3_sense, J_3_x_mm); ``symbol`` its

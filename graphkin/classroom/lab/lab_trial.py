@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.items import asked_fields, items
@@ -20,8 +21,7 @@ SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 """The quantiles by which a spread is told."""
 
 
-@dataclass(frozen=True)
-class LabTrial:
+class LabTrial(Struct, frozen=True):
     """A lab with the variants on which it was tried: who they are, their data, how fair they are.
 
     ``names`` are numbers of students, or ids. ``unasked`` are fields of the rubric that no sheet

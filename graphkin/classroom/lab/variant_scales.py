@@ -7,8 +7,9 @@ scaling.scales; whatever else there is goes through scaling.scales, one variant 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import Any
+
+from msgspec import Struct, field
 
 from graphkin.classroom.lab.drawing_extents import VariantSheet, sketches
 from graphkin.construction.core.component import may_give_way
@@ -27,8 +28,7 @@ Loader = Callable[[int], Mechanism]
 """What makes the mechanism of one variant, by its place in the batch."""
 
 
-@dataclass
-class Scaling:
+class Scaling(Struct):
     """kL and kL/kv of each variant, and whether triangles that may give way are drawn.
 
     NaN where nothing fits. ``apart`` is the root of kL/ka where a scene states ka, else 0;

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.roster.csv_text import safe
@@ -22,8 +24,7 @@ FILES = ("scene.toml", "lab.toml")
 AGAIN = "make the folder again with graphkin variants"
 
 
-@dataclass(frozen=True, slots=True)
-class Variant:
+class Variant(Struct, frozen=True):
     """One student's sheet: who, the opaque code, and the scene's parameters as exact text.
 
     ``compute``: the fields of the form that are reckoned, too small to be measured. ``language``
@@ -44,8 +45,7 @@ class Variant:
         return language_in(self.language)
 
 
-@dataclass(frozen=True, slots=True)
-class Edition:
+class Edition(Struct, frozen=True):
     """A class folder: its lab, the text of its scene, and its students in roster order."""
 
     folder: Path

@@ -9,17 +9,17 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from hashlib import file_digest, sha256
 from pathlib import Path
+
+from msgspec import Struct
 
 from graphkin.writers.files import put_in_place
 
 JOURNAL = ".journal.jsonl"
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """A part of what is printed: its name, a hash of all that decides it, its files' hashes."""
 
     part: str

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from unicodedata import category, normalize
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.qr_code import stamped
@@ -25,8 +27,7 @@ OVERLAY_FOOT = (A3_AREA[0] + 12, A3_AREA[3] - FOOT + 4.6)
 """Where an overlay says whose it is, in mm: below its caption."""
 
 
-@dataclass(frozen=True, slots=True)
-class Owner:
+class Owner(Struct, frozen=True):
     """Whose a sheet is: the name as it is printed, with the group, and the opaque code."""
 
     name: str

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import partial
 from hashlib import sha256
 from math import ceil
 from pathlib import Path
+
+from msgspec import Struct, field
 
 from graphkin import __version__
 from graphkin.classroom.printing.edition import Edition, Variant
@@ -33,8 +34,7 @@ FEWEST = 4
 """Students that are worth a process of their own."""
 
 
-@dataclass(frozen=True, slots=True)
-class PrintRequest:
+class PrintRequest(Struct, frozen=True):
     """What is to be printed of every student, and how."""
 
     views: tuple[str, ...] = ("task", "key")
@@ -44,16 +44,14 @@ class PrintRequest:
     force: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Means:
+class Means(Struct, frozen=True):
     """With what it is done: processes (1: this one alone), or the address of a cluster."""
 
     jobs: int = 1
     cluster: str = ""
 
 
-@dataclass
-class Outcome:
+class Outcome(Struct):
     """What came of a run: students, those made now and those that stood already, files, doubts.
 
     ``files`` are those for the printer; ``refused`` the students who got none; ``strange`` tells

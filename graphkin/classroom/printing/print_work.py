@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from threading import Lock
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.lab.asking import asked_of
 from graphkin.classroom.lab.items import items
@@ -42,8 +44,7 @@ FORM = "form"
 """The A4 pages that go with a task."""
 
 
-@dataclass(frozen=True, slots=True)
-class PrintOrder:
+class PrintOrder(Struct, frozen=True):
     """What the sheets of a class share: the lab, the text of its scene, ink; the language of those
     who have none of their own."""
 
@@ -53,8 +54,7 @@ class PrintOrder:
     ink: Ink
 
 
-@dataclass(frozen=True, slots=True)
-class StudentSheets:
+class StudentSheets(Struct, frozen=True):
     """A student's sheets that are to be made: (view, format) each, under a stem of file names."""
 
     variant: Variant
@@ -62,8 +62,7 @@ class StudentSheets:
     parts: tuple[tuple[str, str], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Made:
+class Made(Struct, frozen=True):
     """What came of it: the files of each part by name, or why there are none."""
 
     code: str

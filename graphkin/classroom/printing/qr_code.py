@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import lru_cache
 from itertools import groupby
+
+from msgspec.structs import replace
 
 from graphkin.drawing.areas import A3_TITLE_BLOCK, A4_AREA, A4_SIZE, BELOW, Rect
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, box, reach

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.text.errors import Problem
@@ -13,8 +13,7 @@ MOST_CELLS, LAST_ROW = 2_000_000, 1 << 20
 """Cells of a table, rows times columns; the last row that a spreadsheet has."""
 
 
-@dataclass(frozen=True, slots=True)
-class SheetRow:
+class SheetRow(Struct, frozen=True):
     """One row: its line in the file, or its row in the sheet, and its cells by column.
 
     ``numbers`` are the columns of cells that are numbers in the file, without zeros before them.

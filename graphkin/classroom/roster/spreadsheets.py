@@ -10,8 +10,9 @@ import io
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.sheet_rows import (
@@ -36,8 +37,7 @@ ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 """First bytes of an XLSX, which is a ZIP file, and of an XLS."""
 
 
-@dataclass(frozen=True, slots=True)
-class Spreadsheet:
+class Spreadsheet(Struct, frozen=True):
     """A table: the name of its file, its head, its rows; cells are texts without blanks around.
 
     ``separator`` is what stands between the cells; a tab for XLSX.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 
-@dataclass(frozen=True, slots=True)
-class Student:
+class Student(Struct, frozen=True):
     """One row of a class list; ``row`` is its line in the file, ``extra`` its other columns.
 
     ``number`` is the student's number in the group, None where the list has none; ``id`` keeps

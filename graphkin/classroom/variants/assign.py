@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
+
+from msgspec import Struct
 
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
@@ -17,8 +18,7 @@ from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
 
 
-@dataclass(frozen=True, slots=True)
-class Assigned:
+class Assigned(Struct, frozen=True):
     """The data of one student, and how fair they are.
 
     ``attempt`` counts the drawings before this one; ``faults`` are the limits that are not kept,

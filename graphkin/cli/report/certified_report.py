@@ -7,8 +7,10 @@ null there, and told under ``undecided`` by its path.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from typing import Any
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
 from graphkin.cli.report.motion_report import heading, scale_lines, verdict_words
@@ -63,8 +65,7 @@ def certify(mechanism: Mechanism, found: Record, digits: int, targets: Any = Non
     return record | {"digits": digits, "bits": bits, "undecided": printer.undecided}
 
 
-@dataclass
-class Printer:
+class Printer(Struct):
     """Prints the numbers of a run in balls, and keeps what it cannot print by its path."""
 
     scene: Scene

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from graphkin.cli.report.catalogue import ask_words
 from graphkin.cli.report.solution_record import settings_words
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
 
 
-@dataclass(frozen=True, slots=True)
-class Explanation:
+class Explanation(Struct, frozen=True):
     """What explain has to say of a scene.
 
     ``asked`` and ``everything`` are how many steps a run of what is asked, and of all that can be

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from math import pi
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.results import gathered
 from graphkin.loops.freedom import true_mobility

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.component import laid_off
@@ -21,8 +20,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
 
-@dataclass(frozen=True, kw_only=True)
-class TangentialDirection(PerpendicularThrough):
+class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
     """The ``line`` along which the tangential component of a pin about a pivot leads."""
 
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.tangential"}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.construction.core.arrows import component_arrow
@@ -38,8 +37,7 @@ def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> 
     return start + 1j * (pin - pivot) * epsilon
 
 
-@dataclass(frozen=True, kw_only=True)
-class TurnedAcceleration(LaidOffAboutPivot):
+class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     """ω²·l and ε·l laid off in the acceleration plan from the second image ``start`` of a pivot.
 
     The normal component ends in ``end``, the tangential one from there in the pin's ``image``;

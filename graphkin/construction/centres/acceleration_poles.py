@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.centres.centre import (
@@ -47,8 +46,7 @@ def turned_pole(p: Point, image: Point, omega: Real, epsilon: Real) -> Ratio:
 # --- what it is ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class PoleRay(LineToCentre):
+class PoleRay(LineToCentre, frozen=True, kw_only=True):
     """At an end of a bar, ``point``, the angle that the plan shows at its image."""
 
     lines: ClassVar[Mapping[str, str]] = {"line": "the ray at {point}"}
@@ -62,8 +60,7 @@ class PoleRay(LineToCentre):
         return self.point + self.other
 
 
-@dataclass(frozen=True, kw_only=True)
-class AccelerationPole(TwoPointCentre):
+class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
     """The pole of a link by the accelerations of two points: a triangle similar to o′a′b′ (Mehmke).
 
     Without an ``other`` point it is found by how the link turns.

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from cmath import phase
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -42,8 +41,7 @@ def meet_anywhere(m: Line, n: Line) -> Ratio:
     return Ratio(m.point, cross(gap, n.along) * m.along, cross(m.along, n.along))
 
 
-@dataclass(frozen=True, kw_only=True)
-class LineToCentre(Construction):
+class LineToCentre(Construction, frozen=True, kw_only=True):
     """A line on which a centre lies."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -64,8 +62,7 @@ class LineToCentre(Construction):
         return {}
 
 
-@dataclass(frozen=True, kw_only=True)
-class VelocityNormal(LineToCentre):
+class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
     """The perpendicular to the velocity of a ``point``, by the steps of its place, the pole of the
     plan and its image.
     """
@@ -101,8 +98,7 @@ class VelocityNormal(LineToCentre):
 # --- what it is ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Centre(Construction):
+class Centre(Construction, frozen=True, kw_only=True):
     """A place of a link that may lie at infinity, with its letter; a Ratio from a ``point`` on.
 
     ``found`` is its stable value, ``crossing`` where the hand finds it: where its ``ways`` meet.
@@ -193,8 +189,7 @@ class Centre(Construction):
         return dict(self.symbols())
 
 
-@dataclass(frozen=True, kw_only=True)
-class TwoPointCentre(Centre, ABC):
+class TwoPointCentre(Centre, frozen=True, kw_only=True):
     """A centre by what two points of its link do, of which ``other`` is the second: the steps of
     the pole ``o`` of the plan, of their ``places`` and of their ``images``.
     """

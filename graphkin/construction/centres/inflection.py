@@ -6,7 +6,6 @@ perpendiculars in them meet in the pole (Thales).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING, ClassVar
 
@@ -95,8 +94,7 @@ def inflection_circle(p: Point, image_p: Point, omega: Real, pole: Ratio) -> Cir
 # --- what it is ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class InflectionPoint(LineToCentre):
+class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
     """A point of the circle, ``found`` on the ray at ``ray.point``, and the perpendicular in it."""
 
     gives: ClassVar[tuple[str, ...]] = ("found", "line")
@@ -144,8 +142,7 @@ class InflectionPoint(LineToCentre):
         return {self.letter: drawing.trace.values[self.found]}
 
 
-@dataclass(frozen=True, kw_only=True)
-class InflectionCircle(Centre):
+class InflectionCircle(Centre, frozen=True, kw_only=True):
     """The circle on the segment from the instantaneous centre to its pole, which is ``found``.
 
     ``ways`` are two points of the circle with their perpendiculars; their rays meet in ``centre``.

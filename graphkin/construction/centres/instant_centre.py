@@ -6,7 +6,6 @@ Of two parallel velocities the line through the tips meets the bar of their poin
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.centres.centre import (
@@ -47,8 +46,7 @@ def instant_centre(o: Point, p: Point, q: Point, image_p: Point, image_q: Point)
 # --- what it is ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class InstantCentre(TwoPointCentre):
+class InstantCentre(TwoPointCentre, frozen=True, kw_only=True):
     """The centre of a link where the normals to the velocities of two points cross (Chasles)."""
 
     key: ClassVar[str] = "instant-centre"

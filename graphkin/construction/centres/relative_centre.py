@@ -7,7 +7,6 @@ start + shift/size, for it may lie at infinity.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.centres.centre import (
@@ -90,8 +89,7 @@ def normals_meet(m: Line, n: Line) -> Ratio:
 # --- what they are -------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class LineOfCentres(LineToCentre):
+class LineOfCentres(LineToCentre, frozen=True, kw_only=True):
     """The line of two centres, by their letters and the steps that hold them."""
 
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.kennedy"}
@@ -113,8 +111,7 @@ class LineOfCentres(LineToCentre):
         return {letter: place for letter, place in places if place is not None}
 
 
-@dataclass(frozen=True, kw_only=True)
-class PairCentre(Centre):
+class PairCentre(Centre, frozen=True, kw_only=True):
     """The centre of ``link`` and the link before it, ``first``."""
 
     first: str
@@ -129,8 +126,7 @@ class PairCentre(Centre):
         return super().fields(drawing) | {"j": escape(self.first)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class PinCentre(PairCentre):
+class PinCentre(PairCentre, frozen=True, kw_only=True):
     """A pin of two links."""
 
     key: ClassVar[str] = "pin-centre"
@@ -140,8 +136,7 @@ class PinCentre(PairCentre):
         canvas.ring(canvas.value(self.found).start)
 
 
-@dataclass(frozen=True, kw_only=True)
-class GuideCentre(PairCentre):
+class GuideCentre(PairCentre, frozen=True, kw_only=True):
     """The centre of a ``block`` and what guides it."""
 
     key: ClassVar[str] = "guide-centre"
@@ -159,8 +154,7 @@ class GuideCentre(PairCentre):
         return super().fields(drawing) | {"g": escape(self.block)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class RelativeCentre(PairCentre):
+class RelativeCentre(PairCentre, frozen=True, kw_only=True):
     """The centre of two links by their velocities; by hand where two lines of centres meet.
 
     ``touching`` links have it where they touch. ``aside``: no line is drawn from its point.

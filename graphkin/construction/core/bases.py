@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.construction.core.program import ContactName
 from graphkin.scene.model import FRAME, Scene
@@ -25,8 +26,7 @@ from graphkin.structure.pairs import Contact, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 
-@dataclass(frozen=True, slots=True)
-class Base:
+class Base(Struct, frozen=True):
     """Two points of a link that its group constructs, and the points that follow from them.
 
     ``end`` may be a point of the link under another's, such as A@3. Without one (None) the

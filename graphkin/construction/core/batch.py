@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, Trace, Values, as_of, evaluate
@@ -16,8 +17,7 @@ BLOCK = 2048
 """Variants run at once: few enough that the values of a step stay in the processor's cache."""
 
 
-@dataclass(frozen=True, slots=True)
-class Ready:
+class Ready(Struct, frozen=True):
     """A program made ready for arrays: values and margins that all variants share, the steps that
     they do not, each with the steps whose values die after it, and the steps to be kept."""
 

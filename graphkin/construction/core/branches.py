@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from graphkin.scene.check import written
 from graphkin.scene.model import Closure, Scene, Side, Way

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Container, Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+
+from msgspec import Struct
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.effect import Effect
@@ -54,8 +55,7 @@ class OwnSizes(Protocol):
         """Distance of two points in metres."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Component(Construction, ABC):
+class Component(Construction, frozen=True, kw_only=True):
     """A component of an acceleration: its ``index`` and its ``vector``, by both ways.
 
     ``vector`` is the stable value; ``read`` reads the same off a triangle on the mechanism, None
@@ -163,8 +163,7 @@ class Component(Construction, ABC):
         return None
 
 
-@dataclass(frozen=True, kw_only=True)
-class TriangleComponent(Component):
+class TriangleComponent(Component, frozen=True, kw_only=True):
     """A component that a triangle on the mechanism gives by hand."""
 
     @abstractmethod
@@ -195,8 +194,7 @@ class TriangleComponent(Component):
         return base if count == 1 else own
 
 
-@dataclass(frozen=True)
-class Measured:
+class Measured(Struct, frozen=True):
     """The values of a sheet, and how long they are drawn."""
 
     drawing: Drawing
@@ -210,8 +208,7 @@ class Measured:
         return abs(way) * (1000 / self.drawing.scales.kL)
 
 
-@dataclass(frozen=True, kw_only=True)
-class LaidOff(Construction):
+class LaidOff(Construction, frozen=True, kw_only=True):
     """A component laid off in the plan from a known point, or back from the tip that it ends in."""
 
     gives: ClassVar[tuple[str, ...]] = ("corner",)

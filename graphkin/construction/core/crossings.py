@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import asin, inf, sin
+
+from msgspec import Struct
 
 from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.program import Part, Plane, Program, Step
@@ -15,8 +16,7 @@ CLOSED = "part"
 """The action that takes a value from what closes a group; its first one is where loci cross."""
 
 
-@dataclass(frozen=True, slots=True)
-class Crossing:
+class Crossing(Struct, frozen=True):
     """A crossing of two lines or arcs: its step, its letter, its part of the work, its angle.
 
     ``angle`` is the one of the two angles that is not obtuse, in radians.

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from graphkin.text.errors import Problem
 
 
-class Determined(Construction):
+class Determined(Construction, frozen=True):
     """A point or a direction that two loci determine.
 
     ``loci`` is what these are called, ``apart`` the words for two that miss each other.

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.curve_extent import shown
@@ -27,8 +28,7 @@ NOISE = 1e-9
 """A quantity this small beside the largest of its kind is rounding and shown as nought."""
 
 
-@dataclass(frozen=True)
-class Drawing:
+class Drawing(Struct, frozen=True, dict=True):
     """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
 
     ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``curves``

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 K = TypeVar("K", bound="Construction")
 
 
-class Construction(Roles):
+class Construction(Roles, frozen=True):
     """One construction: its roles are fields, and beside them stands all that is known of it.
 
     ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,

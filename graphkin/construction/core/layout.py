@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import degrees
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -37,8 +38,7 @@ SWEEP = 7.0
 Spans = Mapping[int, tuple[float, float]]
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(Struct, frozen=True):
     """The two fields, and the part of each line (mm from its anchor) or arc (degrees) drawn."""
 
     mechanism: Field

@@ -6,8 +6,9 @@ A step of the trace says it where there is one; else it follows from the points 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
+
+from msgspec import Struct
 
 from graphkin.construction.core.bodies import Disc, Guideway, Touch
 from graphkin.construction.core.program import ContactName
@@ -25,8 +26,7 @@ APART = 1e-9
 """Points nearer than this, in parts of the largest distance, are the same."""
 
 
-@dataclass(frozen=True)
-class LinkPoses:
+class LinkPoses(Struct, frozen=True, dict=True):
     """The bodies of one scene as a trace has placed them."""
 
     scene: Scene

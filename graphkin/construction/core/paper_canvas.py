@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import degrees, hypot
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.curve_marks import clipped_path, ring
 from graphkin.construction.core.drawn_scene import Drawing
@@ -65,8 +66,7 @@ def raise_points_aside(plot: Plot) -> None:
     plot.board.marks.sort(key=lambda mark: id(mark) in free)
 
 
-@dataclass(frozen=True)
-class PaperCanvas:
+class PaperCanvas(Struct, frozen=True):
     """The marks of one step on a field of a sheet."""
 
     plot: Plot

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any, TypeVar
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.branches import block_of, side_of, way_of

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.layout import BEYOND

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.kind import Construction
@@ -11,8 +10,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
 
 
-@dataclass(frozen=True, kw_only=True)
-class PlanPole(Construction):
+class PlanPole(Construction, frozen=True, kw_only=True):
     """The ``pole`` of a plan, chosen freely: o of the velocities, o′ of the accelerations."""
 
     gives: ClassVar[tuple[str, ...]] = ("pole",)

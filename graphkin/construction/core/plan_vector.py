@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.construction.core.program import Plane, Roles, Step
 
 
-@dataclass(frozen=True)
-class PlanVector(Roles):
+class PlanVector(Roles, frozen=True):
     """A vector under its ``symbol``, of point ``q``, about ``p`` if that is named.
 
     ``sign`` tells the components of an acceleration: ν, τ, c, r; nothing for a whole vector.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
@@ -19,8 +20,7 @@ FOOT = 6.5
 """The same at the foot of a field, which is for notes."""
 
 
-@dataclass(frozen=True)
-class Plot:
+class Plot(Struct, frozen=True):
     """Where steps of one drawing are put down: board, field, and the sheet's material."""
 
     board: FieldContent

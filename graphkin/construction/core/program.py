@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, ClassVar
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.vocabulary import Action
@@ -38,8 +39,7 @@ CONSTANTS: Mapping[str, Any] = {"one": 1.0, "nought": 0.0, "origin": 0j, "ahead"
 """Values that need nothing from the scene; ahead is the direction of the x axis."""
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(Struct, frozen=True):
     """A value that the scene states: quantities, and how they make a number or a point."""
 
     form: str
@@ -66,7 +66,7 @@ class Given:
                 return first.si(values, kind)
 
 
-class Roles:
+class Roles(Struct, frozen=True):
     """The steps of one construction by their roles: a dataclass with a step's number in each.
 
     ``gives`` are the roles of the steps that it draws itself, None in those that it does without;
@@ -93,8 +93,7 @@ class PlanAside:
     tag: str
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(Struct, frozen=True):
     """One step: an action on earlier steps, or a given value, with the words its sentence needs.
 
     ``by_hand`` is the step that gives the same value in the hand's way; ``hand`` marks steps that
@@ -145,8 +144,7 @@ Target = tuple[str, str]
 """What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""
 
 
-@dataclass(frozen=True)
-class Drive(Roles):
+class Drive(Roles, frozen=True):
     """The steps that hold the given position, speed and acceleration of a ``driver`` (a number).
 
     The position is a direction (unit complex) for one that turns, else a length in metres.
@@ -162,8 +160,7 @@ class Drive(Roles):
     angle: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Program:
+class Program(Struct, frozen=True):
     """Steps in drawing order, and which of them carries each quantity.
 
     ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism; ``drives``

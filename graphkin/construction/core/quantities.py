@@ -6,9 +6,10 @@ reports, forms and measurements on paper call it, and in which unit.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.program import Plane, Target
 from graphkin.scene.model import Ask
@@ -36,8 +37,7 @@ class Sort(Enum):
     PLACE = "place"
 
 
-@dataclass(frozen=True, slots=True)
-class MotionQuantity:
+class MotionQuantity(Struct, frozen=True):
     """One quantity: ``target`` is its name in a program, ``attribute`` that in a solution.
 
     ``kind`` is the derivative that it is, or by which a centre is found; ``asked_by`` are the keys

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.drawn_scene import Drawing
@@ -13,8 +13,7 @@ FINE = 6
 """The same of rates put into sums, whose digits may cancel."""
 
 
-@dataclass(frozen=True, slots=True)
-class Relation:
+class Relation(Struct, frozen=True):
     """left = symbols = figures = result unit, remark; ``more`` are further words after ``left``.
 
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends

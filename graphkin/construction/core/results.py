@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.program import Part, is_in_scene
 from graphkin.construction.core.quantities import QUANTITIES, Whose

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.program import Program, Step
 from graphkin.numbers.arithmetic import Kind
@@ -22,8 +23,7 @@ class StepFailed(Exception):  # noqa: N818
         super().__init__(f"step {number} cannot be drawn")
 
 
-@dataclass(frozen=True, slots=True)
-class Trace:
+class Trace(Struct, frozen=True):
     """The value of each step that was run, and the margin of each crossing among them."""
 
     program: Program

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from math import inf, nan
+
+from msgspec import Struct, field
 
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Ratio
@@ -15,8 +16,7 @@ UNKNOWN = complex(nan, nan)
 """What stands for a vector of which no digit is sure; NaN for a number."""
 
 
-@dataclass(frozen=True, slots=True)
-class PointMotion:
+class PointMotion(Struct, frozen=True):
     """Position (m), velocity (m/s) and acceleration (m/s²) of a point; None where not asked."""
 
     position: Point | None = None
@@ -24,8 +24,7 @@ class PointMotion:
     acceleration: Point | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class LinkMotion:
+class LinkMotion(Struct, frozen=True):
     """Angular velocity (rad/s) and acceleration (rad/s²), counter-clockwise positive, and centres.
 
     A centre is a Ratio, so that it may lie at infinity; None where it was not asked for. The
@@ -39,8 +38,7 @@ class LinkMotion:
     inflection_pole: Ratio | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class SlideMotion:
+class SlideMotion(Struct, frozen=True):
     """Coordinate (m), speed and acceleration of a block along its guide, and Coriolis vector."""
 
     position: Real | None = None
@@ -49,8 +47,7 @@ class SlideMotion:
     coriolis: Point | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
+class Solution(Struct, frozen=True):
     """The motion of a mechanism in one position, or of a batch of variants as arrays.
 
     ``margin`` is the smallest sine of crossing among the steps run; ``centres`` are those of two
@@ -64,8 +61,7 @@ class Solution:
     centres: Mapping[str, Ratio] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
+class Curve(Struct, frozen=True):
     """A curve on the mechanism over its motion, in metres, in runs without a break.
 
     ``kind`` is fixed-centrode or moving-centrode, of link ``of``, or trajectory, of point ``of``;
@@ -78,8 +74,7 @@ class Curve:
     now: complex | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Struct, frozen=True):
     """How far the independent route lies from the construction.
 
     ``largest_difference`` is the largest absolute difference over the largest magnitude of that

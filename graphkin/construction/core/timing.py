@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from statistics import quantiles
 from time import perf_counter
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.run import Trace, Values, evaluate
 from graphkin.numbers.arithmetic import FLOAT
@@ -19,8 +20,7 @@ LEAST = 2e-4
 """Seconds that a round lasts at least, so that the clock's own step does not count."""
 
 
-@dataclass(frozen=True, slots=True)
-class Timing:
+class Timing(Struct, frozen=True):
     """Seconds of one run: the median of some rounds, and the quartiles on either side of it."""
 
     median: float

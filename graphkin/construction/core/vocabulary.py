@@ -7,8 +7,9 @@ margin, the sine of the angle of a crossing). Its ``key`` is the key of its sent
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import (
@@ -20,8 +21,7 @@ from graphkin.numbers.plane import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Action:
+class Action(Struct, frozen=True):
     """One thing a hand can do: its sentence's key, its value, and the margin of a crossing."""
 
     key: str

@@ -7,7 +7,6 @@ As the guide turns with its pivot, so does twice the relative velocity: on the p
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import under
@@ -92,8 +91,7 @@ def lay_back(start: Point, vector: Point) -> Point:
 # --- what it is ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class CoriolisComponent(TriangleComponent):
+class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     """a_c = 2·ω × v_r of a ``point`` that slides on a ``guide``, and the triangles that give it.
 
     From ``omega``, the guide's, and ``tail`` and ``tip``, the images of the point under the sliding

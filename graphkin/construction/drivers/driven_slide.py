@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -32,8 +31,7 @@ def driven_slide(start: Point, line: Line, speed: Real, way: int) -> Point:
     return start + line.along * (way * speed / abs(line.along))
 
 
-@dataclass(frozen=True, kw_only=True)
-class DrivenSlide(AlongGuide, LaidOffByRate):
+class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     """The motion of a ``point`` along a guide, laid off from ``start`` to its ``image``.
 
     ``speed`` is its speed or acceleration along the guide, ``told_from`` the step of the point from

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -17,8 +16,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import Driver
 
 
-@dataclass(frozen=True, kw_only=True)
-class SummedRate(Construction):
+class SummedRate(Construction, frozen=True, kw_only=True):
     """The ``rate`` of a ``link`` from that of the one against which a driver turns it.
 
     Of the link against which another is turned the given rate ``own`` is taken away.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.determined import Determined, which_side
@@ -27,8 +26,7 @@ def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
     return line_meets_circle(line, circle, way)
 
 
-@dataclass(frozen=True, kw_only=True)
-class DyadByArcAndGuide(Determined):
+class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     """The ``pin`` called ``name``, in which the ``arc`` about ``centre`` cuts the line ``path``."""
 
     gives: ClassVar[tuple[str, ...]] = ("pin",)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING, ClassVar
 
@@ -35,8 +34,7 @@ def shifted(line: Line, offset: Real) -> Line:
     return Line(line.point + 1j * line.along * (offset / abs(line.along)), line.along)
 
 
-@dataclass(frozen=True, kw_only=True)
-class GuideLine(Construction):
+class GuideLine(Construction, frozen=True, kw_only=True):
     """The ``line`` of the guide of a ``block``, through the point ``start`` if that has a name."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -67,8 +65,7 @@ class GuideLine(Construction):
         return drawing.words("step.guide-named", guide=way_of(drawing, self.block))
 
 
-@dataclass(frozen=True, kw_only=True)
-class GuideAlongBar(GuideLine):
+class GuideAlongBar(GuideLine, frozen=True, kw_only=True):
     """The ``line`` along a bar that stands already."""
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
@@ -76,8 +73,7 @@ class GuideAlongBar(GuideLine):
         return ""
 
 
-@dataclass(frozen=True, kw_only=True)
-class GuideThroughBlock(Construction):
+class GuideThroughBlock(Construction, frozen=True, kw_only=True):
     """The ``line`` of a guide through its ``block``, which is turned to an ``axis`` already."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -102,8 +98,7 @@ class GuideThroughBlock(Construction):
         return words("step.guide-back-found", angle=angle, **fields)
 
 
-@dataclass(frozen=True, kw_only=True)
-class ShiftedGuide(Construction):
+class ShiftedGuide(Construction, frozen=True, kw_only=True):
     """The parallel ``line`` to the line ``guide`` of a ``block``, on which a point moves."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -131,8 +126,7 @@ class ShiftedGuide(Construction):
         return drawing.words("step.shifted", drawn=drawn, way=way)
 
 
-@dataclass(frozen=True, kw_only=True)
-class GuidesMeet(Construction):
+class GuidesMeet(Construction, frozen=True, kw_only=True):
     """The ``point`` called ``name``, where the lines ``one`` and ``other`` of guides meet."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
@@ -36,8 +35,7 @@ def set_back(line: Line, coordinate: Real, here: Point, through: Point, axis: Po
     return zero + axis * (here - through)
 
 
-@dataclass(frozen=True, kw_only=True)
-class SetByCoordinate(Construction):
+class SetByCoordinate(Construction, frozen=True, kw_only=True):
     """The ``point`` of a ``link`` at the coordinate ``where`` of its ``path`` on a link ``on``."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
@@ -80,8 +78,7 @@ class SetByCoordinate(Construction):
         return f"{angle_symbol(drawing.scene, drawing.scene.drivers[drive.driver])} ({amount})"
 
 
-@dataclass(frozen=True, kw_only=True)
-class CarrierSetByCoordinate(SetByCoordinate):
+class CarrierSetByCoordinate(SetByCoordinate, frozen=True, kw_only=True):
     """A ``point`` of the ``link`` that carries a guide, from where the block on it stands."""
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import reduce
+
+from msgspec import Struct, field
 
 from graphkin.construction.core.bodies import Guideway
 from graphkin.construction.core.drawn_scene import Drawing
@@ -43,8 +44,7 @@ ALIKE = 1e-6
 """Lines nearer than this, in parts of the mechanism, are one."""
 
 
-@dataclass
-class Rail:
+class Rail(Struct):
     """A straight line of one link that blocks slide on, with the places of what is on it.
 
     ``marks`` are coordinates of ``blocks`` along the line, in metres from ``zero``; ``slots`` those

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.determined import Determined
@@ -97,8 +96,7 @@ def from_foot(foot: Point, pin: Point, way: int) -> Point:
 # --- what they are -------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class SwungGuide(Determined):
+class SwungGuide(Determined, frozen=True, kw_only=True):
     """A guide of a ``link`` that turns about its ``pivot`` and leads the ``pin`` of a ``block``.
 
     It gives its direction ``turn`` and its ``line``.
@@ -141,8 +139,7 @@ class SwungGuide(Determined):
         return {"p": p, "q": q, "k": escape(self.link), "bar": bar(self.pivot, self.pin)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class GuideThroughPins(SwungGuide):
+class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
     """A guide whose line passes through both pins."""
 
     reasons: ClassVar[Mapping[str, str]] = {"turn": "why.lever"}
@@ -175,8 +172,7 @@ class GuideThroughPins(SwungGuide):
         return f"link {self.link}", f"{self.pin} on {self.pivot}"
 
 
-@dataclass(frozen=True, kw_only=True)
-class TangentGuide(SwungGuide):
+class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     """A guide that keeps the pin at a ``height`` to its left: a tangent of the circle about its
     pivot.
 

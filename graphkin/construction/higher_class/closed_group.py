@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from graphkin.construction.core.given_data import angle_symbol
@@ -25,8 +24,7 @@ if TYPE_CHECKING:
     from graphkin.drawing.labels import FieldContent
 
 
-@dataclass(frozen=True)
-class ClosedGroup(Construction):
+class ClosedGroup(Construction, frozen=True):
     """A group in one closure: the step that closes it, the tried link's place, its dyads' sides.
 
     Its closures are numbered by the angle of the link ``counted``. ``traced`` are the points whose

@@ -7,9 +7,10 @@ arrays of trial positions, brackets every fit and closes in on it. Its derivativ
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.trial import MOST, Trial
@@ -45,7 +46,7 @@ class MergingError(ValueError):
         super().__init__(f"closures {first} and {first + 1} merge, closure {asked} is asked")
 
 
-class Trying(Trial):
+class Trying(Trial, frozen=True, dict=True):
     """A trial, and where it fits."""
 
     def action(self, number: int) -> Action:
@@ -211,8 +212,7 @@ class Trying(Trial):
         return np.where(np.isfinite(sine), sine, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
-class ClosureSolver:
+class ClosureSolver(Struct, frozen=True):
     """What closes a group in the closure of a number, counted from one."""
 
     trying: Trying
@@ -251,8 +251,7 @@ class ClosureSolver:
         return self.trying.closures_of(known).ways()
 
 
-@dataclass(frozen=True, slots=True)
-class Closures:
+class Closures(Struct, frozen=True):
     """All closures of some elements: rows of element, trial value, signs and sine of crossing.
 
     ``whole`` has the rows of what may be closures too (``touching``): the misfit comes there so

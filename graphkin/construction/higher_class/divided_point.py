@@ -6,7 +6,6 @@ Where a line on which a point must lie is known, it cuts the line of that point'
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.acceleration.tangential_direction import tangential_direction
@@ -58,8 +57,7 @@ def line_through(first: Point, second: Point) -> Line:
     return Line(first, second - first)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Divided(Construction):
+class Divided(Construction, frozen=True, kw_only=True):
     """A value of the right plan between those of ``first`` and ``second`` trial, by the share."""
 
     gives: ClassVar[tuple[str, ...]] = ("value",)
@@ -70,8 +68,7 @@ class Divided(Construction):
     value: int
 
 
-@dataclass(frozen=True, kw_only=True)
-class DividedRate(Divided):
+class DividedRate(Divided, frozen=True, kw_only=True):
     """The rate of the tried link itself."""
 
     def rate_relation(self, drawing: Drawing, link: str, tail: tuple[str, str, str]) -> Relation:
@@ -89,8 +86,7 @@ class DividedRate(Divided):
         return Relation(symbol(f"{letter}_{link}"), whole, figures, result, unit, turning)
 
 
-@dataclass(frozen=True)
-class CrossedLine(Construction):
+class CrossedLine(Construction, frozen=True):
     """The line through two trials of a point, and where a line known before them cuts it."""
 
     gives: ClassVar[tuple[str, ...]] = ("line", "crossing")
@@ -117,8 +113,7 @@ class CrossedLine(Construction):
             canvas.chain()
 
 
-@dataclass(frozen=True, kw_only=True)
-class DividedPoint(Divided):
+class DividedPoint(Divided, frozen=True, kw_only=True):
     """The image of a ``point``: where its line is crossed, or divided as another one's is."""
 
     reasons: ClassVar[Mapping[str, str]] = {"value": "why.trials"}

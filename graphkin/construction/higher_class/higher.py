@@ -6,7 +6,8 @@ Once the place of one link is known the others follow as dyads.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.construction.core.bases import Base, bases, ending, trial_base
 from graphkin.construction.core.branches import closure_of, has_two_ways
@@ -158,8 +159,7 @@ def stands(pen: Pen, link: str) -> bool:
     return link == FRAME or pen.has("axis", link)
 
 
-@dataclass(frozen=True, slots=True)
-class Misfit:
+class Misfit(Struct, frozen=True):
     """What must vanish, the point whose locus it is read from, and what must be positive."""
 
     size: int

@@ -8,8 +8,9 @@ both sides, of the same sign none does.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.higher_class.trial_chain import TrialChain, by_secant, middle, proved
 from graphkin.numbers.arithmetic import Kind
@@ -23,8 +24,7 @@ FINE = 2.0**-12
 """Second trial of a secant beside a vertex, in parts of the way to it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Closing:
+class Closing(Struct, frozen=True):
     """One closure: its trial value (rad or m) and the sine of crossing, doubles, or balls where
     balls have found it, and its signs."""
 

@@ -7,7 +7,6 @@ closes the group, or parallel to its guide. Of a driver it is what the plan has 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.component import component_of, index_before, laid_off
@@ -40,8 +39,7 @@ def lacks_across(line: Line, start: Point, image: Point) -> Real:
     return cross(line.along, image - start) / abs(line.along)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Misclosure(Construction):
+class Misclosure(Construction, frozen=True, kw_only=True):
     """The gap of a trial plan: the step of its ``size``, positive to one side.
 
     It is drawn unless a crossing tells how the right plan divides, at the step ``settled``.
@@ -92,8 +90,7 @@ class Misclosure(Construction):
         return self.settled not in drawing.trace.values
 
 
-@dataclass(frozen=True, kw_only=True)
-class BarMisclosure(Misclosure):
+class BarMisclosure(Misclosure, frozen=True, kw_only=True):
     """The gap along a bar between the images of its ends, ``wanted`` its normal component."""
 
     p: int
@@ -125,8 +122,7 @@ class BarMisclosure(Misclosure):
             self.draw_gap(canvas, foot, foot + wanted, tip, across)
 
 
-@dataclass(frozen=True, kw_only=True)
-class GuideMisclosure(Misclosure):
+class GuideMisclosure(Misclosure, frozen=True, kw_only=True):
     """The gap across the guide of a ``block``, of the image of its point from what is known."""
 
     block: str
@@ -155,8 +151,7 @@ class GuideMisclosure(Misclosure):
             self.draw_gap(canvas, start, start, tip, 1j * guide.along / abs(guide.along))
 
 
-@dataclass(frozen=True, kw_only=True)
-class DrivenMisclosure(Misclosure):
+class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
     """What a plan has too much of a driver's given rate: the step that has it, ``found``.
 
     Of a sliding driver ``start`` and ``tip`` are the images between which it is measured.

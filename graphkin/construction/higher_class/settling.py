@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.program import Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, run

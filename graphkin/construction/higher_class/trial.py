@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_moving
 from graphkin.construction.core.program import Program
@@ -23,8 +24,7 @@ FAR = 1.565
 """Angle whose tangent is how far along a guide a link is tried, in parts of what bars reach."""
 
 
-@dataclass(frozen=True)
-class Trial:
+class Trial(Struct, frozen=True, dict=True):
     """The program of a trial: its inputs, the tried value, the signs of its dyads, the misfit.
 
     ``inputs`` are overridden by what is known, ``tried`` by a unit vector (``turns``) or a

@@ -6,9 +6,10 @@ A line through points that fall together, or a figure without size, is not drawn
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.amounts import in_mm
@@ -32,8 +33,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
 
 
-@dataclass(frozen=True, eq=False)
-class TrialPlan(AuxiliaryPlan):
+class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it."""
 
     tag: str

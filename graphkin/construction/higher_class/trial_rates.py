@@ -7,10 +7,11 @@ On paper those serve best whose plans fit beside the right one and whose points 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import product
 from math import floor, log10
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Program
@@ -35,8 +36,7 @@ Box = tuple[float, float, float, float]
 """Left, bottom, right and top of the upright box around some points and the pole."""
 
 
-@dataclass(frozen=True, slots=True)
-class Spread:
+class Spread(Struct, frozen=True):
     """The points of a plan by the rate that is tried: ``start`` at nought, ``way`` for each unit.
 
     ``rate`` is the right one, ``whole`` how far the right plan reaches from its pole.

@@ -6,8 +6,10 @@ What a trial misses grows in proportion to what was tried (method of two plans, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from typing import ClassVar
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.acceleration import acceleration as accelerations
 from graphkin.construction.core.amounts import OnPaper
@@ -68,8 +70,7 @@ GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
 """What two trial plans miss."""
 
 
-@dataclass(frozen=True)
-class TwoTrials(Construction):
+class TwoTrials(Construction, frozen=True):
     """The share of the way from the first trial plan to the second at which nothing is missed.
 
     ``gaps`` are what the ``plans`` miss. Where a crossing finds a point, the share is ``measured``
@@ -237,8 +238,7 @@ def acceleration(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> Non
     two_trials(pen, shapes, group, each, ACCELERATION)
 
 
-@dataclass(frozen=True, slots=True)
-class TrialQuantity:
+class TrialQuantity(Struct, frozen=True):
     """What differs between the two plans."""
 
     quantity: str

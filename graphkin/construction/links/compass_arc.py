@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.kind import Construction
@@ -25,8 +24,7 @@ def compass(centre: Point, radius: Real) -> Circle:
     return Circle(centre, radius)
 
 
-@dataclass(frozen=True, kw_only=True)
-class CompassArc(Construction):
+class CompassArc(Construction, frozen=True, kw_only=True):
     """The ``arc`` of a ``radius`` about the point ``centre``, on which a ``point`` lies."""
 
     gives: ClassVar[tuple[str, ...]] = ("arc",)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.construction.core.kind import Construction
@@ -27,8 +26,7 @@ def counted_near(axis: Point, heading: Point, angle: Real) -> Real:
     return angle + pick(below(since, ROUND - 2 * quarter), since + 4 * quarter, since)
 
 
-@dataclass(frozen=True, kw_only=True)
-class CountedTurn(Construction):
+class CountedTurn(Construction, frozen=True, kw_only=True):
     """The ``turn`` of a ``link`` whose pins leave whole turns open, within half a turn of an angle.
 
     Two steps hold that angle: its ``heading`` and its ``radians``.

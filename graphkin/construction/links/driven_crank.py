@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING, ClassVar
 
@@ -47,8 +46,7 @@ def arm_by_axis(pivot: Point, direction: Point, base: Point, tip: Point) -> Poin
     return pivot + direction * (tip - base)
 
 
-@dataclass(frozen=True, kw_only=True)
-class DrivenCrank(Construction):
+class DrivenCrank(Construction, frozen=True, kw_only=True):
     """A bar of a driven ``link`` from its ``pivot``: laid off to its ``tip``, called ``name``, on
     the ``line`` at the driver's angle."""
 
@@ -102,8 +100,7 @@ class DrivenCrank(Construction):
         return drawing.words("step.mark-off", p=p, q=name, name=name)
 
 
-@dataclass(frozen=True, kw_only=True)
-class TurnedLink(Construction):
+class TurnedLink(Construction, frozen=True, kw_only=True):
     """The ``tip``, called ``name``, of a ``link`` that is turned about its ``pivot`` as ``turn``
     says."""
 

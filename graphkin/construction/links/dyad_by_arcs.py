@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.determined import Determined, which_side
@@ -29,8 +28,7 @@ def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
     return circle_meets_circle(m, n, side)
 
 
-@dataclass(frozen=True, kw_only=True)
-class DyadByArcs(Determined):
+class DyadByArcs(Determined, frozen=True, kw_only=True):
     """The ``pin`` called ``name``, in which the arcs ``near`` about ``left`` and ``far`` about
     ``right`` meet."""
 

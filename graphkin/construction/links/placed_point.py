@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from cmath import phase
-from dataclasses import dataclass
 from math import degrees
 from typing import ClassVar
 
@@ -19,8 +18,7 @@ UNTURNED = 0.05
 """A wheel that has turned by less, in degrees, is drawn as at the start."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class PlacedPoint(Construction):
+class PlacedPoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a ``link``, laid off from its point ``start`` as the link has turned."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.kind import Construction
@@ -33,8 +34,7 @@ IN_LINE = 1e-9
 # --- what they are -------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class PlatePoint(Construction):
+class PlatePoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a link, called ``name``, on its base from ``start`` to ``end``.
 
     Its value is that of the figure similar to the link; by hand it is the ``corner``.
@@ -76,8 +76,7 @@ class PlatePoint(Construction):
         return ""
 
 
-@dataclass(frozen=True, kw_only=True)
-class PlatePointByArcs(PlatePoint):
+class PlatePointByArcs(PlatePoint, frozen=True, kw_only=True):
     """A point of a plate in which the arcs ``near`` and ``far`` about the ends of its base meet."""
 
     near: int
@@ -94,8 +93,7 @@ class PlatePointByArcs(PlatePoint):
         return drawing.words("step.arcs-meet.say", name=symbol(self.name), side=side)
 
 
-@dataclass(frozen=True, kw_only=True)
-class PointInLine(PlatePoint):
+class PointInLine(PlatePoint, frozen=True, kw_only=True):
     """A point on the line of its base, laid off from its start by a ``length``."""
 
     length: int
@@ -116,8 +114,7 @@ class PointInLine(PlatePoint):
         return drawing.words("step.step-along-beyond", start=p if share < 0 else q, **fields)
 
 
-@dataclass(frozen=True, kw_only=True)
-class PointOnLever(Construction):
+class PointOnLever(Construction, frozen=True, kw_only=True):
     """A ``point`` called ``name``, laid off from the pivot ``start`` on the line of a lever."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)

@@ -11,7 +11,6 @@ Source: F. Klein's construction, as in Theory of Machines by R. S. Khurmi and J.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -91,8 +90,7 @@ def klein_by_hand(pin: Point, foot: Point, omega: Real) -> Point:
 # --- what it is ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class KleinComponent(NormalComponent):
+class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     """a_ν = v²/l of the slider's pin ``q`` about the crank pin ``p``, by the common chord.
 
     The perpendicular ``across`` the guide at the ``centre`` of the crank cuts the ``line`` of the

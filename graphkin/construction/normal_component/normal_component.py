@@ -8,7 +8,6 @@ what the perpendicular cuts off (lab, figure 4).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from string import digits
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -90,8 +89,7 @@ def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
 # --- what it is ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class NormalComponent(TriangleComponent):
+class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     """a_ν = v²/l of a point ``q`` about ``p``, and the right triangle that gives it.
 
     From the places and images of both. The velocity set at the pin ends in ``tip``; there stands

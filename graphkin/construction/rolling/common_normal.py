@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -17,8 +16,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
 
-@dataclass(frozen=True, kw_only=True)
-class CommonNormal(Construction):
+class CommonNormal(Construction, frozen=True, kw_only=True):
     """The ``line`` through the image ``start`` of one point of contact, for that of the other.
 
     It is parallel to the radius from ``p`` to ``q``.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.kind import Construction, construction
@@ -73,8 +72,7 @@ def between_tracks(
 # --- what they are -------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Track(Construction):
+class Track(Construction, frozen=True, kw_only=True):
     """The ``line`` of a straight track, on which a ``wheel`` rolls as ``rolling`` says."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -102,8 +100,7 @@ class Track(Construction):
         return drawing.words("step.track-of", line=line, **names)
 
 
-@dataclass(frozen=True, kw_only=True)
-class CentrePath(Construction):
+class CentrePath(Construction, frozen=True, kw_only=True):
     """The ``line`` on which the centre of a ``wheel`` moves, beside its straight ``track``."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -127,8 +124,7 @@ class CentrePath(Construction):
         return drawing.words("step.radius-along", k=escape(self.wheel))
 
 
-@dataclass(frozen=True, kw_only=True)
-class PointOfContact(Construction):
+class PointOfContact(Construction, frozen=True, kw_only=True):
     """The ``point``, called ``name``, in which a ``wheel`` touches what it rolls ``on``.
 
     ``found_from`` are the steps of the values that give it.
@@ -150,8 +146,7 @@ class PointOfContact(Construction):
         return {"name": symbol(self.name), "t": own, **both}
 
 
-@dataclass(frozen=True, kw_only=True)
-class ContactOnTrack(PointOfContact):
+class ContactOnTrack(PointOfContact, frozen=True, kw_only=True):
     """The foot of the perpendicular from the wheel's centre to its straight track."""
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
@@ -167,8 +162,7 @@ class ContactOnTrack(PointOfContact):
         return drawing.words(f"step.{key}", **self.symbols())
 
 
-@dataclass(frozen=True, kw_only=True)
-class ContactOfWheels(PointOfContact):
+class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):
     """On the line of the centres, at the radius of one wheel from its centre."""
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
@@ -186,8 +180,7 @@ class ContactOfWheels(PointOfContact):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class RackPoint(Construction):
+class RackPoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a ``rack``, from the wheel that has rolled a ``way`` along it."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
@@ -207,8 +200,7 @@ class RackPoint(Construction):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class RollerCentre(Construction):
+class RollerCentre(Construction, frozen=True, kw_only=True):
     """The ``centre`` of a roller between two tracks, on its ``path`` along the first of them.
 
     ``where`` is its coordinate there, from how much farther the one track has the roller turned at

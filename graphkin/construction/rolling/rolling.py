@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from graphkin.construction.core.bases import contact_name, no_construction, under
 from graphkin.construction.core.pen import Pen, letter
@@ -157,8 +158,7 @@ def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
                 wheel_on_wheel(pen, shapes, group)
 
 
-@dataclass(frozen=True, slots=True)
-class ContactSide:
+class ContactSide(Struct, frozen=True):
     """A contact seen from one of its wheels: the other link, both wheels and both radii."""
 
     other: str

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.amounts import in_mm
@@ -37,8 +36,7 @@ def rolling_normal(centre: Point, contact: Point, omega: Real, omega_track: Real
     return (centre - contact) * (relative * relative)
 
 
-@dataclass(frozen=True, kw_only=True)
-class RollingNormal(Component):
+class RollingNormal(Component, frozen=True, kw_only=True):
     """a_ν = ω²·r of a point of contact against the one that it rolls on, laid off by number.
 
     It leads along the radius from the point ``p`` to ``q``, whose places are ``foot`` and ``head``;

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from graphkin.construction.core.kind import Construction
@@ -14,8 +13,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
 
-@dataclass(frozen=True, kw_only=True)
-class AboutPivot(Construction):
+class AboutPivot(Construction, frozen=True, kw_only=True):
     """What follows from the motion of a point ``q`` about ``p``, both lettered as in a bar.
 
     ``index`` is that of the relative vectors, ``whole`` and ``base`` those of both points' own.

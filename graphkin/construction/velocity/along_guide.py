@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from graphkin.construction.core.component import index_before, laid_off
@@ -15,8 +14,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
 
-@dataclass(frozen=True, kw_only=True)
-class AlongGuide(Construction):
+class AlongGuide(Construction, frozen=True, kw_only=True):
     """What follows from the motion of a point along the guide of a block, or a wheel's track.
 
     ``start`` is the end of what is known of that motion.

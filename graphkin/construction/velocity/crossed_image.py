@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -16,8 +15,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
 
-@dataclass(frozen=True, kw_only=True)
-class CrossedImage(Construction):
+class CrossedImage(Construction, frozen=True, kw_only=True):
     """The ``image`` of a ``point`` where its lines ``first`` and ``second`` meet.
 
     Without a ``point`` it only shows by hand what similarity finds.

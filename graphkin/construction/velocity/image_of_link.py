@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, ClassVar
 
@@ -20,8 +19,7 @@ IN_LINE = 1e-9
 """How far beside its line, in parts of its distance, a point still counts as on it."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class ImageOfLink(Construction):
+class ImageOfLink(Construction, frozen=True, kw_only=True):
     """The ``image`` of a point ``r`` of a link, of which those of ``p`` and ``q`` are known.
 
     ``first`` and ``second`` are their images, ``ratio`` says how r lies to p and q, and ``hand`` is

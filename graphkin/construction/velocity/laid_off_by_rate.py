@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from abc import abstractmethod
 
 from graphkin.construction.core.amounts import in_mm
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
@@ -16,7 +15,7 @@ from graphkin.construction.velocity.about_pivot import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 
 
-class LaidOffByRate(Construction, ABC):
+class LaidOffByRate(Construction, frozen=True):
     """A vector that a rate gives, or two that follow from both rates of one link."""
 
     @abstractmethod
@@ -28,8 +27,7 @@ class LaidOffByRate(Construction, ABC):
         """What a sentence about the vector that ends in a role speaks of."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class LaidOffAboutPivot(AboutPivot, LaidOffByRate):
+class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
     """Vectors of a pin about a pivot by the rates of their ``link``."""
 
     link: str

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -29,8 +28,7 @@ def parallel_to(start: Point, line: Line) -> Line:
     return Line(start, line.along)
 
 
-@dataclass(frozen=True, kw_only=True)
-class ParallelThrough(AlongGuide):
+class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
     """The ``line`` on which the image of a point that slides on a guide must lie."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -26,8 +25,7 @@ def square_to(start: Point, p: Point, q: Point) -> Line:
     return Line(start, 1j * (q - p))
 
 
-@dataclass(frozen=True, kw_only=True)
-class PerpendicularThrough(AboutPivot):
+class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     """The ``line`` through the image ``start`` of a pivot on which that of a pin must lie.
 
     Where the pivot is a point of contact, ``contact`` is the name of its image.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -24,8 +23,7 @@ def alike(image: Point) -> Point:
     return image
 
 
-@dataclass(frozen=True, kw_only=True)
-class TranslatedImage(Construction):
+class TranslatedImage(Construction, frozen=True, kw_only=True):
     """The ``image`` of a point ``q``, on the image ``start`` of ``p``, for it moves as that."""
 
     gives: ClassVar[tuple[str, ...]] = ("image",)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -28,8 +27,7 @@ def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Poin
     return start + 1j * (pin - pivot) * omega
 
 
-@dataclass(frozen=True, kw_only=True)
-class TurnedVelocity(LaidOffAboutPivot):
+class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
     """ω·l laid off in the velocity plan from the image ``start`` of a pivot to that of a pin.
 
     ``omega`` is how fast the ``link`` of both turns.

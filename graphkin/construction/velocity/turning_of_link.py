@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -35,8 +34,7 @@ ACTIONS = {"omega": omega, "epsilon": epsilon}
 """How each rate follows from the bar and its image."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class TurningOfLink(Construction):
+class TurningOfLink(Construction, frozen=True, kw_only=True):
     """The ``rate`` of a link from the relative motion of ``q`` about ``p``, read off a plan.
 
     ``quantity`` is omega or epsilon, ``places`` and ``images`` are the steps of both points.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields, replace
+from dataclasses import fields
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import QUANTITIES, held
 from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.construction.core.quantities import (
     KINDS,
@@ -66,8 +66,7 @@ class Difference(NamedTuple):
 Differences = Mapping[str, Difference]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Magnitudes:
+class Magnitudes(Struct, frozen=True, eq=False):
     """Largest magnitude of each kind of quantity in the scene that is sure, shape (N,)."""
 
     length: Reals

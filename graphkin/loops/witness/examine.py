@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.loops.assemble import completed
@@ -52,8 +52,7 @@ def compare(scene: Scene, solution: Solution, values: Mapping[str, Any] | None =
     )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Examined:
+class Examined(Struct, frozen=True, eq=False):
     """Both routes side by side: differences and branch conditions by name, each of shape (N,)."""
 
     solved: LoopSolution

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from math import nan
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.loops.equations import equations

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.motion.cycle import Cycle
 from graphkin.scene.model import FRAME, Link, Scene, Slide
@@ -31,8 +32,7 @@ FLAT = 1e-3
 """Height of a triangle, in its longest side, below which a plate is drawn as a bar."""
 
 
-@dataclass(frozen=True, slots=True)
-class Outline:
+class Outline(Struct, frozen=True):
     """Where every point stands as the scene has it, in the unit of the picture, and at which row.
 
     ``factor`` turns metres into that unit; ``drawn`` tells whether the scene itself can be drawn:

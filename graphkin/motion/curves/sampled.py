@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
+from msgspec import Struct
 
 from graphkin.construction.core.solution import Solution
 from graphkin.motion.cycle import Cycle
@@ -20,8 +19,7 @@ END = 3e-4
 """Share of a piece that is left out at an end where rates grow without bound."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Sampled:
+class Sampled(Struct, frozen=True, eq=False):
     """The motion at close places u, in rising order within each range.
 
     ``breaks`` are the numbers of rows before which a new range begins.
