@@ -151,7 +151,7 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 key = ROLLS[rolling.on == FRAME, toothed]
                 yield words(key, other=escape(rolling.on), start=start, **fields)
             else:
-                fields["side"] = words("page.beneath") if rolling.side < 0 else ""
+                fields["side"] = words("page.beneath" if rolling.side < 0 else "page.upon")
                 fields["start"] = start_on_track(drawing, link, rolling)
                 fields["positive"] = positive_track(drawing, link, rolling)
                 key = "page.rack" if any(w.teeth for w in link.wheels) else "page.rolls"

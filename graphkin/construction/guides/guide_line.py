@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.line_words import heading
+from graphkin.construction.core.naming import drawn_amount, way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.vocabulary import action, along_bar, meet, ray
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.numbers.plane import Line
+from graphkin.numbers.plane import Line, dot
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -116,8 +117,13 @@ class ShiftedGuide(Construction, frozen=True, kw_only=True):
         return (self.guide,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """By the offset."""
-        return drawing.words("step.shifted")
+        """By the offset as it is drawn, and to which side."""
+        guide, line = (drawing.trace.values[number] for number in (self.guide, self.line))
+        across = 1j * guide.along / abs(guide.along)
+        offset = float(dot(across, line.point - guide.point))
+        way = drawing.words(f"page.to_{heading(across * (-1 if offset < 0 else 1))}")
+        drawn = drawn_amount(drawing, abs(offset))
+        return drawing.words("step.shifted", drawn=drawn, way=way)
 
 
 class GuidesMeet(Construction, frozen=True, kw_only=True):

@@ -49,11 +49,17 @@ class CompassArc(Construction, frozen=True, kw_only=True):
         canvas.arc(self.centre + self.point)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """By the bar; the scene states its length, or it is told as it is drawn."""
-        opening = bar(self.centre, self.point)
-        if drawing.trace.program.steps[self.radius].given is None:
-            opening += f" ({drawn_amount(drawing, float(drawing.trace.values[self.radius]))})"
+        """By the bar."""
+        opening = stated_bar(drawing, (self.centre, self.point), self.radius)
         return drawing.words("step.compass", p=symbol(self.centre), bar=opening)
+
+
+def stated_bar(drawing: Drawing, ends: tuple[str, str], length: int) -> str:
+    """A bar whose ``length`` the scene states; where it does not, with that on paper, in mm."""
+    name = bar(*ends)
+    if drawing.trace.program.steps[length].given is None:
+        name += f" ({drawn_amount(drawing, float(drawing.trace.values[length]))})"
+    return name
 
 
 def draw_arc(pen: Pen, ends: tuple[str, str], centre: int, radius: int) -> int:

@@ -14,7 +14,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guides import axis
-from graphkin.construction.links.compass_arc import draw_arc
+from graphkin.construction.links.compass_arc import draw_arc, stated_bar
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, side_words
 from graphkin.construction.links.link_shapes import LinkShapes, step_along
@@ -94,7 +94,9 @@ class PlatePointByArcs(PlatePoint, frozen=True, kw_only=True):
 
 
 class PointInLine(PlatePoint, frozen=True, kw_only=True):
-    """A point on the line of its base, laid off from its start."""
+    """A point on the line of its base, laid off from its start by a ``length``."""
+
+    length: int
 
     def laid_length(self, role: str) -> tuple[str, str] | None:
         """From the start of the base."""
@@ -103,7 +105,8 @@ class PointInLine(PlatePoint, frozen=True, kw_only=True):
     def by_hand(self, drawing: Drawing) -> str:
         """By its distance; beyond one of the ends on the bar produced."""
         p, q, name = map(symbol, self.points)
-        fields = {"bar": bar(self.start, self.end), "p": p, "r": name, "name": name}
+        laid = stated_bar(drawing, (self.start, self.name), self.length)
+        fields = {"bar": bar(self.start, self.end), "laid": laid, "name": name}
         places = map(drawing.standing.spot, self.points)
         share = share_of(*places)
         if 0 <= share <= 1:
@@ -199,7 +202,9 @@ def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
         with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
             sense = 1 if value.real > 0 else -1
             corner = pen.draw(step_along, ends[0], *ends, length, extra=(sense,))
-        return similar_on(pen, PointInLine(**own, point=0, corner=corner), *ends, ratio)
+        return similar_on(
+            pen, PointInLine(**own, point=0, corner=corner, length=length), *ends, ratio
+        )
     with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
         near = arc(pen, shapes, base.link, base.start, name)
         far = arc(pen, shapes, base.link, base.end, name)

@@ -1,0 +1,107 @@
+"""The words and marks of a printed sheet, read from its SVG file alone."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+NAME = r"[A-Za-z][′″‴]*(?:_\{[^}]*\})?(?:\^\{IV\})?"
+"""The name of a point as it is printed."""
+NUMBER = r"−?\d+(?:\.\d+)?"
+MARKED, ENLARGED = {"pin", "point", "pole", "centre"}, {"inset", "detail"}
+"""The kinds of circles that mark a point, and those of them that stand in a lens."""
+
+
+@dataclass
+class Printed:
+    """The words and marks of one sheet."""
+
+    lines: list[str]
+    marks: dict[str, complex]
+
+    @property
+    def sentences(self) -> list[str]:
+        """The numbered sentences of the construction, each in one line."""
+        found: list[str] = []
+        open_at = -1
+        for line in self.lines:
+            if re.fullmatch(r"\d+\.", line):
+                found.append("")
+                open_at = int(line[:-1])
+            elif line.startswith(("Checked by", "Flattest")):
+                open_at = -1
+            elif open_at > 0:
+                found[-1] = f"{found[-1]} {line}".strip()
+        return found
+
+    @property
+    def data(self) -> str:
+        """The given data, in one line."""
+        start = next(n for n, line in enumerate(self.lines) if line.startswith("Given:"))
+        stop = next(n for n, line in enumerate(self.lines) if line.startswith("Mechanism, scale"))
+        return " ".join(self.lines[start:stop]).removeprefix("Given:").strip()
+
+    @property
+    def scale(self) -> float:
+        """The millimetres of the mechanism that one of paper stands for."""
+        line = next(line for line in self.lines if line.startswith("Mechanism, scale"))
+        drawn, real = re.findall(r"[\d.]+", line)[:2]
+        return float(real) / float(drawn)
+
+    @property
+    def links(self) -> dict[str, str]:
+        """What the links are by their numbers, as a task lists them."""
+        line = next((line for line in self.lines if line.startswith("Links: ")), "Links: ")
+        return dict(re.findall(r"(\d+) = ([^,]+)", line))
+
+
+def printed(path: Path) -> Printed:
+    """The words and marks of an SVG file: indices as ``_{…}``, exponents as ``^{…}``."""
+    lines, marks = [], {}
+    for item in ElementTree.parse(path).iter():
+        kind = set((item.get("class") or "").split())
+        name = item.get("data-name")
+        if item.tag.endswith("}text") and kind == {"caption"}:
+            lines.append(marked_up(item))
+        elif item.tag.endswith("}circle") and name and kind & MARKED and not kind & ENLARGED:
+            marks[name] = complex(float(item.get("cx", 0)), -float(item.get("cy", 0)))
+    return Printed(lines, marks)
+
+
+def marked_up(item: ElementTree.Element) -> str:
+    """The words of one text, what stands below or above its line in braces."""
+    spans = list(item) or [item]
+    size = max(float(span.get("font-size", 0)) for span in spans)
+    line = next(float(s.get("y", 0)) for s in spans if float(s.get("font-size", 0)) == size)
+    words = ""
+    for span in spans:
+        text, below = span.text or "", float(span.get("y", 0)) - line
+        if abs(below) < 0.05:
+            words += text
+        else:
+            bare = text.rstrip(" ")
+            words += ("_{" if below > 0 else "^{") + bare + "}" + text[len(bare) :]
+    return words.replace("\xa0", " ")
+
+
+def canonical(name: str) -> str:
+    """The name of a mark: O_{1} is O1, a′_{3} is a′_3, b_{BA}^{IV} is b⁗_BA."""
+    match = re.fullmatch(r"([A-Za-z])([′″‴]*)_?\{?([^}^]*)\}?(\^\{IV\})?", name)
+    assert match, name
+    letter, primes, index, fourth = match.groups()
+    index = index if letter.isupper() else f"_{index}" if index else ""
+    return letter + ("⁗" if fourth else primes) + index
+
+
+def bare(name: str) -> str:
+    """A name without the signs that set its parts apart: t1′_2 and t′_12 are one."""
+    letter, rest = name[0], name[1:].replace("_", "").replace(",", "")
+    primes = "".join(sign for sign in rest if sign in "′″‴⁗")
+    index = "".join(sign for sign in rest if sign not in "′″‴⁗")
+    return letter + primes + index
+
+
+def number(text: str) -> float:
+    return float(text.replace("−", "-"))

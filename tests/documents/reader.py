@@ -1,0 +1,947 @@
+"""A reader with ruler and compass: follows the printed sentences, in millimetres of paper.
+
+It knows what a student knows: the words printed on the sheets (sentences, given data, scale, list
+of links) and the fixed pins and poles drawn on the task sheet. It shares no code with graphkin: the
+pages are read from their SVG files (``printed_sheet``), the geometry is ``ruler_and_compass``. What
+it reaches is compared with the marks of the key by ``deviations``.
+
+A sentence that does not carry enough raises ``DefectError``: a length that is nowhere given, a
+point without a place, two crossings on the side that is named, words that no rule knows.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+
+from tests.documents.printed_sheet import NAME, NUMBER, Printed, bare, canonical, number, printed
+from tests.documents.ruler_and_compass import (
+    APART,
+    Circle,
+    DefectError,
+    Line,
+    cross,
+    crossings,
+    dot,
+)
+
+VECTOR = r"[av]_\{[^}]*\}(?:\^\{[^}]*\})?"
+TURNING = r"[ωε]_\{[^}]*\}"
+MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
+
+
+# -- the rules ------------------------------------------------------------------------------------
+
+Rule = Callable[..., None]
+RULES: list[tuple[re.Pattern[str], Rule]] = []
+KINDS = {
+    "point": NAME,
+    "number": NUMBER,
+    "vector": VECTOR,
+    "turning": rf"{TURNING}(?: = (?:[^,;:]*? rad/s(?:\^\{{2\}})?|{VECTOR}/{NAME}{NAME}))?",
+}
+
+
+def pattern(words: str) -> re.Pattern[str]:
+    """A regular expression from words with ⟨places⟩: names of points unless a kind is told."""
+
+    def place(match: re.Match[str]) -> str:
+        name, _, kind = match[1].partition(":")
+        return f"(?P<{name}>{KINDS[kind or 'point']})"
+
+    return re.compile(re.sub(r"⟨([\w:]+)⟩", place, words))
+
+
+def says(*forms: str) -> Callable[[Rule], Rule]:
+    """Marks a method as what these words ask a hand to do."""
+
+    def kept(rule: Rule) -> Rule:
+        RULES.extend((pattern(form), rule) for form in forms)
+        return rule
+
+    return kept
+
+
+SIDES = {
+    "to the right of": 1,
+    "to the left of": -1,
+    "above": 1j,
+    "below": -1j,
+}
+WAYS = {"to the right": 1, "to the left": -1, "upwards": 1j, "downwards": -1j}
+GLOSS = re.compile(r" ?\(an index behind the point’s own names a link: [^)]*\)")
+POLE_GLOSS = re.compile(rf" ?\(({NAME}) is the image of ({NAME}), for ({NAME}) is the pole\)")
+
+
+@dataclass
+class Reader:
+    """One who draws a scene from its two sheets: the places reached, by their names."""
+
+    data: str
+    scale: float
+    links: dict[str, str]
+    place: dict[str, complex]
+    velocity: dict[str, complex] = field(default_factory=dict)
+    """The points of the velocity plan, while the accelerations are drawn."""
+    loci: list[Line | Circle] = field(default_factory=list)
+    ray: Line | None = None
+    end: complex | None = None
+    tail: complex | None = None
+    offset: complex = 0j
+    """By how much the sentence shifts a guide that it draws when it is cut."""
+    senses: dict[str, int] = field(default_factory=dict)
+    """Senses of what turns, as sentences have told them by a velocity over a length."""
+    coriolis_before: tuple[str, str, str] | None = None
+    """The centre, the line and the turning of the Coriolis triangle drawn last."""
+    lengths: dict[str, float] = field(default_factory=dict)
+    """Lengths of components found at the mechanism, by their symbols."""
+    vectors: dict[str, complex] = field(default_factory=dict)
+    glossed: bool = False
+    """Whether the page has said that an index behind a point's own names a link."""
+    image_of: dict[str, str] = field(default_factory=dict)
+    """Names of images that the page tells because they are not the small letter."""
+    frame: dict[str, complex] = field(default_factory=dict)
+    """The fixed points of the data, in mm of the mechanism."""
+
+    def __post_init__(self) -> None:
+        self.items = re.split(r"; (?![^(]*\))", self.data)
+        for item in self.items:
+            if match := re.fullmatch(rf"({NAME}) \(({NUMBER}); ({NUMBER})\) (mm|cm|m)", item):
+                unit = MILLIMETRES[match[4]]
+                where = complex(number(match[2]), number(match[3])) * unit
+                self.frame[canonical(match[1])] = where
+        anchor = next((name for name in self.frame if name in self.place), None)
+        if anchor:
+            self.origin = self.place[anchor] - self.frame[anchor] / self.scale
+            for name, where in self.frame.items():
+                self.place.setdefault(name, self.origin + where / self.scale)
+
+    # what is looked up
+
+    def at(self, name: str) -> complex:
+        """The place of a point, as the page names it."""
+        name = canonical(name)
+        if self.glossed and name not in self.place and name[0].isupper():
+            name = next((n for n in (name[:-1], name[0]) if n in self.place), name)
+        if name not in self.place:
+            raise DefectError(f"{name} has no place yet")
+        return self.place[name]
+
+    def given(self, symbol: str) -> str:
+        """What the data say of a symbol, without its unit of chained equals."""
+        for item in self.items:
+            parts = item.split(" = ")
+            if symbol in parts[:-1]:
+                return [part for part in parts if re.match(NUMBER, part)][-1]
+        raise DefectError(f"{symbol} is not given")
+
+    def length(self, p: str, q: str) -> float:
+        """A length of the mechanism on paper: given, or measured where it is drawn."""
+        for symbol in (p + q, q + p):
+            try:
+                value, unit = re.match(rf"({NUMBER}) (mm|cm|m)\b", self.given(symbol)).groups()  # type: ignore[union-attr]
+            except DefectError:
+                continue
+            return number(value) * MILLIMETRES[unit] / self.scale
+        for item in self.items:
+            own = dict(re.findall(rf"({NAME}) \(({NUMBER}; {NUMBER})\)", item))
+            if "in the axes of link" in item and p in own and q in own:
+                unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
+                ends = (complex(*map(number, own[end].split("; "))) for end in (p, q))
+                one, two = ends
+                return abs(two - one) * unit / self.scale
+        return abs(self.at(q) - self.at(p))
+
+    def angle(self, text: str) -> float:
+        """An angle in radians: a number of degrees, or a symbol of the data."""
+        if not re.match(NUMBER, text):
+            text = self.given(text)
+        if not text.endswith("°"):
+            raise DefectError(f"the angle {text} has no degrees")
+        return math.radians(number(text[:-1]))
+
+    def sense(self, turning: str) -> int:
+        """The sense of ω or ε: given with the data, or seen in the velocity plan."""
+        name = turning.partition(" = ")[0]
+        if quotient := re.search(rf" = ({VECTOR})/", turning):
+            q, p = re.findall(r"[A-Z]\d*", quotient[1][3:-1])
+            turned = cross(self.at(q) - self.at(p), self.set_off(quotient[1]))
+            self.senses[name] = 1 if turned > 0 else -1
+        if name in self.senses:
+            return self.senses[name]
+        if " = " in turning:
+            told = re.findall(NUMBER, turning.rpartition(" = ")[2])
+            if told:
+                return 1 if number(told[0]) > 0 else -1
+            turning = turning.rpartition(" = ")[2]
+        index = turning[3:-1]
+        symbols = (turning, f"n_{{{index}}}") if turning[0] == "ω" else (turning,)
+        for item in self.items:
+            if item.split(" = ")[0] in symbols:
+                if not (way := re.search(r"turning (counter-)?clockwise", item)):
+                    raise DefectError(f"{turning} is given without its sense")
+                return 1 if way[1] else -1
+        if turning[0] == "ε":
+            raise DefectError(f"the sense of {turning} is not given")
+        points = re.findall(NAME, self.links.get(index, "").split(" ")[-1])
+        plan = self.velocity or self.place
+        for p, q in pairwise(points):
+            turned = cross(self.at(q) - self.at(p), self.moved(q, plan) - self.moved(p, plan))
+            if abs(turned) > APART:
+                return 1 if turned > 0 else -1
+        raise DefectError(f"the sense of {turning} cannot be seen")
+
+    def image(self, point: str) -> str:
+        """The name of the image of a point in the velocity plan."""
+        point = canonical(point)
+        if point in self.image_of:
+            return self.image_of[point]
+        if point in self.frame:
+            return "o"
+        return point[0].lower() + (f"_{point[1:]}" if point[1:] else "")
+
+    def moved(self, point: str, plan: dict[str, complex]) -> complex:
+        image = self.image(point)
+        if image not in plan:
+            raise DefectError(f"{image} is not in the velocity plan")
+        return plan[image]
+
+    def set_off(self, vector: str) -> complex:
+        """A velocity as it is drawn: v_{B} from the pole, v_{BA} from a to b."""
+        plan = self.velocity or self.place
+        points = re.findall(r"[A-Z]\d*", vector[3:-1])
+        from_ = self.moved(points[1], plan) if len(points) > 1 else plan["o"]
+        return self.moved(points[0], plan) - from_
+
+    def block(self, point: str) -> Line:
+        """The guide of a point, as the data tell it."""
+        for item in self.items:
+            match = re.match(
+                rf"(?:pin )?{re.escape(point)} slides (?:in a slot )?(along|parallel to) (.*)", item
+            )
+            if match:
+                line = self.told_line(match[2], point)
+                return line if match[1] == "along" else self.shifted_line(line, match[2])
+        raise DefectError(f"no guide of {point} is given")
+
+    def told_line(self, words: str, point: str) -> Line:
+        """A line by its words; one of a moving link stands where its point or its block stands."""
+        if bar := re.match(rf"({NAME})({NAME})\b", words):
+            # the bar may be longer than what is drawn yet: it lies on the line to the point
+            p, q = bar[1], bar[2]
+            q = q if self.stands(q) else point
+            return Line.of(self.at(p), self.at(q) - self.at(p))
+        if match := re.match(rf"the line of link \w+ through the point .*? at ({NUMBER}°)", words):
+            return Line.of(self.at(point), cmath.rect(1, self.angle(match[1])))
+        match = re.match(
+            rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER}); ({NUMBER})\) (mm|cm|m)) "
+            rf"at ({NUMBER}°) to (?:the x axis|({NAME})({NAME}))",
+            words,
+        )
+        if match is None:
+            raise DefectError(f"no line is told: {words}")
+        if match[1]:
+            where = self.at(match[1] if self.stands(match[1]) else point)
+        else:
+            there = complex(number(match[2]), number(match[3])) * MILLIMETRES[match[4]]
+            where = self.origin + there / self.scale
+        along = cmath.rect(1, self.angle(match[5]))
+        if match[6]:
+            along *= self.at(match[7]) - self.at(match[6])
+        return Line.of(where, along)
+
+    def shifted_line(self, line: Line, words: str) -> Line:
+        """The parallel to a line at the offset that its words tell, or the sentence before."""
+        if self.offset:
+            return Line(line.point + self.offset, line.along)
+        sides = "|".join(SIDES)
+        offset = re.search(rf", ({NUMBER}) (mm|cm|m) ({sides}) it", words)
+        if offset is None:
+            raise DefectError(f"no offset is told: {words}")
+        away = line.along * 1j
+        away *= math.copysign(1, dot(SIDES[offset[3]], away))
+        size = number(offset[1]) * MILLIMETRES[offset[2]] / self.scale
+        return Line(line.point + away * size, line.along)
+
+    def positive(self, line: Line, words: str) -> Line:
+        """A line with the sense that its words tell."""
+        if way := re.search(
+            r"\(positive from [^)]*?(to the right|to the left|upwards|downwards)\)", words
+        ):
+            side = WAYS[way[1]]
+            return Line(line.point, line.along * math.copysign(1, dot(side, line.along)))
+        if way := re.search(rf"\(positive from ({NAME}) to ({NAME})\)", words):
+            return Line.of(line.point, self.at(way[2]) - self.at(way[1]))
+        raise DefectError(f"no positive sense is told: {words}")
+
+    def told_of(self, form: str) -> str:
+        """The item of the data that begins with these words."""
+        for item in self.items:
+            if re.match(form, item):
+                return item
+        raise DefectError(f"nothing is given of {form}")
+
+    def stands(self, name: str) -> bool:
+        """Whether a point has its place already."""
+        return canonical(name) in self.place
+
+    def centre(self, link: str) -> complex:
+        """The centre of a wheel."""
+        item = self.told_of(rf"(?:inner )?(?:gear|wheel|ring) {link}: centre")
+        return self.at(re.search(rf"centre ({NAME})", item)[1])  # type: ignore[index]
+
+    def driven_way(self, of: str, symbol: str) -> complex:
+        """The sense in which a block or wheel is driven along its guide or track."""
+        kind, _, link = of.partition(" ")
+        if kind == "guide":
+            item = self.told_of(rf"(?:pin )?{re.escape(self.sliding_point(link))} slides")
+            line = self.positive(self.guide(link), item)
+        else:
+            item = self.told_of(rf"wheel {link} rolls")
+            line = self.positive(self.track(link), item)
+        size = re.match(NUMBER, self.given(f"{symbol}_{{{link}}}"))
+        assert size
+        return line.along * math.copysign(1, number(size[0]))
+
+    def guide(self, link: str) -> Line:
+        """The guide of a block by the number of its link."""
+        return self.block(self.sliding_point(link))
+
+    def sliding_point(self, link: str) -> str:
+        """The point of a link that slides along its guide."""
+        points: list[str] = re.findall(NAME, self.links.get(link, "").removeprefix("block "))
+        for point in points:
+            if any(re.match(rf"(?:pin )?{re.escape(point)} slides", item) for item in self.items):
+                return point
+        raise DefectError(f"no point of link {link} slides along a guide")
+
+    def track(self, link: str) -> Line:
+        """The track of a wheel by the number of its link."""
+        for item in self.items:
+            match = re.match(
+                rf"wheel {link} rolls in {NAME} on the line through ({NAME}) at ({NUMBER}°)", item
+            )
+            if match:
+                return Line.of(self.at(match[1]), cmath.rect(1, self.angle(match[2])))
+        raise DefectError(f"no track {link} is given")
+
+    def direction(self, words: str) -> complex:
+        """The direction of a bar, a guide or a track, by its name."""
+        kind, _, link = words.partition(" ")
+        if kind == "guide":
+            return self.guide(link).along
+        if kind == "track":
+            return self.track(link).along
+        p, q = re.findall(NAME, words)
+        return self.at(q) - self.at(p)
+
+    def put(self, name: str, where: complex) -> None:
+        """Marks a point; one that is already there must fall on its place."""
+        name = canonical(name)
+        if name in self.place and abs(self.place[name] - where) > 0.3:
+            raise DefectError(
+                f"{name} falls on two places, {abs(self.place[name] - where):.2f} mm apart"
+            )
+        self.place.setdefault(name, where)
+
+    # how a sentence is read
+
+    def follow(self, sentence: str) -> None:
+        """Draws what one sentence says."""
+        self.glossed = self.glossed or bool(GLOSS.search(sentence))
+        for image, point, _ in POLE_GLOSS.findall(sentence):
+            self.image_of[canonical(point)] = canonical(image).replace("′", "")
+        rest = POLE_GLOSS.sub("", GLOSS.sub("", sentence))
+        self.loci, self.ray, self.end, self.tail, self.offset = [], None, None, None, 0j
+        while rest:
+            for form, rule in RULES:
+                match = form.match(rest)
+                if match and re.match(r"; |, |$", rest[match.end() :]):
+                    rule(self, **match.groupdict())
+                    rest = re.sub(r"^(; |, )", "", rest[match.end() :])
+                    break
+            else:
+                raise DefectError(f"no rule reads: {rest}")
+
+    # the mechanism
+
+    @says(
+        "draw the mechanism as on the velocity sheet",
+        "set .* on the mechanism, each at its point.*",
+        "over the motion .*",
+        "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
+        "the perpendiculars are parallel: .* is at infinity",
+    )
+    def nothing(self, **_: str) -> None:
+        """Nothing that reaches a point."""
+
+    @says(
+        r"through ⟨p⟩ draw the line at (?:φ(?:_\{.*?\})? = )?(?P<angle>φ(?:_\{.*?\})?|⟨n:number⟩°)"
+        "(?P<against> to ⟨a⟩⟨b⟩)?(?P<beyond> produced)?"
+    )
+    def draw_ray(
+        self,
+        p: str,
+        angle: str,
+        n: str | None,
+        against: str | None,
+        a: str,
+        b: str,
+        beyond: str | None,
+    ) -> None:
+        along = cmath.rect(1, self.angle(angle))
+        if against:
+            other = a if b == p else b
+            along *= self.at(other) - self.at(p)
+            along *= -1 if beyond else 1
+        self.ray = Line.of(self.at(p), along)
+
+    @says("on it lay off ⟨p⟩⟨q⟩: ⟨name⟩")
+    def mark_off(self, p: str, q: str, name: str) -> None:
+        if self.ray is None:
+            raise DefectError("no line is drawn")
+        self.put(name, self.at(p) + self.ray.along * self.length(p, q))
+
+    @says(
+        "on ⟨p⟩⟨q⟩(?: produced beyond ⟨beyond⟩)? lay off ⟨s⟩⟨t⟩(?: \\(⟨drawn:number⟩ "
+        "mm\\))?: ⟨name⟩"
+    )
+    def step_along(
+        self, p: str, q: str, beyond: str | None, s: str, t: str, drawn: str | None, name: str
+    ) -> None:
+        towards = beyond or (q if s == p else p)
+        away = p if towards == q else q
+        along = self.at(towards) - self.at(away)
+        size = number(drawn) if drawn else self.length(s, t)
+        self.put(name, self.at(s) + along / abs(along) * size)
+
+    @says("join ⟨p⟩ and ⟨q⟩: link ⟨k:number⟩ lies on this line")
+    def join(self, p: str, q: str, k: str) -> None:
+        self.ray = Line.of(self.at(p), self.at(q) - self.at(p))
+        self.bearing = (p, q)
+
+    @says("on the line of the link lay off ⟨p⟩⟨q⟩: ⟨name⟩")
+    def mark_off_lever(self, p: str, q: str, name: str) -> None:
+        one, two = self.bearing
+        other = two if one == p else one
+        along = self.at(other) - self.at(p)
+        side = f"{other} slides along {p}{q}, on the side of {q} from {p}"
+        if not any(item.startswith(side) for item in self.items):
+            raise DefectError(f"nothing tells on which side of {p} to lay off {p}{q}")
+        self.put(name, self.at(p) + along / abs(along) * self.length(p, q))
+
+    @says(r"arc of radius ⟨p⟩⟨q⟩(?: \(⟨drawn:number⟩ mm\))? about ⟨c⟩")
+    def compass(self, p: str, q: str, drawn: str | None, c: str) -> None:
+        self.loci.append(Circle(self.at(c), number(drawn) if drawn else self.length(p, q)))
+
+    @says("they meet in ⟨name⟩, (?P<side>left|right) of ⟨p⟩→⟨q⟩")
+    def arcs_meet(self, name: str, side: str, p: str, q: str) -> None:
+        from_, to = self.at(p), self.at(q)
+        wanted = 1 if side == "left" else -1
+        found = [z for z in crossings(*self.loci) if wanted * cross(to - from_, z - from_) > 0]
+        self.one_of(name, found)
+
+    def one_of(self, name: str, found: list[complex]) -> None:
+        if len(found) != 1:
+            raise DefectError(f"{len(found)} crossings lie where {name} should be")
+        self.put(name, found[0])
+
+    @says("draw the guide")
+    def draw_the_guide(self) -> None:
+        """Drawn when it is cut: the page names its point only then."""
+
+    @says("(?:through ⟨p⟩ )?draw guide ⟨k:number⟩")
+    def draw_guide(self, k: str, p: str | None) -> None:
+        item = self.told_of(rf"(?:pin )?{re.escape(self.sliding_point(k))} slides")
+        if p is None and "along the line of link" in item:
+            raise DefectError(f"guide {k} moves: no point is told through which to draw it")
+        self.loci.append(Line(self.at(p), self.direction(f"guide {k}")) if p else self.guide(k))
+
+    @says("draw track ⟨k:number⟩")
+    def draw_track(self, k: str) -> None:
+        self.loci.append(self.track(k))
+
+    @says("shift it by ⟨drawn:number⟩ mm (?P<way>to the right|to the left|upwards|downwards)")
+    def shifted(self, drawn: str, way: str) -> None:
+        """At once where the guide stands already, otherwise when it is cut."""
+        if not self.loci:
+            self.offset = WAYS[way] * number(drawn)
+            return
+        line = self.loci[-1]
+        assert isinstance(line, Line)
+        away = line.along * 1j
+        away *= math.copysign(1, dot(WAYS[way], away))
+        self.loci[-1] = Line(line.point + away * number(drawn), line.along)
+
+    @says(
+        "parallel to it, on the wheel’s side, the path of the centre at the radius of wheel "
+        "⟨k:number⟩"
+    )
+    def radius_along(self, k: str) -> None:
+        rolls = self.told_of(rf"wheel {k} rolls")
+        disc = self.told_of(rf"wheel {k}: centre")
+        size = re.search(rf"r = ({NUMBER}) (mm|cm|m)", disc)
+        assert size
+        side = re.search(r"on its (right|left)-hand side", rolls)
+        if side is None:
+            raise DefectError(f"nothing tells on which side of its track wheel {k} lies")
+        track = self.positive(self.track(k), rolls)
+        laid = Line.of(
+            track.point, cmath.rect(1, self.angle(re.search(rf"at ({NUMBER}°)", rolls)[1]))
+        )  # type: ignore[index]
+        away = laid.along * (1j if side[1] == "left" else -1j)
+        radius = number(size[1]) * MILLIMETRES[size[2]] / self.scale
+        self.ray = Line(track.point + away * radius, track.along)
+
+    @says(r"on it lay off s(?:_\{.*?\})? \(⟨drawn:number⟩ mm\) from its zero: ⟨name⟩")
+    def set_at(self, drawn: str, name: str) -> None:
+        if self.ray is None:
+            item = self.told_of(rf"(?:pin )?{re.escape(name)} slides")
+            self.ray = self.positive(self.block(name), item)
+        self.put(name, self.ray.point + self.ray.along * number(drawn))
+
+    @says(
+        "from the centre of wheel ⟨k:number⟩ the perpendicular to its track(?: on link "
+        "⟨g:number⟩)?; it meets it in the point of contact ⟨name⟩"
+    )
+    def contact(self, k: str, g: str | None, name: str) -> None:
+        track = self.loci[-1] if g else self.track(k)
+        assert isinstance(track, Line)
+        centre = self.centre(k)
+        self.put(name, track.point + track.along * dot(track.along, centre - track.point))
+
+    @says("draw the track of wheel ⟨k:number⟩ on link ⟨g:number⟩: (?P<line>the line .*?)(?=;)")
+    def draw_track_of(self, k: str, g: str, line: str) -> None:
+        through = re.search(rf"through ({NAME})", line)
+        assert through
+        self.loci.append(self.told_line(line, through[1]))
+
+    @says("link ⟨k:number⟩ stands as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
+    def as_at_start(self, k: str, p: str, names: str) -> None:
+        item = next(i for i in self.items if i.endswith(f"in the axes of link {k}"))
+        rolls = self.told_of(rf"wheel {k} rolls")
+        start = re.search(rf"when the x axis of link {k} is at ({NUMBER}°)", rolls)
+        if start is None:
+            raise DefectError(f"the axes of link {k} have no start")
+        turned = cmath.rect(1, self.angle(start[1]))
+        unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
+        own = {
+            one: turned * complex(number(x), number(y)) * unit / self.scale
+            for one, x, y in re.findall(rf"({NAME}) \(({NUMBER}); ({NUMBER})\)", item)
+        }
+        for name in names.split(", "):
+            self.put(name, self.at(p) + own[name] - own[p])
+
+    @says("it cuts the guide in ⟨name⟩, (?P<side>to the right of|to the left of|above|below) ⟨p⟩")
+    def arc_cuts_guide(self, name: str, side: str, p: str) -> None:
+        found = crossings(self.block(name), self.loci[-1])
+        self.one_of(name, [z for z in found if dot(SIDES[side], z - self.at(p)) > 0])
+
+    @says(
+        r"(?:with block ⟨k:number⟩ on its guide, )?from ⟨p⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° "
+        r"to the x axis"
+        r"(?:, for link .*? since the start|, as [^:;]*)?: ⟨name⟩"
+    )
+    def at_angle(self, p: str, s: str, t: str, angle: str, name: str, **_: str) -> None:
+        along = cmath.rect(1, math.radians(number(angle)))
+        self.put(name, self.at(p) + along * self.length(s, t))
+
+    @says(
+        r"links ⟨g:number⟩ and ⟨k:number⟩ touch in ⟨name⟩ on their line of centres, "
+        r"r_\{.*?\}(?: = m·z/2)? \(⟨r:number⟩ mm\) from ⟨o⟩"
+    )
+    def wheels_touch(self, g: str, k: str, name: str, r: str, o: str) -> None:
+        centres = {}
+        for item in self.items:
+            if match := re.match(rf"(inner )?(?:gear|wheel|ring) (\d+): centre ({NAME})", item):
+                centres[match[2]] = match[3]
+                if match[1]:
+                    raise DefectError("an inner wheel: on which side of the centre do they touch?")
+        other = next(c for link, c in centres.items() if c != o and link in (g, k))
+        along = self.at(other) - self.at(o)
+        self.put(name, self.at(o) + along / abs(along) * number(r))
+
+    # velocities
+
+    @says(
+        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ⊥ ⟨p⟩⟨q⟩ in the sense of ⟨w:turning⟩, as "
+        "long as ⟨p2⟩⟨q2⟩ is drawn",
+        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ⊥ ⟨p⟩⟨q⟩, ⟨drawn:number⟩ mm, in the sense "
+        "of ⟨w:turning⟩",
+    )
+    def turned_velocity(
+        self,
+        s: str,
+        s2: str,
+        name: str,
+        v: str,
+        p: str,
+        q: str,
+        w: str,
+        drawn: str | None = None,
+        p2: str = "",
+        q2: str = "",
+    ) -> None:
+        bar = self.at(q) - self.at(p)
+        size = number(drawn) if drawn else abs(self.at(q2) - self.at(p2))
+        self.put(name, self.at(s) + bar / abs(bar) * 1j * self.sense(w) * size)
+
+    @says(
+        r"through ⟨s⟩(?: \(= ⟨c⟩, for nothing slips\)| \(⟨d⟩ has one velocity on both links, "
+        r"for nothing slips\))? the perpendicular to ⟨p⟩⟨q⟩"
+    )
+    def square_to(self, s: str, p: str, q: str, c: str | None, d: str | None) -> None:
+        if c:
+            self.place.setdefault(canonical(c), self.at(s))
+        self.loci.append(Line.of(self.at(s), (self.at(q) - self.at(p)) * 1j))
+
+    @says(
+        "through ⟨s⟩ the parallel to (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩)(?:, the "
+        "normal of the contact)?"
+    )
+    def parallel_to(self, s: str, of: str, **_: str) -> None:
+        self.loci.append(Line.of(self.at(s), self.direction(of)))
+
+    @says("at ⟨p⟩ the perpendicular to ⟨v:vector⟩")
+    def velocity_normal(self, p: str, v: str) -> None:
+        self.loci.append(Line.of(self.at(p), self.set_off(v) * 1j))
+
+    @says(r"pins are the centres of their links: (?P<pairs>[^;]*)")
+    def pins(self, pairs: str) -> None:
+        for name, point in re.findall(rf"({NAME}) = ({NAME})", pairs):
+            self.put(name, self.at(point))
+
+    @says("join ⟨m⟩ and ⟨n⟩")
+    def kennedy_line(self, m: str, n: str) -> None:
+        self.loci.append(Line.of(self.at(m), self.at(n) - self.at(m)))
+
+    @says("they meet in ⟨name⟩, which is ⟨same⟩ again: a check")
+    def kennedy_check(self, name: str, same: str) -> None:
+        self.put(name, self.at(same))
+        self.meet(name, None)
+
+    @says(
+        "they meet in ⟨name⟩(?:, the instantaneous centre of link ⟨k:number⟩"
+        "|, the centre of links [^;]*)?"
+    )
+    def meet(self, name: str, k: str | None) -> None:
+        if len(self.loci) != 2:
+            raise DefectError(f"{len(self.loci)} lines are drawn, of which two should meet")
+        self.one_of(name, crossings(*self.loci))
+        self.loci = []
+
+    @says("⟨name⟩ by similarity: it divides ⟨a⟩⟨b⟩(?: \\(.*?\\))? as ⟨r⟩ divides ⟨p⟩⟨q⟩")
+    def similar_in_line(self, name: str, a: str, b: str, r: str, p: str, q: str) -> None:
+        self.similar(name, (a, b), r, (p, q))
+
+    @says("⟨name⟩ by similarity: triangle ⟨x⟩⟨y⟩⟨z⟩ similar to ⟨p⟩⟨q⟩⟨r⟩, in the same sense")
+    def similar_point(self, name: str, x: str, y: str, z: str, p: str, q: str, r: str) -> None:
+        images, figure = [x, y, z], [p, q, r]
+        where = images.index(name)
+        third = figure.pop(where)
+        images.pop(where)
+        self.similar(name, (images[0], images[1]), third, (figure[0], figure[1]))
+
+    def similar(self, name: str, images: tuple[str, str], point: str, bar: tuple[str, str]) -> None:
+        a, b = (self.at(image) for image in images)
+        p, q = (self.at(end) for end in bar)
+        self.put(name, a + (b - a) * (self.at(point) - p) / (q - p))
+
+    @says("⟨q⟩ moves as ⟨p⟩ does: ⟨name⟩ falls on the same point")
+    def alike(self, q: str, p: str, name: str) -> None:
+        small = canonical(name)
+        primes = "′" if "′" in small else ""
+        self.put(name, self.at(p[0].lower() + primes + p[1:]))
+
+    @says(
+        "rack ⟨k:number⟩ has moved with the rim, from where it touched the wheel at the start, by "
+        "the arc that the wheel has turned through since, ⟨arc:number⟩ mm: ⟨name⟩"
+    )
+    def rack(self, k: str, arc: str, name: str) -> None:
+        item = self.told_of(rf"gear \d+ meshes in {NAME} with a rack along the line of link {k}")
+        gear = re.match(r"gear (\d+)", item)[1]  # type: ignore[index]
+        start = re.search(
+            rf"touching it at {re.escape(name)} when {NAME}{NAME} is at ({NUMBER}°)", item
+        )
+        if start is None:
+            raise DefectError(f"nothing tells when the rack stood at the wheel in {name}")
+        guide, centre = self.block(name), self.centre(gear)
+        touched = guide.point + guide.along * dot(guide.along, centre - guide.point)
+        turned = self.angle("φ") - self.angle(start[1])
+        way = (touched - centre) * 1j * math.copysign(1, turned)
+        self.put(name, touched + way / abs(way) * number(arc))
+
+    @says("⟨name⟩ falls on ⟨s⟩(?:, (?:for|because) .*? is (?:constant|zero))?")
+    def falls(self, name: str, s: str) -> None:
+        self.put(name, self.at(s))
+
+    @says(
+        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = (?P<kind>[av])_\\{[^}]*\\} ∥ (?P<of>(?:guide|track) "
+        "[^,]*), ⟨drawn:number⟩ mm"
+    )
+    def driven_slide(self, s: str, s2: str, name: str, kind: str, of: str, drawn: str) -> None:
+        self.put(name, self.at(s) + self.driven_way(of, kind) * number(drawn))
+
+    @says(
+        "⟨name⟩, the instantaneous centre of link ⟨k:number⟩, is (?:its fixed pin )?⟨p⟩(?:, "
+        "whose velocity is zero)?"
+    )
+    def centre_still(self, name: str, k: str, p: str) -> None:
+        self.put(name, self.at(p))
+
+    # accelerations
+
+    @says(
+        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ∥ ⟨p⟩⟨q⟩, from ⟨q2⟩ to ⟨p2⟩, (?:as long as "
+        "⟨m⟩⟨n⟩ is drawn|⟨drawn:number⟩ mm)"
+    )
+    def centripetal(
+        self,
+        s: str,
+        s2: str,
+        name: str,
+        v: str,
+        p: str,
+        q: str,
+        q2: str,
+        p2: str,
+        m: str | None,
+        n: str | None,
+        drawn: str | None,
+    ) -> None:
+        inward = self.at(p2) - self.at(q2)
+        size = number(drawn) if drawn else abs(self.at(n or "") - self.at(m or ""))
+        self.put(name, self.at(s) + inward / abs(inward) * size)
+
+    @says(
+        r"from ⟨s⟩ lay off ⟨a:vector⟩(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩)? ∥ ⟨p⟩⟨q⟩, from ⟨from_⟩ "
+        r"towards ⟨to⟩(?:, ⟨drawn:number⟩ mm)?"
+    )
+    def lay_off(self, s: str, a: str, from_: str, to: str, drawn: str | None, **_: str) -> None:
+        inward = self.at(to) - self.at(from_)
+        if drawn is None and a not in self.lengths:
+            raise DefectError(f"{a} has no length")
+        size = number(drawn) if drawn else self.lengths[a]
+        self.end = self.at(s) + inward / abs(inward) * size
+
+    @says(
+        "from its end lay off the tangential component ⟨a:vector⟩ ⊥ ⟨p⟩⟨q⟩, ⟨drawn:number⟩ "
+        "mm, in the sense of ⟨w:turning⟩: ⟨name⟩"
+    )
+    def driven_tangential(self, a: str, p: str, q: str, drawn: str, w: str, name: str) -> None:
+        bar = self.at(q) - self.at(p)
+        self.put(name, self.its_end() + bar / abs(bar) * 1j * self.sense(w) * number(drawn))
+
+    def its_end(self) -> complex:
+        if self.end is None:
+            raise DefectError("nothing was laid off whose end is meant")
+        return self.end
+
+    @says("through its end ⊥ ⟨p⟩⟨q⟩, the direction of ⟨a:vector⟩")
+    def square_to_end(self, p: str, q: str, a: str) -> None:
+        self.loci.append(Line.of(self.its_end(), (self.at(q) - self.at(p)) * 1j))
+
+    @says(
+        "through its end ∥ (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩), the direction of ⟨a:vector⟩"
+    )
+    def parallel_to_end(self, of: str, **_: str) -> None:
+        self.loci.append(Line.of(self.its_end(), self.direction(of)))
+
+    @says("set ⟨a:vector⟩ with its tip at ⟨s⟩")
+    def lay_back(self, a: str, s: str) -> None:
+        if a not in self.vectors:
+            raise DefectError(f"{a} has no direction")
+        self.tail = self.at(s) - self.vectors[a]
+
+    @says("from ⟨s⟩ lay off ⟨a:vector⟩")
+    def lay_off_vector(self, s: str, a: str) -> None:
+        if a not in self.vectors:
+            raise DefectError(f"{a} has no direction")
+        self.end = self.at(s) + self.vectors[a]
+
+    @says(
+        "through its tail ∥ (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩), the direction of ⟨a:vector⟩"
+    )
+    def parallel_to_tail(self, of: str, **_: str) -> None:
+        if self.tail is None:
+            raise DefectError("nothing was set whose tail is meant")
+        self.loci.append(Line.of(self.tail, self.direction(of)))
+
+    @says(
+        "normal component ⟨a:vector⟩ by the right triangle: at ⟨q⟩ set ⟨v:vector⟩ of the "
+        "velocity plan, its tip is ⟨tip⟩; at ⟨tip2⟩ the perpendicular to ⟨p⟩⟨tip3⟩ cuts "
+        "⟨m⟩⟨n⟩ in ⟨cut⟩; turned by 180° about ⟨q2⟩ this gives ⟨end⟩; ⟨q3⟩⟨end2⟩ = "
+        "⟨a2:vector⟩"
+    )
+    def normal(self, a: str, q: str, v: str, tip: str, p: str, **_: str) -> None:
+        self.triangle(a, v, p, q, tip[0])
+
+    def triangle(self, a: str, v: str, p: str, q: str, letter: str) -> None:
+        """The right triangle: its height on the bar is the velocity."""
+        centre, point = self.at(p), self.at(q)
+        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
+        tip = point + self.set_off(v)
+        bar = Line.of(centre, point - centre)
+        (cut,) = crossings(Line.of(tip, (tip - centre) * 1j), bar)
+        end = 2 * point - cut
+        for primes, where in (("″", tip), ("‴", cut), ("⁗", end)):
+            self.put_triangle(letter + primes + index, where)
+        self.lengths[a] = abs(end - point)
+
+    def put_triangle(self, name: str, where: complex) -> None:
+        self.place[name] = where
+        self.place[name.split("_", maxsplit=1)[0]] = where
+
+    @says("(?:in the same way )?⟨a:vector⟩ at ⟨q⟩ on ⟨m⟩⟨n⟩ from ⟨v:vector⟩")
+    def normal_again(self, a: str, q: str, m: str, n: str, v: str) -> None:
+        self.triangle(a, v, n if m == q else m, q, q[0].lower())
+
+    @says(
+        r"⟨a:vector⟩ = ⟨v:vector⟩\^\{2\}/⟨m⟩⟨n⟩ at ⟨q⟩ on ⟨p⟩⟨r⟩, towards ⟨c⟩, by number: "
+        "⟨drawn:number⟩ mm"
+    )
+    def normal_computed(self, a: str, drawn: str, **_: str) -> None:
+        self.lengths[a] = number(drawn)
+
+    @says("what is too short to be drawn is left out: .*")
+    def too_short(self) -> None:
+        """Left out, as the page says."""
+
+    @says("⟨a:vector⟩ = 0, because (?:⟨v:vector⟩|⟨w:turning⟩)(?: or ⟨w2:turning⟩)? is zero")
+    def none(self, a: str, **_: str) -> None:
+        self.lengths[a], self.vectors[a] = 0.0, 0j
+
+    @says(
+        r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set 2⟨v:vector⟩ = "
+        r"2·⟨x⟩⟨y⟩, tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
+        r"⟨e3⟩⟨f3⟩ = ⟨a2:vector⟩, as ⟨v2:vector⟩ turned by 90° in the sense of ⟨w:turning⟩"
+    )
+    def coriolis(
+        self, a: str, p: str, x: str, y: str, e: str, f: str, line: str, w: str, **_: str
+    ) -> None:
+        self.coriolis_before = p, line, w
+        plan = self.velocity
+        slide = plan[canonical(y)] - plan[canonical(x)]
+        foot = self.at(p)
+        tip = foot + 2 * slide
+        (cut,) = crossings(Line.of(tip, slide * 1j), Line.of(foot, self.line_of(line, p, tip)))
+        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
+        e, f = e[0], f[0]
+        self.place[canonical(e) + index], self.place[canonical(f) + index] = tip, cut
+        self.vectors[a] = slide / abs(slide) * 1j * self.sense(w) * abs(cut - tip)
+
+    @says("in the same way ⟨a:vector⟩ from 2⟨v:vector⟩ = 2·⟨x⟩⟨y⟩")
+    def coriolis_again(self, a: str, x: str, y: str, **_: str) -> None:
+        if self.coriolis_before is None:
+            raise DefectError("no Coriolis component came before")
+        p, line, w = self.coriolis_before
+        self.coriolis(a, p, x, y, "e", "f", line, w)
+
+    @says(
+        "⟨a:vector⟩ = 2⟨w:turning⟩·⟨v:vector⟩, drawn ⟨drawn:number⟩ mm, as ⟨v2:vector⟩ turned by "
+        "90° in the sense of ⟨w2:turning⟩"
+    )
+    def coriolis_computed(self, a: str, v: str, drawn: str, w2: str, **_: str) -> None:
+        slide = self.set_off(v)
+        self.vectors[a] = slide / abs(slide) * 1j * self.sense(w2) * number(drawn)
+
+    def line_of(self, words: str, p: str, tip: complex) -> complex:
+        """The direction from a point of the line that a Coriolis triangle is cut by."""
+        if match := re.fullmatch(rf"the line ({NAME})({NAME})", words):
+            return self.at(match[2]) - self.at(match[1])
+        if match := re.fullmatch(
+            rf"the line from ({NAME}) to the tip of ({VECTOR}), set at ({NAME})", words
+        ):
+            return self.at(match[3]) + self.set_off(match[2]) - self.at(match[1])
+        if match := re.fullmatch(
+            rf"the line from {NAME} that makes with {NAME}{NAME} the angle which "
+            rf"({NAME})({NAME}) makes"
+            rf" with the line from ({NAME}) to the tip of ({VECTOR}), set at ({NAME})",
+            words,
+        ):
+            bar = self.at(match[2]) - self.at(match[1])
+            to = self.at(match[5]) + self.set_off(match[4]) - self.at(match[3])
+            return (tip - self.at(p)) * to / bar
+        raise DefectError(f"no rule reads: {words}")
+
+    @says(
+        r"acceleration pole ⟨name⟩ of link ⟨k:number⟩: triangle ⟨j⟩⟨p⟩⟨q⟩ similar to "
+        r"⟨o⟩⟨a⟩⟨b⟩, same sense \(.*?\)"
+    )
+    def acceleration_pole(
+        self, name: str, p: str, q: str, o: str, a: str, b: str, **_: str
+    ) -> None:
+        self.similar(name, (p, q), o, (a, b))
+
+
+# -- reading a pair of sheets ---------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What came of one sheet: where the points fell, the key, the step that stopped the hand."""
+
+    reached: dict[str, complex]
+    key: dict[str, complex]
+    step: int | None
+    defect: str
+
+    def deviations(self) -> dict[str, float]:
+        """How far each point of the key is from where the sentences lead, in mm; not reached: ∞."""
+        reached = {bare(name): where for name, where in self.reached.items()}
+        return {
+            name: abs(reached[bare(name)] - where) if bare(name) in reached else math.inf
+            for name, where in self.key.items()
+        }
+
+
+def sheets(folder: Path, name: str, sheet: str) -> tuple[Printed, Printed]:
+    """The key and the task of one sheet."""
+    key, task = (printed(folder / f"{name}-{sheet}-{view}.svg") for view in ("key", "task"))
+    return key, task
+
+
+def moved_key(key: Printed, task: Printed, pole: str) -> dict[str, complex]:
+    """The marks of a key, moved to where the task has the same pins and pole."""
+    pins = [name for name in task.marks if name in key.marks and name[0].isupper()]
+    shift = task.marks[pins[0]] - key.marks[pins[0]] if pins else 0
+    of_plan = task.marks[pole] - key.marks[pole]
+    plan = re.compile(r"[a-z]′?(_.*)?" if pole == "o" else r"[a-z]′(_.*)?")
+    return {
+        name: where + (of_plan if plan.fullmatch(name) else shift)
+        for name, where in key.marks.items()
+    }
+
+
+def follow(folder: Path, name: str) -> Iterator[tuple[str, Followed]]:
+    """Follows the velocity sheet, then the acceleration sheet, of a scene drawn into a folder."""
+    plan: dict[str, complex] = {}
+    first: list[str] = []
+    for sheet, pole in (("velocity", "o"), ("acceleration", "o′")):
+        if not (folder / f"{name}-{sheet}-key.svg").exists():
+            continue
+        key, task = sheets(folder, name, sheet)
+        reader = Reader(key.data, key.scale, task.links, dict(task.marks))
+        step, defect = None, ""
+        try:
+            if plan:
+                reader.place["o"] = 0j
+                for sentence in first:
+                    reader.follow(sentence)
+                reader.velocity = plan
+                reader.place = {n: z for n, z in reader.place.items() if n[0].isupper() or "′" in n}
+            for number_, sentence in enumerate(key.sentences, 1):
+                step = number_
+                reader.follow(sentence)
+            step = None
+        except DefectError as told:
+            defect = str(told)
+        yield sheet, Followed(reader.place, moved_key(key, task, pole), step, defect)
+        if sheet == "velocity":
+            first = key.sentences
+            plan = {n: z for n, z in reader.place.items() if n[0].islower()}

@@ -1,0 +1,110 @@
+"""A hand that has the printed pages alone lands on the key: every step, in millimetres of paper.
+
+The pages are written as ``graphkin sheet`` writes them; ``tests.documents.reader`` follows their
+sentences with ruler and compass, and a page that does not carry enough stops it at that step.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.cli.main import app
+from tests.chosen import FOLDER, SCENES
+from tests.documents import printed_sheet, reader, ruler_and_compass
+from tests.documents.reader import Followed, follow
+
+CLOSE = 0.3
+"""How near to the key, in mm, the hand must land."""
+LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
+APART = {
+    "inflection-cardan": "inflection circles",
+    "klein-engine": "Klein’s construction",
+    "rapid-return": "loci and trials",
+    "rod-and-wheel": "loci and trials",
+    "roller-plates": "halfway between two tracks",
+    "stephenson-2-binary": "loci and trials",
+    "stephenson-2-ternary": "loci and trials",
+    "stephenson-3-crank": "loci and trials",
+}
+"""What the reader has no rule for, by the scenes that need it."""
+ALIKE = {name for name in SCENES if name.startswith("four-bar-")} - {
+    "four-bar-change-point",
+    "four-bar-crank-rocker-crossed",
+}
+READ = tuple(name for name in SCENES if name not in {*APART, *ALIKE} and name not in LABS)
+VELOCITIES = {name for name in READ if name.startswith(("centrodes", "instant"))}
+"""Scenes that ask for no accelerations."""
+
+
+@cache
+def followed(folder: Path, name: str) -> dict[str, Followed]:
+    """What came of the sheets of a scene, written into a folder."""
+    scene = name if name in LABS else str(FOLDER / f"{name}.toml")
+    for view in ("key", "task"):
+        options = ["-o", str(folder), "--lang", "en", "--format", "svg", "--view", view]
+        result = CliRunner().invoke(app, ["sheet", scene, *options])
+        assert result.exit_code == 0, result.output
+    return dict(follow(folder, name))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("sheets")
+
+
+CASES = [
+    (name, sheet)
+    for name in (*LABS, *READ)
+    for sheet in ("velocity", "acceleration")
+    if sheet == "velocity" or name not in VELOCITIES
+]
+
+
+@pytest.mark.parametrize(("name", "sheet"), CASES, ids=str)
+def test_the_printed_sentences_lead_to_the_points_of_the_key(folder, name, sheet):
+    done = followed(folder, name)[sheet]
+    assert done.defect == "", f"step {done.step}"
+    far = {point: away for point, away in done.deviations().items() if away > CLOSE}
+    assert not far
+
+
+def test_a_wrong_number_on_the_page_is_seen(folder):
+    """2 mm more in one sentence, and the hand lands beside the key."""
+    followed(folder, "engine")
+    key, task = reader.sheets(folder, "engine", "velocity")
+    right, wrong = (reader.Reader(key.data, key.scale, task.links, dict(task.marks)) for _ in "12")
+    for sentence in key.sentences:
+        right.follow(sentence)
+        wrong.follow(sentence.replace("58.90 mm", "60.90 mm"))
+    assert abs(right.place["b"] - wrong.place["b"]) == pytest.approx(2)
+    assert right.place["B"] == wrong.place["B"]
+
+
+def test_a_side_that_is_not_told_is_a_defect(folder):
+    followed(folder, "pump")
+    key, task = reader.sheets(folder, "pump", "velocity")
+    hand = reader.Reader(key.data, key.scale, task.links, dict(task.marks))
+    hand.follow(key.sentences[0])
+    with pytest.raises(reader.DefectError, match="2 crossings lie where B"):
+        hand.follow(key.sentences[1].split(", right of")[0])
+    with pytest.raises(reader.DefectError, match="C has no place yet"):
+        hand.follow(key.sentences[3])
+
+
+def test_the_reader_imports_nothing_of_graphkin():
+    for module in (reader, printed_sheet, ruler_and_compass):
+        source = Path(module.__file__).read_text(encoding="utf-8")
+        assert "import graphkin" not in source
+        assert "from graphkin" not in source
+
+
+@pytest.mark.parametrize("name", (*LABS, *READ))
+def test_a_task_gives_the_hand_no_more_than_fixed_points_and_the_pole(folder, name):
+    for sheet in followed(folder, name):
+        key, task = reader.sheets(folder, name, sheet)
+        hand = reader.Reader(key.data, key.scale, task.links, dict(task.marks))
+        assert set(task.marks) - set(hand.frame) == {"o" if sheet == "velocity" else "o′"}
