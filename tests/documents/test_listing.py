@@ -34,7 +34,7 @@ def test_lines_that_would_touch_are_not_clear_of_each_other():
 
 def test_lines_of_small_data_stand_apart():
     """An index of one line is no stroke over a capital of the next."""
-    (drawing, *_) = drawings("gears-rack")
+    (drawing, *_) = drawings("rod-and-wheel")
     data = [mark for mark in heading(drawing) if mark.name == "data"]
     assert {mark.height for mark in data} == {1.8}
     for above, below in pairwise(data):

@@ -47,7 +47,7 @@ def test_a_closure_is_counted_by_a_link_that_no_driver_holds():
     text = scene_text("documents/counted-closure")
     clamp = Mechanism(read_text(HEAD + text, "clamp", None, {}))
     (drawing, *_) = drawings_of(clamp, proved(clamp, clamp.solve()), words("en"))
-    closes = "of the ways in which links arm, handle, link close take number 1"
+    closes = "of the possible assemblies of links arm, handle, link take number 1"
     found = [plain(piece) for piece in given(drawing)]
     assert f"{closes}, counted by the angle of AB from 0° to 360°" in found
 

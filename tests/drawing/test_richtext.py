@@ -8,8 +8,8 @@ from graphkin.text.errors import PageError
 
 
 def test_capitals_have_the_height_asked_for():
-    assert capital() == pytest.approx(0.729, abs=5e-4)
-    assert runs("H", 3.5)[0].size == pytest.approx(4.80, abs=5e-3)
+    assert capital() == pytest.approx(0.66, abs=5e-4)
+    assert runs("H", 3.5)[0].size == pytest.approx(5.30, abs=5e-3)
     assert extent("H", 3.5)[1:] == pytest.approx((-3.5, 0.0))
 
 

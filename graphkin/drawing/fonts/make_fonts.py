@@ -1,26 +1,36 @@
-"""Make the sheet's font from DejaVu Sans: a renamed subset, its web form and its metrics.
+"""Make the sheet's font: Source Sans 3 upright, STIX Two italic, signs that they lack of DejaVu Sans.
 
-A tool for maintainers (needs fontTools, brotli and matplotlib): ``python make_fonts.py``.
-Running it twice gives the same bytes; nothing here is needed when sheets are written.
+A tool for maintainers (needs fontTools, brotli and matplotlib): ``python make_fonts.py FOLDER``, where
+FOLDER holds the unpacked packages source-sans-3 and stix-two-text of Fontsource. Capitals of all are
+equally high. Running it twice gives the same bytes; nothing here is needed when sheets are written.
 """
 
 from __future__ import annotations
 
 import json
 import shutil
+import sys
 from pathlib import Path
 
 import matplotlib
+from fontTools.fontBuilder import FontBuilder  # type: ignore[import-untyped]
 from fontTools.pens.boundsPen import BoundsPen  # type: ignore[import-untyped]
-from fontTools.subset import Options, Subsetter  # type: ignore[import-untyped]
+from fontTools.pens.recordingPen import DecomposingRecordingPen  # type: ignore[import-untyped]
+from fontTools.pens.transformPen import TransformPen  # type: ignore[import-untyped]
+from fontTools.pens.ttGlyphPen import TTGlyphPen  # type: ignore[import-untyped]
 from fontTools.ttLib import TTFont  # type: ignore[import-untyped]
 
 HERE = Path(__file__).parent
-SOURCE = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+DEJAVU = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 FACES = {
-    "upright": ("DejaVuSans.ttf", "GraphkinSans", "Regular"),
-    "italic": ("DejaVuSans-Oblique.ttf", "GraphkinSans-Italic", "Italic"),
+    "upright": ("source-sans-3", "normal", "DejaVuSans.ttf", "GraphkinSans", "Regular"),
+    "italic": ("stix-two-text", "italic", "DejaVuSans-Oblique.ttf", "GraphkinSans-Italic", "Italic"),
 }
+PARTS = ("latin", "latin-ext", "greek", "greek-ext")
+"""The files into which Fontsource divides a face; not every one has all."""
+EM, CAPITAL = 1000, 660
+"""Font units in an em, and the height of capitals in them."""
+ASCENT, DESCENT = 1024, 400
 SIGNS = (
     "′″‴⁗‖†•…‰‹›⁄–—―‘’‚‛“”„‟€№™Ω℮"
     "⁰ⁱ⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ⁿ₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₒₓₕₖₗₘₙₚₛₜ"
@@ -40,63 +50,99 @@ def wanted() -> set[int]:
     return latin | comma_below | greek | {ord(sign) for sign in SIGNS}
 
 
-def subset(source: Path, postscript: str, style: str) -> TTFont:
-    """Cut the source font down to the wanted signs and give it its own name."""
-    font = TTFont(source, recalcTimestamp=False)
-    options = Options()
-    options.layout_features = []
-    options.hinting = False
-    options.notdef_outline = True
-    options.drop_tables += ["GPOS", "GSUB", "GDEF", "kern", "FFTM"]
-    options.name_IDs = [0, 13, 14]
-    cutter = Subsetter(options)
-    cutter.populate(unicodes=wanted())
-    cutter.subset(font)
-    rename(font, postscript, style)
-    font["head"].modified = font["head"].created
+def sources(folder: Path, package: str, style: str, other: str) -> list[TTFont]:
+    """The fonts of a face in the order in which signs are looked for."""
+    files = folder / package / "package" / "files"
+    found = [files / f"{package}-{part}-400-{style}.woff2" for part in PARTS]
+    return [TTFont(path) for path in (*found, DEJAVU / other) if path.exists()]
+
+
+def face_of(fonts: list[TTFont], postscript: str, style: str) -> TTFont:
+    """A face with the wanted signs, each from the first font that has it."""
+    capital = [height(font) for font in fonts]
+    glyphs, widths, names = {".notdef": TTGlyphPen(None).glyph()}, {".notdef": EM // 2}, {}
+    for code in sorted(wanted()):
+        for font, own in zip(fonts, capital, strict=True):
+            if code in font.getBestCmap():
+                names[code] = f"u{code:04X}"
+                scale = CAPITAL / (own or capital[0])
+                glyphs[names[code]] = scaled(font, font.getBestCmap()[code], scale)
+                width = font.getGlyphSet()[font.getBestCmap()[code]].width
+                widths[names[code]] = round(width * scale)
+                break
+    builder = FontBuilder(EM, isTTF=True)
+    builder.setupGlyphOrder(list(glyphs))
+    builder.setupCharacterMap(names)
+    builder.setupGlyf(glyphs)
+    left = {name: glyph.xMin if glyph.numberOfContours else 0 for name, glyph in glyphs.items()}
+    builder.setupHorizontalMetrics({name: (widths[name], left[name]) for name in glyphs})
+    builder.setupHorizontalHeader(ascent=ASCENT, descent=-DESCENT)
+    builder.setupNameTable({
+        "copyright": "\n".join(dict.fromkeys(font["name"].getDebugName(0) for font in fonts)),
+        "familyName": "Graphkin Sans",
+        "styleName": style,
+        "uniqueFontIdentifier": f"{postscript} 2.0",
+        "fullName": f"Graphkin Sans {style}",
+        "version": "Version 2.0",
+        "psName": postscript,
+        "licenseDescription": "SIL Open Font License 1.1; some signs under the licence of DejaVu",
+    }, mac=False)  # fmt: skip
+    builder.setupOS2(sTypoAscender=ASCENT, sTypoDescender=-DESCENT, sCapHeight=CAPITAL)
+    builder.setupPost(italicAngle=-12 if style == "Italic" else 0)
+    font = builder.font
+    font["head"].created = font["head"].modified = 3_786_912_000  # 2024-01-01
+    font.recalcTimestamp = False
     return font
 
 
-def rename(font: TTFont, postscript: str, style: str) -> None:
-    """Name the font Graphkin Sans; copyright and licence records stay as they were."""
-    table = font["name"]
-    table.names = [record for record in table.names if record.platformID == 3]
-    own = {1: "Graphkin Sans", 2: style, 3: f"{postscript} 1.0", 5: "Version 1.0", 6: postscript}
-    for number, text in (own | {4: f"Graphkin Sans {style}"}).items():
-        table.setName(text, number, 3, 1, 0x409)
-    table.names.sort()
+def height(font: TTFont) -> int:
+    """The height of a font's capitals, in its own units; 0 for one without."""
+    name = font.getBestCmap().get(ord("H"))
+    return 0 if name is None else bounds(font, name)[1]
+
+
+def scaled(font: TTFont, name: str, scale: float) -> object:
+    """The outline of a sign in units of the made font, without references to others."""
+    drawn = DecomposingRecordingPen(font.getGlyphSet())
+    font.getGlyphSet()[name].draw(drawn)
+    pen = TTGlyphPen(None)
+    drawn.replay(TransformPen(pen, (scale, 0, 0, scale, 0, 0)))
+    return pen.glyph()
+
+
+def bounds(font: TTFont, name: str) -> tuple[int, int]:
+    """The lowest and the highest ink of a sign, in font units."""
+    pen = BoundsPen(font.getGlyphSet())
+    font.getGlyphSet()[name].draw(pen)
+    _, low, _, high = pen.bounds or (0, 0, 0, 0)
+    return round(low), round(high)
 
 
 def measures(font: TTFont) -> dict[str, list[int]]:
-    """Tell advance, lowest and highest ink of each code point, in font units."""
-    glyphs = font.getGlyphSet()
-    found = {}
-    for code, name in sorted(font.getBestCmap().items()):
-        pen = BoundsPen(glyphs)
-        glyphs[name].draw(pen)
-        _, low, _, high = pen.bounds or (0, 0, 0, 0)
-        found[str(code)] = [glyphs[name].width, round(low), round(high)]
-    return found
+    """Advance, lowest and highest ink of each code point, in font units."""
+    widths = font["hmtx"]
+    return {
+        str(code): [widths[name][0], *bounds(font, name)]
+        for code, name in sorted(font.getBestCmap().items())
+    }
 
 
 def main() -> None:
-    """Write both faces as .ttf and .woff2, the metrics and the licence beside this file."""
-    metrics: dict[str, object] = {}
-    for face, (file, postscript, style) in FACES.items():
-        font = subset(SOURCE / file, postscript, style)
+    """Write both faces as .ttf and .woff2, the metrics and the licences beside this file."""
+    folder = Path(sys.argv[1])
+    metrics: dict[str, object] = {"unitsPerEm": EM, "capHeight": CAPITAL}
+    metrics |= {"ascent": ASCENT, "descent": -DESCENT}
+    for face, (package, slant, other, postscript, style) in FACES.items():
+        font = face_of(sources(folder, package, slant, other), postscript, style)
         font.save(HERE / f"{postscript}.ttf")
-        glyphs = measures(font)
-        if face == "upright":
-            height = glyphs[str(ord("H"))][2]
-            metrics |= {"unitsPerEm": font["head"].unitsPerEm, "capHeight": height}
-            metrics |= {"ascent": font["hhea"].ascent, "descent": font["hhea"].descent}
-        metrics[face] = glyphs
+        metrics[face] = measures(font)
         web = TTFont(HERE / f"{postscript}.ttf", recalcTimestamp=False)
         web.flavor = "woff2"
         web.save(HERE / f"{postscript}.woff2")
+        shutil.copyfile(folder / package / "package" / "LICENSE", HERE / f"LICENSE-{package}.txt")
     text = json.dumps(metrics, separators=(",", ":"), sort_keys=True)
     (HERE / "metrics.json").write_text(text + "\n", encoding="utf-8")
-    shutil.copyfile(SOURCE / "LICENSE_DEJAVU", HERE / "LICENSE-DejaVu.txt")
+    shutil.copyfile(DEJAVU / "LICENSE_DEJAVU", HERE / "LICENSE-DejaVu.txt")
 
 
 if __name__ == "__main__":
