@@ -74,7 +74,7 @@ SIDES = {
     "below": -1j,
 }
 WAYS = {"to the right": 1, "to the left": -1, "upwards": 1j, "downwards": -1j}
-GLOSS = re.compile(r" ?\(an index behind the point’s own names a link: [^)]*\)")
+GLOSS = re.compile(rf" ?\(({NAME}) is the point of link [^)]* coincident with ({NAME})\)")
 POLE_GLOSS = re.compile(rf" ?\(({NAME}) is the image of ({NAME}), for ({NAME}) is the pole\)")
 
 
@@ -102,7 +102,7 @@ class Reader:
     """Lengths of components found at the mechanism, by their symbols."""
     vectors: dict[str, complex] = field(default_factory=dict)
     glossed: bool = False
-    """Whether the page has said that an index behind a point's own names a link."""
+    """Whether the page has said of which link a point with an index is."""
     image_of: dict[str, str] = field(default_factory=dict)
     """Names of images that the page tells because they are not the small letter."""
     frame: dict[str, complex] = field(default_factory=dict)
@@ -372,7 +372,7 @@ class Reader:
 
     @says(
         "draw the mechanism as on the velocity sheet",
-        "set .* on the mechanism, each at its point.*",
+        "transfer .* to the mechanism, each to its point.*",
         "over the motion .*",
         "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
         "the perpendiculars are parallel: .* is at infinity",
@@ -592,8 +592,8 @@ class Reader:
         self.put(name, self.at(s) + bar / abs(bar) * 1j * self.sense(w) * size)
 
     @says(
-        r"through ⟨s⟩(?: \(= ⟨c⟩, for nothing slips\)| \(⟨d⟩ has one velocity on both links, "
-        r"for nothing slips\))? the perpendicular to ⟨p⟩⟨q⟩"
+        r"through ⟨s⟩(?: \(= ⟨c⟩, since there is no slip\)| \(⟨d⟩ has one velocity on both links, "
+        r"since there is no slip\))? the perpendicular to ⟨p⟩⟨q⟩"
     )
     def square_to(self, s: str, p: str, q: str, c: str | None, d: str | None) -> None:
         if c:
@@ -802,7 +802,7 @@ class Reader:
         self.triangle(a, v, n if m == q else m, q, q[0].lower())
 
     @says(
-        r"⟨a:vector⟩ = ⟨v:vector⟩\^\{2\}/⟨m⟩⟨n⟩ at ⟨q⟩ on ⟨p⟩⟨r⟩, towards ⟨c⟩, by number: "
+        r"⟨a:vector⟩ = ⟨v:vector⟩\^\{2\}/⟨m⟩⟨n⟩ at ⟨q⟩ on ⟨p⟩⟨r⟩, towards ⟨c⟩, computed: "
         "⟨drawn:number⟩ mm"
     )
     def normal_computed(self, a: str, drawn: str, **_: str) -> None:
