@@ -39,6 +39,17 @@ READ = tuple(name for name in SCENES if name not in {*APART, *ALIKE} and name no
 VELOCITIES = {name for name in READ if name.startswith(("centrodes", "instant"))}
 """Scenes that ask for no accelerations."""
 
+LEFT_OUT = (
+    "step {} leaves out a normal component of {} mm as too short to be drawn: {} falls {} mm off"
+)
+DEFECTS = {
+    "gears-profiles": LEFT_OUT.format(3, 0.34, "k′_2", 0.34),
+    "lifter": LEFT_OUT.format(5, 0.30, "c′", 0.31),
+    "watt-1": LEFT_OUT.format(4, 0.47, "e′", 0.47),
+    "watt-2": LEFT_OUT.format(4, 0.32, "d′", 0.52),
+}
+"""Why the accelerations of a page lead farther from the key than they should."""
+
 
 @cache
 def followed(folder: Path, name: str) -> dict[str, Followed]:
@@ -57,14 +68,20 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 CASES = [
-    (name, sheet)
+    pytest.param(
+        name,
+        sheet,
+        marks=[pytest.mark.xfail(strict=True, reason=DEFECTS[name])]
+        if sheet == "acceleration" and name in DEFECTS
+        else [],
+    )
     for name in (*LABS, *READ)
     for sheet in ("velocity", "acceleration")
     if sheet == "velocity" or name not in VELOCITIES
 ]
 
 
-@pytest.mark.parametrize(("name", "sheet"), CASES, ids=str)
+@pytest.mark.parametrize(("name", "sheet"), CASES)
 def test_the_printed_sentences_lead_to_the_points_of_the_key(folder, name, sheet):
     done = followed(folder, name)[sheet]
     assert done.defect == "", f"step {done.step}"

@@ -15,7 +15,7 @@ from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.core.run import Trace
-from graphkin.construction.core.too_short import LEAST, TINY, is_least, is_short
+from graphkin.construction.core.too_short import TINY, is_short
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene
@@ -112,9 +112,9 @@ class Component(Construction, frozen=True, kw_only=True):
         return not is_short(drawing, self.size(drawing), drawing.plane)
 
     def is_left_out(self, drawing: Drawing) -> bool:
-        """Whether it is too short to be laid off in the plan, though not zero."""
+        """Whether it is too short to be drawn in the plan, though not zero."""
         size = self.size(drawing)
-        return bool(drawing.settled(size)) and is_least(drawing, size, drawing.plane)
+        return bool(drawing.settled(size)) and is_short(drawing, size, drawing.plane)
 
     @abstractmethod
     def formula(self, drawing: Drawing) -> str:
@@ -265,11 +265,11 @@ class LaidOff(Construction, frozen=True, kw_only=True):
         return self.component.laid_alone(drawing, q=end, **fields)
 
     def is_short(self, drawing: Drawing) -> bool:
-        """Whether it is laid off from a point with a name, and too short for it."""
+        """Whether it is laid off from a point with a name, and too short to be drawn."""
         steps = drawing.trace.program.steps
         if not steps[self.start].name:
             return False
-        return drawn_between(drawing, self.start, self.corner, steps[self.corner].plane) < LEAST
+        return drawn_between(drawing, self.start, self.corner, steps[self.corner].plane) < TINY
 
 
 def laid_off(program: Program, number: int) -> LaidOff | None:

@@ -11,18 +11,11 @@ TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
 NEAR = 0.3
 """A thin line between two points of a plan that is shorter than this, in mm, is not drawn."""
-LEAST = 0.1
-"""What a hand can lay off at all, in mm: shorter components are left out."""
 
 
 def is_short(drawing: Drawing, size: float, plane: Plane) -> bool:
-    """True for a vector, by its magnitude, from which no triangle can be drawn."""
+    """True for a vector of a plan, by its magnitude, that is too short to be drawn."""
     return drawn_in(drawing, plane, abs(size)) < TINY
-
-
-def is_least(drawing: Drawing, size: float, plane: Plane) -> bool:
-    """True for a vector of a plan, by its magnitude, that no hand lays off."""
-    return drawn_in(drawing, plane, abs(size)) < LEAST
 
 
 def laid_off(drawing: Drawing, key: str, size: float, **fields: str) -> str:
@@ -32,6 +25,6 @@ def laid_off(drawing: Drawing, key: str, size: float, **fields: str) -> str:
     """
     if size == 0:
         return ""
-    short = "_short" if is_least(drawing, size, drawing.plane) else ""
+    short = "_short" if is_short(drawing, size, drawing.plane) else ""
     drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, size))
     return drawing.words(f"calculation.{key}{short}", drawn=drawn, **fields)

@@ -202,7 +202,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         }
         if not drawing.settled(size):
             return "ν none", drawing.words("step.normal-none", **fields)
-        if self.is_computed(drawing.scales) or not self.is_drawn(drawing):
+        if self.is_computed(drawing.scales):
             drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
             return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
         if not first:

@@ -1,8 +1,8 @@
-"""Make the sheet's font: Source Sans 3 upright, STIX Two italic, signs that they lack of DejaVu Sans.
+"""Make the sheet's font: Source Sans 3 upright, STIX Two italic, what they lack from DejaVu Sans.
 
-A tool for maintainers (needs fontTools, brotli and matplotlib): ``python make_fonts.py FOLDER``, where
-FOLDER holds the unpacked packages source-sans-3 and stix-two-text of Fontsource. Capitals of all are
-equally high. Running it twice gives the same bytes; nothing here is needed when sheets are written.
+A tool for maintainers (needs fontTools, brotli and matplotlib): ``python make_fonts.py FOLDER``.
+FOLDER holds the unpacked packages source-sans-3 and stix-two-text of Fontsource. Capitals of all
+are equally high. Running it twice gives the same bytes; nothing here is needed to write sheets.
 """
 
 from __future__ import annotations
@@ -24,7 +24,13 @@ HERE = Path(__file__).parent
 DEJAVU = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 FACES = {
     "upright": ("source-sans-3", "normal", "DejaVuSans.ttf", "GraphkinSans", "Regular"),
-    "italic": ("stix-two-text", "italic", "DejaVuSans-Oblique.ttf", "GraphkinSans-Italic", "Italic"),
+    "italic": (
+        "stix-two-text",
+        "italic",
+        "DejaVuSans-Oblique.ttf",
+        "GraphkinSans-Italic",
+        "Italic",
+    ),
 }
 PARTS = ("latin", "latin-ext", "greek", "greek-ext")
 """The files into which Fontsource divides a face; not every one has all."""
