@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from math import floor, log10
 from pathlib import Path
 from typing import Any
-
-from msgspec import Struct
 
 HERE = Path(__file__).resolve().parent
 LANGUAGES = ("en", "it", "ro")
@@ -20,14 +17,17 @@ EUPHONIC = re.compile(r"(?<!\S)([ae]) (?=\*?(?i:\1))")
 """The Italian words for "to" and "and" before a name or word that begins with their own vowel."""
 
 
-class Words(Struct, frozen=True, dict=True):
+class Words:
     """The sentences of one language, and how it writes numbers."""
 
-    language: str
+    def __init__(self, language: str) -> None:
+        self.language = language
 
     @cached_property
     def sentences(self) -> Mapping[str, str]:
         """Every sentence by its key, read from its file when the first one is said."""
+        import tomllib
+
         tree = tomllib.loads((HERE / f"{self.language}.toml").read_text(encoding="utf-8"))
         return dict(flattened(tree))
 
