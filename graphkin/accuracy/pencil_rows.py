@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.accuracy.compared_answers import ComparedTargets, Reference, reference_of
 from graphkin.accuracy.compared_positions import Ground, approach
 from graphkin.accuracy.flattening import Flattening, roots_of, units_of
 from graphkin.accuracy.methods import MethodRow
 from graphkin.accuracy.pencil import Forecast, Pencil, forecast, original
-from graphkin.accuracy.pencil.original import DrawingScales
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
 from graphkin.text.errors import GraphkinError
@@ -25,28 +25,7 @@ NEAREST = 1e-3
 """The distance of the last of them, in parts of that of the first."""
 
 
-class PaperScales(Struct, frozen=True):
-    """The scales of a drawing: kL, kL over kv in seconds, and a time that gives ka apart."""
-
-    kL: float  # noqa: N815
-    seconds: float
-    triangles: bool = True
-    apart: float = 0.0
-
-    @property
-    def kv(self) -> float:
-        """Velocity that one metre of paper stands for."""
-        return self.kL / self.seconds
-
-    @property
-    def ka(self) -> float:
-        """Acceleration that one metre of paper stands for."""
-        return self.kL / (self.apart or self.seconds) ** 2
-
-
-def pencil_rows(
-    mechanism: Mechanism, reference: Reference, scales: DrawingScales
-) -> Iterator[MethodRow]:
+def pencil_rows(mechanism: Mechanism, reference: Reference, scales: Scales) -> Iterator[MethodRow]:
     """Three pencils on the scene's own position, at the scales of its sheets."""
     note = "95 of 100 drawings of the scene's own position are off by less; a person's hour"
     for point in PENCILS:
@@ -77,7 +56,7 @@ def worst_of(found: Forecast, answers: ComparedTargets) -> Reals:
 def pencilled(
     ground: Ground,
     answers: ComparedTargets,
-    scales: DrawingScales,
+    scales: Scales,
     flattening: Flattening,
     drawn: int,
 ) -> tuple[Reals, Reals]:
@@ -97,8 +76,7 @@ def pencilled(
     measures, errors = [], []
     for row, at in enumerate(reference.places.at):
         growth = float(reference.sizes[row, 1] / first) if first else 1.0
-        apart = scales.apart / growth
-        paper = PaperScales(scales.kL, scales.seconds / growth, scales.triangles, apart)
+        paper = replace(scales, seconds=scales.seconds / growth)
         here = Mechanism(course.standing(float(at)))
         try:
             exact = original(here, paper, reference.answers.every)

@@ -15,10 +15,10 @@ from graphkin.accuracy.compared_positions import approach, ground_of, places_aro
 from graphkin.accuracy.flattening import Flattening, flattened
 from graphkin.accuracy.methods import Method, MethodRow, own_methods
 from graphkin.accuracy.other_routes import other_methods
-from graphkin.accuracy.pencil.original import DrawingScales
 from graphkin.accuracy.pencil_rows import pencil_rows, pencilled
 from graphkin.accuracy.scope import Scope, scopes
 from graphkin.accuracy.stopwatch import Clock, Effort, Stopwatch
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
 from graphkin.text.errors import GraphkinError
@@ -49,7 +49,7 @@ class Study(Struct, frozen=True, eq=False):
 
 def study(
     mechanism: Mechanism,
-    scales: DrawingScales | None,
+    scales: Scales | None,
     effort: Effort | None = None,
     *,
     say: Say = lambda words: None,

@@ -6,6 +6,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import has_plan, scale_of
 from graphkin.construction.core.relation import figure
+from graphkin.construction.core.set_lengths import beside_plan
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
@@ -24,8 +25,10 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     """
     words, scales = drawing.words, drawing.scales
     factor = scale_of(drawing, drawing.plane) / 1000
-    k = BLANK if view == "task" and scales.from_driver else figure(drawing, factor)
+    k = BLANK if view == "task" and scales.of_crank else figure(drawing, factor)
     kL = words.decimal(digits(scales.kL))
+    beside = beside_plan(drawing, drawing.kind) if has_plan(drawing) else ""
+    kL += f"; {beside}" if beside else ""
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     plan = words(f"page.{drawing.kind}_heading", k=k)
     left, right = layout.mechanism.rect, layout.plan.rect

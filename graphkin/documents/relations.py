@@ -144,7 +144,7 @@ def of_components(drawing: Drawing) -> list[Section]:
     for kind in COMPONENTS:
         for each in components_on(drawing):
             if isinstance(each, kind):
-                section = found.setdefault(each.section(drawing.scales), [])
+                section = found.setdefault(each.section(), [])
                 section.append(each.relation(drawing))
     return list(found.items())
 

@@ -13,6 +13,7 @@ from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.core.set_lengths import beside_plan
 from graphkin.construction.core.too_short import TINY
 from graphkin.construction.links.idle_links import idle_sentences
 from graphkin.construction.registry import TOGETHER
@@ -70,8 +71,10 @@ def set_on_mechanism(drawing: Drawing, turning: str) -> str:
     set_on = [name for name, length in lengths if length * 1000 >= TINY * drawing.scales.kL]
     named = words("list_mark").join(dict.fromkeys(set_on))
     if named:
-        return words("step.read-off", list=named, turning=turning)
-    metres = drawing.scales.metres(drawing.kind)
+        beside = beside_plan(drawing, drawing.kind)
+        shorter = f", {beside}" if beside else ""
+        return words("step.read-off", list=named, shorter=shorter, turning=turning)
+    metres = drawing.scales.pace(drawing.kind)
     nought = not any(drawing.settled(length / metres) for _, length in lengths)
     return words(f"step.read-{'none' if nought else 'short'}", turning=turning)
 

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import placed
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.diagnosis.singularity_words import beside_dead_point
@@ -145,9 +146,9 @@ def drawings_of(
         for kind in SHEETS
         if (found := targets_of(mechanism, kind))
     ]
-    drawings[1:] = [replace(later, again=True) for later in drawings[1:]]
     if not drawings:
         raise SceneError(
             Problem("ask", "asks for nothing that is drawn", "velocities, accelerations, centres …")
         )
-    return drawings
+    stand = placed(drawings)
+    return [replace(each, stand=stand, again=i > 0) for i, each in enumerate(drawings)]

@@ -32,13 +32,15 @@ def rules(drawing: Drawing) -> Iterator[str]:
     scales, first = drawing.scales, drawing.kind == "velocity"
     kv, ka = plan_scales(drawing, kL)
     rule = kv if first else ka
-    parts = [rule.left, rule.symbols.replace("*m*", figure(drawing, scales.times))]
-    stated = not scales.from_driver or (scales.apart and not first)
-    parts += [f"{rule.result} {rule.unit}"] if stated else []
-    yield " = ".join(filter(None, parts))
-    if first and scales.as_crank(drawing.kind):
+    m = figure(drawing, scales.of_bar(drawing.kind))
+    if not scales.of_crank:
+        yield f"{rule.left} = {rule.result} {rule.unit}"
+        return
+    yield f"{rule.left} = {rule.symbols.replace('*m*′', m).replace('*m*', m)}"
+    if first:
         for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
-            yield f"{segment(drawing, q)} = {bar(p, q)}/*k*_L"
+            times = "" if m == "1" else f"{m}·"
+            yield f"{segment(drawing, q)} = {times}{bar(p, q)}/*k*_L"
 
 
 def segment(drawing: Drawing, pin: str) -> str:

@@ -1,64 +1,70 @@
-"""Scale factors: kL from the preferred scales, kv and ka so that the right triangle holds.
+"""Scale factors: kL from the preferred scales, and how much larger the plans are drawn.
 
-The drawing is as large as its fields allow. ka = kv²/kL always, because the right-triangle trick
-needs it; with one turning driver kv = omega·kL, so that its bar and its velocity are drawn alike.
+On the mechanism a velocity is set as its way in some time, an acceleration as twice its way in it,
+so that right triangles hold there; with one turning driver that time is 1/omega and the velocity
+of the crank's pin is as long as the crank. The plans are drawn m and m′ times as large.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from math import floor, log10
+from math import floor, hypot, log10
 
 from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Real
-from graphkin.text.errors import PageError, Problem
 
 STEPS = (1.0, 2.0, 5.0)
-"""First digits of preferred scales."""
-FINE = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
-"""First digits of scale factors that are round enough where the preferred ones lie far apart."""
-NARROW = 45.0
-"""Least width of a plan in mm, so that its caption has room above it."""
+"""First digits of preferred numbers."""
+LENGTHS = (1.0, 2.0, 2.5, 4.0, 5.0)
+"""First digits of the scales of mechanisms: those of ISO 5455, 1:2.5 and 1:4."""
 
 
 class Scales(Struct, frozen=True):
     """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper).
 
-    ``seconds`` is kL/kv. ``from_driver``: kv follows from the one crank that drives, so that a
-    student can find it; ``times`` so much larger than the crank says. ``triangles``: those that may
-    give way to a larger mechanism are drawn, else computed. ``apart``: a scene states ka by itself,
-    this is the root of kL/ka, and no triangle holds; 0 where ka = kv²/kL.
+    ``seconds`` is the time in which velocities are set on the mechanism as ways. The velocity plan
+    is drawn ``larger`` times as large, the acceleration plan ``larger_still`` times: m and m′.
+    ``of_crank``: how many times as long as the crank the velocity of its pin is set there, 0 where
+    no crank says it. ``triangles``: those that may give way to a larger mechanism are drawn, else
+    computed.
     """
 
     kL: float  # noqa: N815
     seconds: float
-    from_driver: bool = True
+    larger: float = 1.0
+    larger_still: float = 1.0
+    of_crank: float = 0.0
     triangles: bool = True
-    times: float = 1.0
-    apart: float = 0.0
 
     @property
     def kv(self) -> float:
         """Velocity that one metre of paper stands for."""
-        return self.kL / self.seconds
+        return self.kL / (self.seconds * self.larger)
 
     @property
     def ka(self) -> float:
-        """Acceleration that one metre of paper stands for: kv²/kL, unless stated apart."""
-        return self.kL / (self.apart or self.seconds) ** 2
+        """Acceleration that one metre of paper stands for."""
+        return self.kL / (self.seconds**2 * self.larger_still)
 
-    def as_crank(self, kind: str) -> bool:
-        """Whether a sheet's plan draws the vector of the crank's pin as long as the crank."""
-        return self.from_driver and self.times == 1 and self.pace(kind) == self.seconds
+    def times(self, kind: str) -> float:
+        """How many times as large as on the mechanism a sheet's plan draws its vectors."""
+        return self.larger_still if kind == "acceleration" else self.larger
+
+    def of_bar(self, kind: str) -> float:
+        """How many times as long as the crank a sheet's plan draws the vector of its pin.
+
+        0 where no crank says it.
+        """
+        return self.times(kind) * self.of_crank ** (2 if kind == "acceleration" else 1)
 
     def pace(self, kind: str) -> float:
-        """The seconds in which a sheet draws velocities as ways, and accelerations in twos."""
-        return self.apart or self.seconds if kind == "acceleration" else self.seconds
+        """Metres of the mechanism that one unit of a sheet's vectors is set on it as."""
+        return self.seconds ** (2 if kind == "acceleration" else 1)
 
     def metres(self, kind: str) -> float:
         """Metres of the mechanism that are drawn as long as one unit of a sheet's plan."""
-        return self.pace(kind) ** (2 if kind == "acceleration" else 1)
+        return self.pace(kind) * self.times(kind)
 
     @property
     def words(self) -> str:
@@ -98,9 +104,19 @@ class Extent(Struct, frozen=True):
         return self.top - self.bottom
 
     @property
+    def diagonal(self) -> float:
+        """From corner to corner."""
+        return float(hypot(self.width, self.height))
+
+    @property
     def middle(self) -> complex:
         """Its middle."""
         return complex(self.left + self.right, self.bottom + self.top) / 2
+
+    def joined(self, other: Extent) -> Extent:
+        """The box that holds this one and another."""
+        left, bottom = min(self.left, other.left), min(self.bottom, other.bottom)
+        return Extent(left, bottom, max(self.right, other.right), max(self.top, other.top))
 
     def grown(self, points: Iterable[complex]) -> Extent:
         """The box that also holds some more points."""
@@ -122,42 +138,3 @@ def preferred(smallest: float, digits: Sequence[float] = STEPS) -> Iterator[floa
             if number >= smallest * (1 - 1e-12):
                 yield number
         power += 1
-
-
-def lengths_needed(
-    needs: Sequence[tuple[Extent, Extent]], width: float, height: float
-) -> Iterator[Real]:
-    """The scales that each side of a room asks for on each sheet, of which the largest holds all.
-
-    They are numbers, or arrays with an element for each variant.
-    """
-    for mechanism, plan in needs:
-        yield 1000 * ((mechanism.width + plan.width) / width)
-        yield 1000 * (mechanism.width / (width - NARROW))
-        yield from (1000 * (box.height / height) for box in (mechanism, plan))
-
-
-def fitting_scale(needs: Sequence[tuple[Extent, Extent]], width: float, height: float) -> float:
-    """The smallest preferred kL at which mechanism and plan stand side by side on every sheet.
-
-    ``needs`` holds, for each sheet, the extents of its mechanism and of its plan drawn at the
-    mechanism's scale; the room's width and height are in mm. A plan takes up NARROW at least.
-    """
-    least = max(lengths_needed(needs, width, height))
-    if not least > 0:
-        raise PageError(Problem("scale", "the mechanism has no extent", "points apart"))
-    return next(preferred(least))
-
-
-def kept_scale(stated: float, least: float) -> float:
-    """The scale that a scene asks for. Raises PageError when the drawing needs a larger kL."""
-    if stated < least * (1 - 1e-12):
-        raise PageError(
-            Problem(
-                "sheet.scale",
-                f"does not fit: at {ratio(stated)} the drawing leaves its fields",
-                f"{ratio(least)} or smaller",
-                f"write scale = {digits(least)}, or leave it out",
-            )
-        )
-    return stated

@@ -276,6 +276,9 @@ class Sheet(NamedTuple):
     """What the title block and the page say beyond the drawing.
 
     ``method`` is how normal components are constructed: by right triangles, or Klein's way.
+    ``rule`` is how large plans are: as large as they fit, or as the lab draws them, the vectors of
+    the crank's pin as long as the crank; ``enlarge`` how many times as long, one number for each
+    plan or one for both.
     """
 
     owner: str = ""
@@ -286,7 +289,8 @@ class Sheet(NamedTuple):
     language: str = "en"
     scale: Quantity | None = None
     sheets: int = 2
-    enlarge: Quantity | None = None
+    rule: str = "largest"
+    enlarge: tuple[Quantity, ...] = ()
     ka: Quantity | None = None
     method: str = "triangles"
 

@@ -23,6 +23,7 @@ ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
 METHODS = ("triangles", "klein")
+RULES = ("largest", "lab")
 """How normal components are constructed."""
 MOST = 500
 
@@ -143,6 +144,9 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
     method = table.text("method", METHODS[0])
     if method not in METHODS:
         findings.add(table.at("method"), shown(method), listed(METHODS), nearest(method, METHODS))
+    rule = table.text("rule", RULES[0])
+    if rule not in RULES:
+        findings.add(table.at("rule"), shown(rule), listed(RULES), nearest(rule, RULES))
     sheets = table.take("sheets")
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
         findings.add(table.at("sheets"), shown(sheets), "1 or 2")
@@ -156,7 +160,8 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         language=language,
         scale=read_scale(table, measures),
         sheets=2 if not isinstance(sheets, int) else sheets,
-        enlarge=read_positive(table, measures, "enlarge"),
+        rule=rule,
+        enlarge=read_enlarge(table, measures, rule),
         ka=read_positive(table, measures, "ka"),
         method=method,
     )
@@ -185,6 +190,22 @@ def read_scale(table: Table, measures: Measures) -> Quantity | None:
         if drawn and true:
             return Quantity(str(raw), exact(Fraction(true, drawn)).tree, "", place)
     return measures.number(place, raw, positive=True)
+
+
+def read_enlarge(table: Table, measures: Measures, rule: str) -> tuple[Quantity, ...]:
+    """How many times as long as its crank plans draw its vectors: 2 for both, or ``[2, 3]``."""
+    raw, place = table.take("enlarge"), table.at("enlarge")
+    if raw is None:
+        return ()
+    if rule != RULES[0]:
+        hint = 'leave out enlarge, or rule = "lab"'
+        measures.findings.add(place, 'is written beside rule = "lab", which says 1', "one", hint)
+    pair = raw if isinstance(raw, list) else [raw]
+    if len(pair) not in (1, 2):
+        measures.findings.add(place, shown(raw), "a number, or one for each of the two plans")
+        return ()
+    found = [measures.number(place, each, positive=True) for each in pair]
+    return tuple(each for each in found if each is not None)
 
 
 def read_positive(table: Table, measures: Measures, key: str) -> Quantity | None:

@@ -4,39 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
-from graphkin.construction.core.component import TriangleChoice, component_of
+from graphkin.construction.core.component import component_of
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.run import Trace
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 
 SAME = 1e-9
 """Share by which an arrow may differ from the vector that is read and still be it."""
-
-
-class DrawingScales(Protocol):
-    """The scale factors of a drawing: real over drawn, and the same for both plans."""
-
-    @property
-    def kL(self) -> float: ...  # noqa: D102
-    @property
-    def kv(self) -> float: ...  # noqa: D102
-    @property
-    def ka(self) -> float: ...  # noqa: D102
-    @property
-    def seconds(self) -> float: ...  # noqa: D102
-    @property
-    def triangles(self) -> bool: ...  # noqa: D102
-    @property
-    def apart(self) -> float: ...  # noqa: D102
 
 
 class Original(Struct, frozen=True, dict=True):
@@ -46,7 +30,6 @@ class Original(Struct, frozen=True, dict=True):
     paper: Paper
     targets: tuple[Target, ...]
     triangles: bool = True
-    apart: bool = False
 
     @property
     def program(self) -> Program:
@@ -89,8 +72,7 @@ class Original(Struct, frozen=True, dict=True):
     def by_hand(self, number: int) -> int | None:
         """The step that gives a composite one by hand, where the drawing has it."""
         component, hand = component_of(self.program, number), self.program.steps[number].by_hand
-        choice = TriangleChoice(self.triangles, self.apart)
-        if component is not None and component.is_computed(choice):
+        if component is not None and component.gives_way and not self.triangles:
             return None
         return hand if hand is not None and hand in self.trace.values else None
 
@@ -181,10 +163,10 @@ def stacked(values: Sequence[Any]) -> Any:
 
 
 def original(
-    mechanism: Mechanism, scales: DrawingScales, targets: Iterable[Target] | None = None
+    mechanism: Mechanism, scales: Scales, targets: Iterable[Target] | None = None
 ) -> Original:
     """The drawing of what a scene asks, or of some targets, at the scales of its sheets."""
     wanted = tuple(mechanism.asked() if targets is None else targets)
     trace = mechanism.trace(wanted, by_hand=True, seconds=scales.seconds)
     paper = Paper(scales.kL, scales.kv, scales.ka)
-    return Original(trace, paper, wanted, scales.triangles, scales.apart > 0)
+    return Original(trace, paper, wanted, scales.triangles)

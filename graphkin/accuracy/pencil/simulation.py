@@ -8,12 +8,13 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.original import DrawingScales, Original, original
+from graphkin.accuracy.pencil.original import Original, original
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark
 from graphkin.accuracy.pencil.read_off import DrawnQuantity, answers
 from graphkin.accuracy.pencil.redrawing import redrawn
 from graphkin.construction.core.program import Target
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 
 BLOCK = 4096
@@ -51,7 +52,7 @@ class Drawn(Struct, frozen=True, dict=True):
 
 def drawn(
     mechanism: Mechanism,
-    scales: DrawingScales,
+    scales: Scales,
     pencil: Pencil,
     count: int,
     seed: int = 0,

@@ -10,7 +10,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.original import DrawingScales, Original, original
+from graphkin.accuracy.pencil.original import Original, original
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.grading.probes import Probe, probes, targets_of
@@ -26,6 +26,7 @@ from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.construction.core.program import Drive, Program, Target
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.documents.scaling import scales
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT, turn_by
 
@@ -103,7 +104,7 @@ class Standard(Struct, frozen=True, dict=True):
     """
 
     mechanism: Mechanism
-    scales: DrawingScales
+    scales: Scales
     layout: FormLayout
     exact: Original
     rubric: Rubric

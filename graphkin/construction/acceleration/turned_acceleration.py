@@ -9,7 +9,7 @@ from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.effect import Effect
-from graphkin.construction.core.naming import has_no_length, is_driven, rate_symbol
+from graphkin.construction.core.naming import has_no_length, rate_symbol
 from graphkin.construction.core.pen import Pen, about, letter, owned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
@@ -18,6 +18,7 @@ from graphkin.construction.core.vocabulary import action, difference, sum_of
 from graphkin.construction.rolling.wheel_actions import speed_rolled
 from graphkin.construction.velocity.laid_off_by_rate import (
     LaidOffAboutPivot,
+    by_bar,
     falls,
     length_drawn,
     rate_words,
@@ -113,8 +114,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         if role == "end":
             if has_no_length(drawing, self.end):
                 return drawing.words(falls(drawing, self.end, fields["s"]), **fields)
-            as_long = drawing.scales.as_crank(drawing.kind) and is_driven(drawing, self.omega)
-            return drawing.words(f"step.centripetal{'' if as_long else '-scaled'}", **fields)
+            return drawing.words(f"step.centripetal{by_bar(drawing, self.omega, fields)}", **fields)
         assert self.image is not None
         alone = has_no_length(drawing, self.end)
         if has_no_length(drawing, self.image):

@@ -23,7 +23,6 @@ from graphkin.scene.model import Scene
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
     from graphkin.construction.core.relation import Relation
-    from graphkin.drawing.scale import Scales
 
 
 class Size(NamedTuple):
@@ -84,10 +83,6 @@ class Component(Construction, frozen=True, kw_only=True):
         """Markup of its symbol."""
         return symbol(self.name)
 
-    @abstractmethod
-    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
-        """Whether sheets give it by number: no triangle holds, or has room, at these scales."""
-
     @classmethod
     def cause(cls, scene: Scene) -> str:
         """What in a scene brings its effect in; nothing where only what is asked does."""
@@ -134,7 +129,7 @@ class Component(Construction, frozen=True, kw_only=True):
         return ""
 
     @abstractmethod
-    def section(self, scales: Scales) -> str:
+    def section(self) -> str:
         """The section of the calculation that holds its relation."""
 
     @abstractmethod
@@ -154,7 +149,7 @@ class Component(Construction, frozen=True, kw_only=True):
     def proportions(self, values: Mapping[int, Any], seconds: Any) -> Iterator[tuple[str, Any]]:
         """How long its velocity is drawn to its bar, where that decides whether it can be drawn.
 
-        With the velocity's symbol; ``seconds`` is the scale kL/kv.
+        With the velocity's symbol, set as its way in so many ``seconds``.
         """
         yield from ()
 
@@ -169,6 +164,10 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
     @abstractmethod
     def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
         """The sides of its triangle that must be long enough to be drawn."""
+
+    def is_drawn(self, drawing: Drawing) -> bool:
+        """Whether its triangle is drawn on a sheet."""
+        return super().is_drawn(drawing) and not self.is_hidden(drawing)
 
     def room(self, canvas: Canvas | Measured) -> Any:
         """By how much its shortest side is longer than what is drawn at all, in mm."""
@@ -312,19 +311,12 @@ def components_on(drawing: Drawing) -> Iterator[Component]:
 # --- drawn, or given by number -------------------------------------------------------------------
 
 
-class TriangleChoice(NamedTuple):
-    """What decides which components are drawn, as scales say it: all, where it is left out."""
-
-    triangles: bool = True
-    apart: float = 0.0
-
-
-def as_drawn(trace: Trace, scales: Scales | TriangleChoice) -> Trace:
-    """A trace without the steps that only the triangles of components given by number need."""
+def as_drawn(trace: Trace, *, triangles: bool) -> Trace:
+    """A trace without the steps that only triangles need which give way, unless all are drawn."""
+    if triangles:
+        return trace
     steps, left = trace.program.steps, dict(trace.values)
-    waiting = [
-        c.read for c in components(trace.program) if c.read is not None and c.is_computed(scales)
-    ]
+    waiting = [c.read for c in components(trace.program) if c.read is not None and c.gives_way]
     while waiting:
         number = waiting.pop()
         used = any(number in steps[other].args for other in left)

@@ -16,6 +16,7 @@ from graphkin.construction.core.quantities import MOTION, PLANES, RATE, SLIDING,
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
 from graphkin.construction.core.vocabulary import join
+from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, Scales, extent_of
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.scene.model import FRAME, Scene, Slide
@@ -32,8 +33,8 @@ NOISE = 1e-9
 class Drawing(Struct, frozen=True, dict=True):
     """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
 
-    ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``curves``
-    are those over the whole motion. ``computed`` says by the symbol why a quantity is computed,
+    ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``stand`` is
+    where it stands on all sheets alike, None where this sheet alone decides. ``curves`` are those over the whole motion. ``computed`` says by the symbol why a quantity is computed,
     not measured. ``driven`` are angles of drivers in degrees, where these are not the scene's.
     """
 
@@ -44,6 +45,7 @@ class Drawing(Struct, frozen=True, dict=True):
     verdict: Verdict
     words: Words
     again: bool = False
+    stand: Field | None = None
     curves: tuple[Curve, ...] = ()
     computed: Mapping[str, str] = field(default_factory=dict)
     driven: Mapping[str, Any] = field(default_factory=dict)
@@ -272,15 +274,19 @@ class Drawing(Struct, frozen=True, dict=True):
             ]
         )
 
+    def bare_extent(self) -> Extent:
+        """The box of the mechanism with its curves, and nothing else that is drawn on it."""
+        points = [*self.positions.values(), *self.corners()]
+        return extent_of([*points, *shown(self.curves, extent_of(points))])
+
     def mechanism_extent(self) -> Extent:
         """The box of the mechanism and what is drawn on it; centres and poles do not count."""
-        points = [*self.positions.values(), *self.corners()]
-        points += shown(self.curves, extent_of(points))
+        points: list[complex] = []
         for _, step, value in self.mechanism_steps():
             is_point = step.name or isinstance(value, Vector)  # the others are directions
             if step.part not in (Part.CENTRE, Part.POLE) and is_point:
                 points += ends(value)
-        return extent_of(points)
+        return self.bare_extent().grown(points)
 
 
 def ends(value: Any) -> tuple[complex, ...]:

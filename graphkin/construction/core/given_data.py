@@ -60,12 +60,9 @@ def given(drawing: Drawing, *, solved: bool = True) -> list[str]:
 
 def of_scales(drawing: Drawing) -> Iterator[str]:
     """What the scene says of the scale factors of the plans, so that a student can follow it."""
-    scales, words = drawing.scales, drawing.words
-    if scales.times != 1:
-        m = scales.times ** (2 if drawing.kind == "acceleration" else 1)
-        yield words(f"page.enlarged_{drawing.kind}", m=words.decimal(f"{m:g}"))
-    if scales.apart:
-        yield words("page.apart", ka=figure(drawing, scales.ka / 1000))
+    m = drawing.scales.of_bar(drawing.kind)
+    if m not in (0, 1):
+        yield drawing.words(f"page.enlarged_{drawing.kind}", m=figure(drawing, m))
 
 
 def of_driver(scene: Scene, words: Words, driver: Driver, *, solved: bool = True) -> Iterator[str]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Mapping, Sequence
+from functools import reduce
 from math import degrees
 from typing import Any
 
@@ -24,10 +25,10 @@ from graphkin.text.errors import PageError, Problem
 
 BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
-LEAST = 110.0
-"""Width that a plan's field gets where the mechanism leaves it, in mm."""
 LEAST_FIELD = 42.0
 """Width that every field has, in mm, so that its caption stands above it in two lines."""
+POLES = 1.4 * MARGIN
+"""Room beside centres and poles, left and right or above and below together, in mm."""
 GROUND = 15.0
 """Room below a mechanism for the ground of its pivots and a line of notes, in mm."""
 FAR = 100.0
@@ -47,24 +48,32 @@ class Layout(Struct, frozen=True):
 
 
 def lay_out(drawing: Drawing) -> Layout:
-    """Fields side by side, poles and centres inside where there is room for them."""
-    mechanism, plan = drawing.mechanism_extent(), drawing.plan_extent()
-    mm = 1000 / drawing.scales.kL
-    split = AREA[0] + shared_width(mechanism.width * mm, plan.width * mm)
-    left = (AREA[0], AREA[1], split, AREA[3])
-    right = (split, AREA[1], AREA[2], AREA[3])
-    wider = with_poles(drawing, mechanism, mm, left)
-    metres = drawing.scales.metres(drawing.kind)
-    fields = Layout(
-        Field(left, mm, wider.middle, raised(left, wider.height * mm)),
-        Field(right, mm * metres, plan.middle / metres, centre(right)),
-        {},
-    )
+    """Mechanism and plan side by side, the mechanism at the place that it has on all sheets."""
+    mechanism = drawing.stand or placed([drawing])
+    rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
+    metres, plan = drawing.scales.metres(drawing.kind), drawing.plan_extent()
+    mm = mechanism.mm * metres
+    fields = Layout(mechanism, Field(rect, mm, plan.middle / metres, centre(rect)), {})
     return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
 
 
-def shared_width(mechanism: float, plan: float) -> float:
-    """Width of the mechanism's field: each drawing gets what it needs and half of what is left."""
+def placed(drawings: Sequence[Drawing]) -> Field:
+    """Where the mechanism stands on all its sheets, with poles and centres where there is room.
+
+    Its field is as wide as it needs; the plans have the rest. Raises PageError where they lack it.
+    """
+    mm = 1000 / drawings[0].scales.kL
+    box = reduce(Extent.joined, (each.mechanism_extent() for each in drawings))
+    plan = max(each.plan_extent().width for each in drawings) * mm
+    most = field_width(box.width * mm, plan)
+    wider = with_poles(drawings, box, mm, most)
+    width = max(box.width * mm + 2 * MARGIN, wider.width * mm + POLES)
+    rect = (AREA[0], AREA[1], AREA[0] + min(max(width, LEAST_FIELD), most), AREA[3])
+    return Field(rect, mm, wider.middle, raised(rect, wider.height * mm))
+
+
+def field_width(mechanism: float, plan: float) -> float:
+    """The greatest width of a mechanism's field beside a plan, in mm. Raises PageError for none."""
     spare = WIDTH - mechanism - plan
     if spare < -1e-6:
         raise PageError(
@@ -75,10 +84,8 @@ def shared_width(mechanism: float, plan: float) -> float:
                 "leave [sheet] scale out, or give a larger number",
             )
         )
-    fair = mechanism + 2 * MARGIN + spare * 0.5
     whole = AREA[2] - AREA[0]
-    most = max(whole - LEAST, mechanism + 2 * MARGIN)
-    return min(max(min(fair, most), LEAST_FIELD), whole - LEAST_FIELD)
+    return max(whole - max(plan + 2 * MARGIN, LEAST_FIELD), LEAST_FIELD)
 
 
 def centre(rect: Rect) -> tuple[float, float]:
@@ -96,15 +103,16 @@ def raised(rect: Rect, height: float) -> tuple[float, float]:
     return centre(rect)[0], rect[3] - below - height / 2
 
 
-def with_poles(drawing: Drawing, extent: Extent, mm: float, rect: Rect) -> Extent:
-    """The box of the mechanism, grown by each centre and pole for which the field has room."""
-    room = rect[2] - rect[0] - 1.4 * MARGIN, rect[3] - rect[1] - 1.4 * MARGIN
-    for _, step, value in drawing.mechanism_steps():
-        if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
-            point = drawing.place(value)
-            grown = extent.grown([point]) if point is not None else extent
-            if grown.width * mm <= room[0] and grown.height * mm <= room[1]:
-                extent = grown
+def with_poles(drawings: Sequence[Drawing], extent: Extent, mm: float, width: float) -> Extent:
+    """The box of the mechanism, grown by each centre and pole for which a field has room."""
+    room = width - POLES, AREA[3] - AREA[1] - POLES
+    for drawing in drawings:
+        for _, step, value in drawing.mechanism_steps():
+            if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
+                point = drawing.place(value)
+                grown = extent.grown([point]) if point is not None else extent
+                if grown.width * mm <= room[0] and grown.height * mm <= room[1]:
+                    extent = grown
     return extent
 
 

@@ -16,7 +16,6 @@ from graphkin.construction.core.component import (
     Measured,
     OwnSizes,
     Size,
-    TriangleChoice,
     TriangleComponent,
 )
 from graphkin.construction.core.effect import Effect
@@ -26,6 +25,7 @@ from graphkin.construction.core.pen import PRIME, Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.core.vocabulary import (
     Action,
@@ -44,7 +44,6 @@ from graphkin.structure.pairs import turns
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.drawing.scale import Scales
 
 CORNERS = ("ef", "gh", "mn", "rs", "xy")
 """Letters for the corners of the triangle that is similar to the guide's."""
@@ -212,14 +211,6 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
-        """Its triangles give way where they would leave no room for a larger mechanism."""
-        return not scales.triangles
-
-    def is_drawn(self, drawing: Drawing) -> bool:
-        """Whether its triangles are drawn on a sheet."""
-        return super().is_drawn(drawing) and not self.is_hidden(drawing)
-
     def formula(self, drawing: Drawing) -> str:
         """2·ω·v."""
         return f"2{rate_symbol(drawing, self.omega)}·{symbol(f'v_{self.index}')}"
@@ -232,7 +223,10 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         fields = {
             "a": self.symbol,
             "v": symbol(f"v_{self.index}"),
-            "segment": "".join(symbol(steps[end].name) for end in (self.tail, self.tip)),
+            "two": twice_set(drawing, symbol(f"v_{self.index}")),
+            "segment": twice_set(
+                drawing, "".join(symbol(steps[end].name) for end in (self.tail, self.tip))
+            ),
             "omega": rate_symbol(drawing, self.omega),
             "drawn": plan_amount(drawing, Plane.ACCELERATIONS, size),
         }
@@ -248,6 +242,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             "bar": bar(self.pivot_name, self.pin_name),
             "e": symbol(self.letter(drawing, "foot")),
             "f": symbol(self.letter(drawing, "top")),
+            "more": laid_times(drawing),
         }
         line = self.leaning_line(drawing, fields)
         return self.sign, drawing.words("step.coriolis", line=line, **fields)
@@ -261,7 +256,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         """The line that cuts f off: to the tip on the guide itself, where every 2v lies on it."""
         assert self.velocity is not None
         _, start, end, _ = drawing.trace.program.steps[self.velocity].args
-        w = vector_of(drawing, start, end, symbol(f"v_{self.pin_name}"))
+        w = set_length(drawing, vector_of(drawing, start, end, symbol(f"v_{self.pin_name}")))
         if not all(each.is_along(drawing) for each in drawn(drawing)):
             return drawing.words("step.coriolis-line", w=w, **fields)
         kinds = (kind for _, kind in self.same_velocity(drawing))
@@ -279,7 +274,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         beside = abs(cross(pin - pivot, foot - pivot)) / abs(pin - pivot)
         return bool(1000 * beside < NAUGHT * drawing.scales.kL)
 
-    def section(self, scales: Scales) -> str:
+    def section(self) -> str:
         """The section of the calculation that holds its relation."""
         return "coriolis_components"
 

@@ -186,24 +186,31 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
 
 
 def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
-    """kv from the driving crank, or chosen; ka = kv²/kL, or chosen."""
+    """kv and ka from the driving crank, or chosen.
+
+    Where no crank says them ka keeps the right triangles: it is (m·kv)²/(m′·kL).
+    """
     scales, chosen = drawing.scales, drawing.words("calculation.chosen")
     kv, ka = figure(drawing, scales.kv / 1000), figure(drawing, scales.ka / 1000)
-    by_ka = ("*k*_v^2/*k*_L", f"1000·{squared(kv)}/{number}")
-    if scales.from_driver:
-        w = figure(drawing, scales.times / scales.seconds, OMEGA)
-        index = f"_{{{escape(drawing.scene.drivers[0].link)}}}"
-        m = figure(drawing, scales.times)
-        sign, less = ("/*m*", f"/{m}") if scales.times != 1 else ("", "")
-        yield Relation("*k*_v", f"*ω*{index}·*k*_L{sign}", f"{w}·{number}/1000{less}", kv, KV)
-        if not less:
-            by_ka = (f"*ω*{index}^2·*k*_L", f"{squared(w)}·{number}/1000")
-    else:
+    if not scales.of_crank:
+        m, again = (figure(drawing, each) for each in (scales.larger, scales.larger_still))
+        by_ka = ("*k*_v^2/*k*_L", f"1000·{squared(kv)}/{number}")
+        if (m, again) != ("1", "1"):
+            numbers = f"1000·({m}·{kv})^2/({again}·{number})"
+            by_ka = ("(*m*·*k*_v)^2/(*m*′·*k*_L)", numbers)
         yield Relation("*k*_v", "", "", kv, KV, chosen)
-    if scales.apart:
-        yield Relation("*k*_a", "", "", ka, KA, chosen)
-    else:
         yield Relation("*k*_a", *by_ka, ka, KA)
+        return
+    turning = float(drawing.scene.drivers[0].speed.si(drawing.scene.values))
+    w, index = figure(drawing, abs(turning), OMEGA), f"_{{{escape(drawing.scene.drivers[0].link)}}}"
+    for symbol_, power, kind, times, result, unit in (
+        ("*k*_v", "", "velocity", "*m*", kv, KV),
+        ("*k*_a", "^2", "acceleration", "*m*′", ka, KA),
+    ):
+        m = scales.of_bar(kind)
+        sign, less = (f"/{times}", f"/{figure(drawing, m)}") if m != 1 else ("", "")
+        numbers = f"{squared(w) if power else w}·{number}/1000{less}"
+        yield Relation(symbol_, f"*ω*{index}{power}·*k*_L{sign}", numbers, result, unit)
 
 
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:

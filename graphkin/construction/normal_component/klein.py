@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import Measured, TriangleChoice
+from graphkin.construction.core.component import Measured
 from graphkin.construction.core.naming import plan_amount, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, owned
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
+from graphkin.construction.core.relation import figure
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -41,7 +42,6 @@ from graphkin.text.errors import Problem, StructureError
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.drawing.scale import Scales
 
 METHOD = "klein"
 """What a scene writes as [sheet] method."""
@@ -176,10 +176,6 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
-        """The circles give it at any scales."""
-        return False
-
     def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
         """The construction in full; by its number where it leaves too little to be drawn."""
         size = self.size(drawing)
@@ -195,11 +191,18 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         fields["omega"] = rate_symbol(drawing, self.omega)
         for role in ("corner", "foot", "whole"):
             fields[role] = symbol(self.letter(drawing, role))
+        fields["more"] = in_plan(drawing)
         return "ν by chord", drawing.words("step.klein", **fields)
 
-    def section(self, scales: Scales) -> str:
+    def section(self) -> str:
         """The section of the calculation that holds its relation."""
         return "normals_klein"
+
+
+def in_plan(drawing: Drawing) -> str:
+    """How many times as long the plan draws what the circles give; nothing where it is as long."""
+    times = drawing.scales.of_bar("acceleration")
+    return "" if times == 1 else drawing.words("step.klein-larger", m=figure(drawing, times))
 
 
 # --- planning it ---------------------------------------------------------------------------------

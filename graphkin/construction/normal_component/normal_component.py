@@ -18,7 +18,6 @@ from graphkin.construction.core.component import (
     Measured,
     OwnSizes,
     Size,
-    TriangleChoice,
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import Drawing
@@ -28,6 +27,7 @@ from graphkin.construction.core.pen import Pen, about, against, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.sentence import Sentence, in_one, together
+from graphkin.construction.core.set_lengths import laid_times, set_length
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.core.vocabulary import (
     action,
@@ -41,7 +41,6 @@ from graphkin.scene.model import Scene
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.drawing.scale import Scales
 
 # --- its value, and the steps of the hand's way --------------------------------------------------
 
@@ -60,7 +59,7 @@ def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Po
 
 @action("set-velocity")
 def set_velocity(pin: Point, image_pivot: Point, image_pin: Point, seconds: Real) -> Point:
-    """The relative velocity set at the pin of the bar; ``seconds`` is kL/kv, the plan's scale."""
+    """The relative velocity set at the pin of the bar, as its way in so many ``seconds``."""
     return pin + (image_pin - image_pivot) * seconds
 
 
@@ -84,7 +83,7 @@ def turn_over(point: Point, about: Point) -> Point:
 
 @action("normal-by-hand")
 def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
-    """The normal component read off the triangle: the segment from the pin, in the plan's scale."""
+    """The normal component read off the triangle: the segment from the pin."""
     return (end - pin) / (seconds * seconds)
 
 
@@ -180,10 +179,6 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
-        """No right triangle gives it where ka is stated by itself."""
-        return bool(scales.apart)
-
     def formula(self, drawing: Drawing) -> str:
         """v²/l."""
         return f"{symbol(self.speed)}^2/{bar(self.p, self.q)}"
@@ -202,17 +197,18 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         }
         if not drawing.settled(size):
             return "ν none", drawing.words("step.normal-none", **fields)
-        if self.is_computed(drawing.scales):
+        if self.is_hidden(drawing):
             drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
             return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
         if not first:
             return "ν", drawing.words("step.normal-again", **fields)
+        fields |= {"set": set_length(drawing, fields["v"]), "more": laid_times(drawing)}
         corners = {role: symbol(self.letter(drawing, role)) for role in ("tip", "cut", "end")}
         return "ν1", drawing.words("step.normal", **fields, **corners)
 
-    def section(self, scales: Scales) -> str:
+    def section(self) -> str:
         """The section of the calculation that holds its relation."""
-        return "normals_apart" if scales.apart else "normals"
+        return "normals"
 
     def relation(self, drawing: Drawing) -> Relation:
         """Square of the relative velocity over the bar, and its drawn length."""

@@ -11,7 +11,6 @@ from graphkin.construction.core.component import (
     Component,
     OwnSizes,
     Size,
-    TriangleChoice,
     components_on,
 )
 from graphkin.construction.core.naming import drawn_between, rate_symbol
@@ -26,7 +25,6 @@ from graphkin.numbers.arithmetic import Point, Real
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.drawing.scale import Scales
 
 
 @action("rolling-normal")
@@ -62,10 +60,6 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     def symbols(self) -> Mapping[str, str]:
         """The ends of the radius."""
         return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
-
-    def is_computed(self, scales: Scales | TriangleChoice) -> bool:
-        """No triangle gives it: the turning of the wheel is known."""
-        return True
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The image in which it ends."""
@@ -103,7 +97,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             **self.symbols(),
         )
 
-    def section(self, scales: Scales) -> str:
+    def section(self) -> str:
         """The section of the calculation that holds its relation."""
         return "normals_turning"
 

@@ -67,6 +67,16 @@ def length_drawn(drawing: Drawing, tail: int, tip: int) -> str:
     return in_mm(drawing.words, drawn_between(drawing, tail, tip, plane))
 
 
+def by_bar(drawing: Drawing, rate: int, fields: dict[str, str]) -> str:
+    """How a sentence says the length of a driven pin's vector: by its bar, or in mm.
+
+    It joins to its ``fields`` how many times as long as the bar that is.
+    """
+    times = drawing.scales.of_bar(drawing.kind) if is_driven(drawing, rate) else 0.0
+    fields["m"] = figure(drawing, times)
+    return {0.0: "-scaled", 1.0: ""}.get(times, "-times")
+
+
 def falls(drawing: Drawing, number: int, start: str) -> str:
     """The key of the sentence of a point that falls on its vector's ``start``: its rate is nought.
 

@@ -7,13 +7,14 @@ from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import has_no_length, is_driven, rate_symbol, vector_of
+from graphkin.construction.core.naming import has_no_length, rate_symbol, vector_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.laid_off_by_rate import (
     LaidOffAboutPivot,
+    by_bar,
     falls,
     length_drawn,
     rate_words,
@@ -69,8 +70,7 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
         fields = self.fields(drawing, role)
         if has_no_length(drawing, self.image):
             return drawing.words(falls(drawing, self.image, fields["s"]), **fields)
-        as_long = drawing.scales.as_crank(drawing.kind) and is_driven(drawing, self.omega)
-        return drawing.words(f"step.turned-velocity{'' if as_long else '-scaled'}", **fields)
+        return drawing.words(f"step.turned-velocity{by_bar(drawing, self.omega, fields)}", **fields)
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The point at its end."""

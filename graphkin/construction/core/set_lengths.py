@@ -1,0 +1,44 @@
+"""How vectors of the plans are set on the mechanism, where these are drawn at another scale."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.relation import figure
+
+
+def set_length(drawing: Drawing, vector: str) -> str:
+    """A velocity as it is set on the mechanism: one m-th of its segment in the plan."""
+    return divided(drawing, vector, drawing.scales.larger)
+
+
+def twice_set(drawing: Drawing, vector: str) -> str:
+    """Twice a velocity as it is set on the mechanism."""
+    times = 2 / drawing.scales.larger
+    if times == 1:
+        return vector
+    short = f"{times:.4g}" == f"{times:.2g}"
+    return f"{figure(drawing, times)}·{vector}" if short else set_length(drawing, f"2·{vector}")
+
+
+def laid_times(drawing: Drawing) -> str:
+    """What stands before a length of the mechanism that is laid off m′ times in the plan."""
+    times = drawing.scales.larger_still
+    return "" if times == 1 else f"{figure(drawing, times)}·"
+
+
+def divided(drawing: Drawing, what: str, times: float) -> str:
+    """Markup of a length divided by a number, or multiplied where that is below one."""
+    if times == 1:
+        return what
+    return (
+        f"{what}/{figure(drawing, times)}" if times > 1 else f"{figure(drawing, 1 / times)}·{what}"
+    )
+
+
+def beside_plan(drawing: Drawing, kind: str) -> str:
+    """How long vectors on the mechanism are beside those of a plan; nothing where they are alike."""
+    times = drawing.scales.times(kind)
+    if times == 1:
+        return ""
+    key, m = ("page.shorter", times) if times > 1 else ("page.longer", 1 / times)
+    return drawing.words(key, m=figure(drawing, m))
