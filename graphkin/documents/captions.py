@@ -35,8 +35,8 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     both = [(mechanism, left), *([(plan, right)] if has_plan(drawing) else [])]
     fits = (h for h in HEIGHTS if all(extent(s, h)[0] <= r[2] - r[0] - 5 for s, r in both))
     height = next(fits, HEIGHTS[-1])
-    above, *beside = (caption(said, rect, height) for said, rect in both)
-    return above, beside[0] if beside else []
+    above, *right_of = (caption(said, rect, height) for said, rect in both)
+    return above, right_of[0] if right_of else []
 
 
 def caption(said: str, rect: Rect, height: float) -> list[Mark]:

@@ -4,20 +4,21 @@ The mechanism stands at one place on all sheets, whose fields are divided alike.
 it as long as the one crank says that drives, or at a round kv; each plan is as many times as large
 as its field holds. Of the scales of the mechanism that is taken at which all is largest together.
 
-The search asks for boxes by yielding the time in which velocities are set on the mechanism as ways,
-so that one search serves a single sheet and, all at a time, the variants of a class.
+The search asks for boxes by yielding the scale factors of drafts, so that one search serves a single
+sheet and, all at a time, the variants of a class.
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
-from math import log
+from math import log, sqrt
 from typing import NamedTuple
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from graphkin.drawing.areas import HEIGHT, WIDTH
+from graphkin.drawing.areas import HEIGHT, LEAST_FIELD, MARGIN, WIDTH
 from graphkin.drawing.scale import LENGTHS, Extent, Scales, digits, preferred, ratio
 from graphkin.text.errors import PageError, Problem
 
@@ -29,8 +30,8 @@ SHORTER = (0.5, 0.25, 0.2, 0.1, 0.05, 0.02)
 """How many times as long as the crank vectors are set on a mechanism that they outgrow."""
 LONGER = (1.5, 2.0, 3.0, 4.0, 5.0)
 """The same where they are short."""
-NARROW = 45.0
-"""Least width of a plan in mm, so that its caption has room above it."""
+NARROW = LEAST_FIELD - 2 * MARGIN
+"""Width that mechanism and plan have at least, in mm, so that captions have room above them."""
 LADDER, MOST = 4, 60
 """Preferred scales that are tried from the first that holds all, and in search of it."""
 PACES = 4
@@ -42,7 +43,9 @@ GAIN, PLAIN = 0.15, 0.05
 LOSS = 0.02
 """Loss in size for which they are set longer."""
 SHORT, LONG = 20.0, 90.0
-"""A longest velocity on the mechanism that is long enough, and long, in mm."""
+"""A longest vector on the mechanism that is long enough, and long, in mm."""
+COARSEST = 0.02
+"""Part of the natural time in which vectors of no length are set."""
 JUST = 1 + 1e-12
 """What fits but for rounding, fits."""
 
@@ -51,14 +54,13 @@ class Needs(Struct, frozen=True):
     """The boxes of a mechanism's drawings, in metres of the mechanism.
 
     ``bare`` holds the mechanism, ``whole`` all that any sheet draws on it; of each sheet's plan the
-    box where it is as large as its vectors are set on the mechanism. ``longest`` is the longest
-    velocity that is set on it.
+    box where it is as large as its vectors are set on the mechanism, and of those the ``longest``.
     """
 
     bare: Extent
     whole: Extent
     plans: Mapping[str, Extent]
-    longest: float
+    longest: Mapping[str, float]
 
     @property
     def outgrown(self) -> bool:
@@ -85,7 +87,7 @@ class Stated(Struct, frozen=True):
         return [key for key, value in said.items() if value]
 
 
-class Choice(NamedTuple):
+class Composition(NamedTuple):
     """A scale of the mechanism, how many times as large each plan is, and how large all is."""
 
     size: float
@@ -93,80 +95,137 @@ class Choice(NamedTuple):
     times: Mapping[str, float]
 
 
-Search = Generator[float, Needs, Scales]
-"""The search for scale factors: it asks for needs by times in seconds, and ends in what it found.
+Ladders = Mapping[str, Sequence[float]]
+"""How many times as large as on the mechanism each plan may be, the largest first."""
+Search = Generator[Scales, Needs, Scales]
+"""The search for scale factors: it asks what drafts need, at 1:1, and ends in what it found.
 
 It raises PageError where what is stated leaves no room.
 """
 
 
-def searched(stated: Stated, crank: float, natural: float, *, triangles: bool) -> Search:
+class Found(NamedTuple):
+    """A composition, and the scales of its draft."""
+
+    composition: Composition
+    draft: Scales
+
+    @property
+    def size(self) -> float:
+        """How large all is."""
+        return self.composition.size
+
+    @property
+    def scales(self) -> Scales:
+        """Its scale factors."""
+        _, kL, times = self.composition
+        m, again = (times.get(kind, 1.0) for kind in ("velocity", "acceleration"))
+        return replace(self.draft, kL=kL, larger=m, larger_still=again)
+
+
+Best = Generator[Scales, Needs, Found]
+"""A search with all triangles drawn, or without those that may give way."""
+
+
+def searched(stated: Stated, crank: float, natural: float, *, may_give_way: bool) -> Search:
     """The scale factors of a mechanism that a ``crank`` drives with a speed in rad/s, or nought.
 
-    ``natural`` is the time in which its vectors are about as large as itself.
+    ``natural`` is the time in which its vectors are about as large as itself. Triangles that
+    ``may_give_way`` do where they leave a smaller mechanism, or much smaller drawings.
     """
-    if crank:
-        return by_crank(stated, crank, triangles)
-    return by_round_kv(stated, natural, triangles)
+
+    def best(*, triangles: bool) -> Best:
+        if crank:
+            return by_crank(stated, crank, triangles)
+        return by_round_kv(stated, natural, triangles)
+
+    drawn = yield from best(triangles=True)
+    if may_give_way:
+        computed = yield from best(triangles=False)
+        if computed.composition.kL < drawn.composition.kL or computed.size > drawn.size + GAIN:
+            return computed.scales
+    return drawn.scales
 
 
-def by_crank(stated: Stated, crank: float, triangles: bool) -> Search:
+def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
     """Vectors on the mechanism as long as the crank says; shorter or longer where that serves."""
-    needs = yield 1 / crank
-    times, choice = 1.0, largest(needs, stated, 1 / crank, times_of(stated, TIMES, 1.0))
-    free = not any(stated.times.values())
-    if free and (choice is None or needs.outgrown):
-        for less in SHORTER:
-            fewer = yield less / crank
-            found = largest(fewer, stated, less / crank, times_of(stated, TIMES, less))
-            if found and (choice is None or found.size > choice.size + GAIN):
-                times, choice = less, found
-            if not fewer.outgrown:
+
+    def draft(times: float) -> Scales:
+        return Scales(1.0, times / crank, of_crank=times, triangles=triangles)
+
+    def tried(times: float, needs: Needs) -> Found | None:
+        composition = largest(needs, stated, times / crank, times_of(stated, TIMES, times))
+        return Found(composition, draft(times)) if composition else None
+
+    needs = yield draft(1.0)
+    found, free = tried(1.0, needs), not any(stated.times.values())
+    if free and (found is None or needs.outgrown):
+        for times in SHORTER:
+            fewer = yield draft(times)
+            less = tried(times, fewer)
+            if less and (found is None or less.size > found.size + GAIN):
+                found = less
+            if found and not fewer.outgrown:
                 break
-    elif free and choice and 1000 * needs.longest / choice.kL < SHORT:
-        for more in LONGER:
-            longer = yield more / crank
-            found = largest(longer, stated, more / crank, times_of(stated, TIMES, more))
-            if found is None or found.size < choice.size - LOSS:
+    elif free and found and is_short(needs, found.composition.kL):
+        size = found.size
+        for times in LONGER:
+            further = yield draft(times)
+            more = tried(times, further)
+            if more is None or more.size < size - LOSS:
                 break
-            times = more
-            choice = found._replace(size=max(choice.size, found.size))
-            if 1000 * longer.longest / choice.kL >= SHORT:
+            found = more
+            if not is_short(further, more.composition.kL):
                 break
-    if choice is None:
+    if found is None:
         raise PageError(no_room(needs, stated, 1 / crank))
-    return scaled(choice, times / crank, times, triangles)
+    return found
 
 
-def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Search:
-    """Vectors on the mechanism at a round kv, at which the longest velocity is at most 90 mm long."""
-    first = yield natural
+def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Best:
+    """Vectors on the mechanism at a round kv, at which the longest is at most 90 mm long."""
+    first = yield Scales(1.0, natural, triangles=triangles)
     ladders = times_of(stated, ROUND, 1.0)
-    best: tuple[Choice, float] | None = None
+    best: Found | None = None
     for kL in islice(lengths(first, stated), LADDER):
-        finest = kL / natural * max(1000 * first.longest / kL / LONG, 0.02)
+        own: Found | None = None
+        finest = kL / natural * coarseness(first, kL)
         for kv in islice(preferred(finest), PACES):
-            needs = yield kL / kv
-            found = composed(needs, kL, ladders, stated, kL / kv)
-            if found and (best is None or found.size > best[0].size + PLAIN):
-                best = found, kL / kv
+            draft = Scales(1.0, kL / kv, triangles=triangles)
+            composition = composed((yield draft), kL, ladders, stated, draft.seconds)
+            if composition and own and composition.size < own.size + PLAIN:
+                break
+            own = Found(composition, draft) if composition else own
+        if best and own and own.size < best.size + PLAIN:
+            break
+        best = own or best
     if best is None:
         raise PageError(no_room(first, stated, natural))
-    return scaled(*best, 0.0, triangles)
+    return best
 
 
-def scaled(choice: Choice, seconds: float, of_crank: float, triangles: bool) -> Scales:
+def is_short(needs: Needs, kL: float) -> bool:
+    """Whether the longest velocity on a mechanism is short, though not zero."""
+    return 0 < 1000 * needs.longest.get("velocity", 0.0) / kL < SHORT
+
+
+def coarseness(needs: Needs, kL: float) -> float:
+    """How many times as much a millimetre must stand for that no vector is longer than LONG."""
+    speed, thrust = (needs.longest.get(kind, 0.0) for kind in ("velocity", "acceleration"))
+    times = 1000 / kL / LONG
+    return max(times * speed, sqrt(times * thrust), COARSEST)
+
+
+def scaled(choice: Composition, seconds: float, of_crank: float, triangles: bool) -> Scales:
     """The scale factors of a choice."""
     m, again = (choice.times.get(kind, 1.0) for kind in ("velocity", "acceleration"))
     return Scales(choice.kL, seconds, m, again, of_crank, triangles)
 
 
-def times_of(stated: Stated, ladder: Sequence[float], of_crank: float) -> Mapping[str, Sequence[float]]:
+def times_of(stated: Stated, ladder: Sequence[float], of_crank: float) -> Ladders:
     """How many times as large as on the mechanism each plan may be, the largest first."""
     own = {"velocity": of_crank, "acceleration": of_crank**2}
-    return {
-        kind: [times / own[kind]] if times else ladder for kind, times in stated.times.items()
-    }
+    return {kind: [times / own[kind]] if times else ladder for kind, times in stated.times.items()}
 
 
 def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
@@ -184,11 +243,9 @@ def least(box: Extent) -> float:
     return float(needed)
 
 
-def largest(
-    needs: Needs, stated: Stated, seconds: float, ladders: Mapping[str, Sequence[float]]
-) -> Choice | None:
+def largest(needs: Needs, stated: Stated, seconds: float, ladders: Ladders) -> Composition | None:
     """The scale at which mechanism and plans are largest together; None where none holds them."""
-    found: list[Choice] = []
+    found: list[Composition] = []
     for kL in islice(lengths(needs, stated), MOST):
         choice = composed(needs, kL, ladders, stated, seconds)
         found += [choice] if choice else []
@@ -200,16 +257,17 @@ def largest(
 def composed(
     needs: Needs,
     kL: float,
-    ladders: Mapping[str, Sequence[float]],
+    ladders: Ladders,
     stated: Stated,
     seconds: float,
-) -> Choice | None:
+) -> Composition | None:
     """The largest plans beside a mechanism at a scale; None where it, or one of them, has no room.
 
-    Its size adds the logarithms of the diagonals: the mechanism's, and the mean of the plans'.
+    Its size is the logarithm of the harmonic mean of the diagonals, of which the mechanism's counts
+    as much as those of the plans together.
     """
     mm = 1000 / kL
-    room = WIDTH - needs.whole.width * mm
+    room = WIDTH - max(needs.whole.width * mm, NARROW)
     if needs.whole.height * mm > HEIGHT * JUST or room < NARROW:
         return None
     times, sizes = {}, []
@@ -223,9 +281,9 @@ def composed(
             return None
         drawn = wide > 0 or high > 0
         times[kind] = found if drawn or apart else 1.0
-        sizes += [log(box.diagonal * mm * found)] if drawn else []
-    mean = sum(sizes) / len(sizes) if sizes else 0.0
-    return Choice(log(needs.bare.diagonal * mm) + mean, kL, times)
+        sizes += [box.diagonal * mm * found] if drawn else []
+    small = sum(1 / size for size in sizes) / len(sizes) if sizes else 0.0
+    return Composition(-log(1 / (needs.bare.diagonal * mm) + small), kL, times)
 
 
 def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:

@@ -24,7 +24,8 @@ def refuse_dots(scales: Scales, trials: Sequence[Drawing], stated: Sequence[str]
         found = f"at 1:{digits(scales.kL)} the mechanism is drawn {across:.2g} mm across"
         raise dot("scale", found, f"a smaller scale, {digits(not_above(most))} or less")
     if across < LEAST and "enlarge" in stated:
-        found = f"at {digits(scales.times)} times the mechanism is drawn {across:.2g} mm across"
+        times = digits(scales.of_bar("velocity"))
+        found = f"at {times} times the mechanism is drawn {across:.2g} mm across"
         raise dot("enlarge", found, "a smaller enlarge")
     for trial in trials:
         longest = 1000 * abs(trial.at_scale(trial.plane, trial.largest)) / scales.kL
@@ -37,8 +38,9 @@ def refuse_dots(scales: Scales, trials: Sequence[Drawing], stated: Sequence[str]
             raise dot(
                 "ka", f"at {digits(ka)} (m/s²)/mm {found}", f"a smaller ka, {digits(most)} or less"
             )
-        if "enlarge" in stated and scales.times < 1:
-            raise dot("enlarge", f"at {digits(scales.times)} times {found}", "a larger enlarge")
+        own = scales.of_bar(trial.kind)
+        if "enlarge" in stated and own < 1:
+            raise dot("enlarge", f"at {digits(own)} times {found}", "a larger enlarge")
 
 
 def dot(key: str, found: str, what: str) -> PageError:

@@ -62,10 +62,10 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     """
     curves = curves_of(mechanism) if curves is None else curves
     said = stated(mechanism)
-    chosen = found(mechanism, curves, search(mechanism, said, triangles=True), triangles=True)
-    if may_give_way(mechanism.program):
-        less = found(mechanism, curves, search(mechanism, said, triangles=False), triangles=False)
-        chosen = less if less.kL < chosen.kL else chosen
+    crank, gives_way = the_crank(mechanism), may_give_way(mechanism.program)
+    natural = 0.0 if crank else natural_seconds(mechanism)
+    asking = searched(said, crank, natural, may_give_way=gives_way)
+    chosen = found(mechanism, curves, asking)
     if said.keys:
         refuse_dots(chosen, drafts_of(mechanism, curves, chosen), said.keys)
     return chosen
@@ -89,22 +89,12 @@ def stated(mechanism: Mechanism) -> Stated:
     return Stated(number(sheet.scale), by_kind, 1000 * number(sheet.ka))
 
 
-def search(mechanism: Mechanism, said: Stated, *, triangles: bool) -> Search:
-    """The search for the scale factors of a mechanism."""
-    crank = the_crank(mechanism)
-    natural = 0.0 if crank else natural_seconds(mechanism)
-    return searched(said, crank, natural, triangles=triangles)
-
-
-def found(
-    mechanism: Mechanism, curves: tuple[Curve, ...], asking: Search, *, triangles: bool
-) -> Scales:
-    """What a search ends in, told the boxes that it asks for."""
-    seconds = next(asking)
+def found(mechanism: Mechanism, curves: tuple[Curve, ...], asking: Search) -> Scales:
+    """What a search ends in, told what the drafts need that it asks for."""
+    draft = next(asking)
     try:
         while True:
-            draft = Scales(1.0, seconds, triangles=triangles)
-            seconds = asking.send(needs_of(drafts_of(mechanism, curves, draft)))
+            draft = asking.send(needs_of(drafts_of(mechanism, curves, draft)))
     except StopIteration as end:
         chosen: Scales = end.value
         return chosen
@@ -113,8 +103,7 @@ def found(
 def needs_of(drafts: list[Drawing]) -> Needs:
     """The boxes of drafts at full size."""
     plans = {draft.kind: draft.plan_extent() for draft in drafts}
-    velocity = next((draft for draft in drafts if draft.kind == "velocity"), None)
-    longest = velocity.largest * velocity.scales.seconds if velocity else 0.0
+    longest = {d.kind: d.largest * d.scales.pace(d.kind) for d in drafts}
     bare, whole = (
         reduce(Extent.joined, boxes)
         for boxes in zip(*((d.bare_extent(), d.mechanism_extent()) for d in drafts), strict=True)
@@ -140,7 +129,7 @@ def the_crank(mechanism: Mechanism) -> float:
 
 
 def natural_seconds(mechanism: Mechanism) -> float:
-    """kL/kv that draws the plans about as large as the mechanism, where no crank says it."""
+    """The time in which vectors are about as large as the mechanism that they are set on."""
     points = shown(mechanism).points.values()
     places = extent_of([complex(point.position) for point in points if point.position is not None])
     size = max(places.width, places.height)

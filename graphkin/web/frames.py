@@ -184,7 +184,7 @@ def moment_at(cycle: Cycle, place: float, words: Words) -> Frame | None:
         return None
     mechanism = Mechanism(piece.course.standing(within))
     try:
-        scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
+        scales = Scales(1.0, natural_seconds(mechanism), triangles=False)
         drawings = {
             kind: made(mechanism, kind, targets, scales, words)
             for kind in SHEETS

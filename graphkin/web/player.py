@@ -92,7 +92,7 @@ def cannot(cycle: Cycle) -> Problem:
 def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
     """The fields of a motion as they stand where the scene does, the mechanism on the first."""
     mechanism = set_up.motion.cycle.mechanism
-    scales = Scales(1.0, natural_seconds(mechanism), from_driver=False, triangles=False)
+    scales = Scales(1.0, natural_seconds(mechanism), triangles=False)
     kinds = [kind for kind in SHEETS if targets_of(mechanism, kind)]
     found = []
     for place, kind in enumerate(kinds or ["velocity"]):

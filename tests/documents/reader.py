@@ -43,6 +43,9 @@ KINDS = {
     "point": NAME,
     "number": NUMBER,
     "vector": VECTOR,
+    "set": rf"(?:{NUMBER}·)?{VECTOR}(?:/{NUMBER})?",
+    "times": rf"(?:{NUMBER}·)?",
+    "segment": rf"(?:{NUMBER}·)?{NAME}{NAME}(?:/{NUMBER})?",
     "turning": rf"{TURNING}(?: = (?:[^,;:]*? rad/s(?:\^\{{2\}})?|{VECTOR}/{NAME}{NAME}))?",
 }
 
@@ -65,6 +68,27 @@ def says(*forms: str) -> Callable[[Rule], Rule]:
         return rule
 
     return kept
+
+
+SET = KINDS["set"]
+
+
+def factored(words: str) -> tuple[float, str]:
+    """How many times as long as in its plan what is set is taken, and what it is."""
+    match = re.fullmatch(rf"(?:({NUMBER})·)?(.*?)(?:/({NUMBER}))?", words)
+    assert match
+    return number(match[1] or "1") / number(match[3] or "1"), match[2]
+
+
+def agrees(size: float, told: str | None) -> None:
+    """Raises DefectError where a length is not as long as the page tells besides."""
+    if told and abs(size - number(told)) > 0.1:
+        raise DefectError(f"{told} mm is told of what is {size:.2f} mm long")
+
+
+def times(words: str) -> float:
+    """The number before a length that is taken so many times."""
+    return number(words.removesuffix("·") or "1")
 
 
 SIDES = {
@@ -98,6 +122,10 @@ class Reader:
     """Senses of what turns, as sentences have told them by a velocity over a length."""
     coriolis_before: tuple[str, str, str] | None = None
     """The centre, the line and the turning of the Coriolis triangle drawn last."""
+    shorter: float = 1.0
+    """How many times shorter than in the plan velocities are set on the mechanism."""
+    longer: float = 1.0
+    """How many times longer than there what triangles give is laid off."""
     lengths: dict[str, float] = field(default_factory=dict)
     """Lengths of components found at the mechanism, by their symbols."""
     vectors: dict[str, complex] = field(default_factory=dict)
@@ -569,8 +597,8 @@ class Reader:
     # velocities
 
     @says(
-        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ⊥ ⟨p⟩⟨q⟩ in the sense of ⟨w:turning⟩, as "
-        "long as ⟨p2⟩⟨q2⟩ is drawn",
+        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ⊥ ⟨p⟩⟨q⟩ in the sense of ⟨w:turning⟩, "
+        "(?:⟨m:number⟩ times )?as long as ⟨p2⟩⟨q2⟩ is drawn(?:: ⟨same:number⟩ mm)?",
         "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ⊥ ⟨p⟩⟨q⟩, ⟨drawn:number⟩ mm, in the sense "
         "of ⟨w:turning⟩",
     )
@@ -586,9 +614,12 @@ class Reader:
         drawn: str | None = None,
         p2: str = "",
         q2: str = "",
+        m: str | None = None,
+        same: str | None = None,
     ) -> None:
         bar = self.at(q) - self.at(p)
-        size = number(drawn) if drawn else abs(self.at(q2) - self.at(p2))
+        size = number(drawn) if drawn else number(m or "1") * abs(self.at(q2) - self.at(p2))
+        agrees(size, same)
         self.put(name, self.at(s) + bar / abs(bar) * 1j * self.sense(w) * size)
 
     @says(
@@ -697,8 +728,9 @@ class Reader:
     # accelerations
 
     @says(
-        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ∥ ⟨p⟩⟨q⟩, from ⟨q2⟩ to ⟨p2⟩, (?:as long as "
-        "⟨m⟩⟨n⟩ is drawn|⟨drawn:number⟩ mm)"
+        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ∥ ⟨p⟩⟨q⟩, from ⟨q2⟩ to ⟨p2⟩, "
+        "(?:(?:⟨times:number⟩ times )?as long as ⟨m⟩⟨n⟩ is drawn(?:: ⟨same:number⟩ mm)?|"
+        "⟨drawn:number⟩ mm)"
     )
     def centripetal(
         self,
@@ -713,9 +745,13 @@ class Reader:
         m: str | None,
         n: str | None,
         drawn: str | None,
+        times: str | None,
+        same: str | None,
     ) -> None:
         inward = self.at(p2) - self.at(q2)
-        size = number(drawn) if drawn else abs(self.at(n or "") - self.at(m or ""))
+        bar = abs(self.at(n) - self.at(m)) if m and n else 0.0
+        size = number(drawn) if drawn else number(times or "1") * bar
+        agrees(size, same)
         self.put(name, self.at(s) + inward / abs(inward) * size)
 
     @says(
@@ -773,25 +809,27 @@ class Reader:
         self.loci.append(Line.of(self.tail, self.direction(of)))
 
     @says(
-        "normal component ⟨a:vector⟩ by the right triangle: at ⟨q⟩ set ⟨v:vector⟩ of the "
+        "normal component ⟨a:vector⟩ by the right triangle: at ⟨q⟩ set ⟨v:set⟩ of the "
         "velocity plan, its tip is ⟨tip⟩; at ⟨tip2⟩ the perpendicular to ⟨p⟩⟨tip3⟩ cuts "
-        "⟨m⟩⟨n⟩ in ⟨cut⟩; turned by 180° about ⟨q2⟩ this gives ⟨end⟩; ⟨q3⟩⟨end2⟩ = "
-        "⟨a2:vector⟩"
+        "⟨m⟩⟨n⟩ in ⟨cut⟩; turned by 180° about ⟨q2⟩ this gives ⟨end⟩; "
+        "⟨more:times⟩⟨q3⟩⟨end2⟩ = ⟨a2:vector⟩"
     )
-    def normal(self, a: str, q: str, v: str, tip: str, p: str, **_: str) -> None:
+    def normal(self, a: str, q: str, v: str, tip: str, p: str, more: str, **_: str) -> None:
+        factor, v = factored(v)
+        self.shorter, self.longer = 1 / factor, times(more)
         self.triangle(a, v, p, q, tip[0])
 
     def triangle(self, a: str, v: str, p: str, q: str, letter: str) -> None:
         """The right triangle: its height on the bar is the velocity."""
         centre, point = self.at(p), self.at(q)
         index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
-        tip = point + self.set_off(v)
+        tip = point + self.set_off(v) / self.shorter
         bar = Line.of(centre, point - centre)
         (cut,) = crossings(Line.of(tip, (tip - centre) * 1j), bar)
         end = 2 * point - cut
         for primes, where in (("″", tip), ("‴", cut), ("⁗", end)):
             self.put_triangle(letter + primes + index, where)
-        self.lengths[a] = abs(end - point)
+        self.lengths[a] = self.longer * abs(end - point)
 
     def put_triangle(self, name: str, where: complex) -> None:
         self.place[name] = where
@@ -817,30 +855,34 @@ class Reader:
         self.lengths[a], self.vectors[a] = 0.0, 0j
 
     @says(
-        r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set 2⟨v:vector⟩ = "
-        r"2·⟨x⟩⟨y⟩, tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
-        r"⟨e3⟩⟨f3⟩ = ⟨a2:vector⟩, as ⟨v2:vector⟩ turned by 90° in the sense of ⟨w:turning⟩"
+        r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set ⟨v:set⟩ = ⟨xy:segment⟩, "
+        r"tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
+        r"⟨more:times⟩⟨e3⟩⟨f3⟩ = ⟨a2:vector⟩, as ⟨v2:vector⟩ turned by 90° in the sense of "
+        "⟨w:turning⟩"
     )
     def coriolis(
-        self, a: str, p: str, x: str, y: str, e: str, f: str, line: str, w: str, **_: str
+        self, a: str, p: str, xy: str, e: str, f: str, line: str, w: str, more: str, **_: str
     ) -> None:
         self.coriolis_before = p, line, w
+        self.longer = times(more)
         plan = self.velocity
-        slide = plan[canonical(y)] - plan[canonical(x)]
+        factor, ends = factored(xy)
+        x, y = re.fullmatch(rf"({NAME})({NAME})", ends).groups()  # type: ignore[union-attr]
+        slide = factor * (plan[canonical(y)] - plan[canonical(x)])
         foot = self.at(p)
-        tip = foot + 2 * slide
+        tip = foot + slide
         (cut,) = crossings(Line.of(tip, slide * 1j), Line.of(foot, self.line_of(line, p, tip)))
         index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
         e, f = e[0], f[0]
         self.place[canonical(e) + index], self.place[canonical(f) + index] = tip, cut
-        self.vectors[a] = slide / abs(slide) * 1j * self.sense(w) * abs(cut - tip)
+        self.vectors[a] = slide / abs(slide) * 1j * self.sense(w) * self.longer * abs(cut - tip)
 
-    @says("in the same way ⟨a:vector⟩ from 2⟨v:vector⟩ = 2·⟨x⟩⟨y⟩")
-    def coriolis_again(self, a: str, x: str, y: str, **_: str) -> None:
+    @says("in the same way ⟨a:vector⟩ from ⟨v:set⟩ = ⟨xy:segment⟩")
+    def coriolis_again(self, a: str, xy: str, **_: str) -> None:
         if self.coriolis_before is None:
             raise DefectError("no Coriolis component came before")
         p, line, w = self.coriolis_before
-        self.coriolis(a, p, x, y, "e", "f", line, w)
+        self.coriolis(a, p, xy, "e", "f", line, w, f"{self.longer}·")
 
     @says(
         "⟨a:vector⟩ = 2⟨w:turning⟩·⟨v:vector⟩, drawn ⟨drawn:number⟩ mm, as ⟨v2:vector⟩ turned by "
@@ -855,17 +897,19 @@ class Reader:
         if match := re.fullmatch(rf"the line ({NAME})({NAME})", words):
             return self.at(match[2]) - self.at(match[1])
         if match := re.fullmatch(
-            rf"the line from ({NAME}) to the tip of ({VECTOR}), set at ({NAME})", words
+            rf"the line from ({NAME}) to the tip of ({SET}), set at ({NAME})", words
         ):
-            return self.at(match[3]) + self.set_off(match[2]) - self.at(match[1])
+            factor, v = factored(match[2])
+            return self.at(match[3]) + factor * self.set_off(v) - self.at(match[1])
         if match := re.fullmatch(
             rf"the line from {NAME} that makes with {NAME}{NAME} the angle which "
             rf"({NAME})({NAME}) makes"
-            rf" with the line from ({NAME}) to the tip of ({VECTOR}), set at ({NAME})",
+            rf" with the line from ({NAME}) to the tip of ({SET}), set at ({NAME})",
             words,
         ):
             bar = self.at(match[2]) - self.at(match[1])
-            to = self.at(match[5]) + self.set_off(match[4]) - self.at(match[3])
+            factor, v = factored(match[4])
+            to = self.at(match[5]) + factor * self.set_off(v) - self.at(match[3])
             return (tip - self.at(p)) * to / bar
         raise DefectError(f"no rule reads: {words}")
 

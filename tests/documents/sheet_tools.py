@@ -182,11 +182,20 @@ def fields_of(drawing: Drawing, page: Page) -> dict[str, tuple[Mark, ...]]:
             if isinstance(mark, Text) and mark.markup.startswith(caption) and mark.cls == "caption"
         )
         heads.append(next(captions))
+    second = heads[1]
+    heads = [last_line(page.marks, head) for head in heads]
     panel = (i for i, mark in enumerate(page.marks) if i > heads[1] and mark.cls == "panel")
     return {
-        "mechanism": page.marks[heads[0] + 1 : heads[1]],
+        "mechanism": page.marks[heads[0] + 1 : second],
         "plan": page.marks[heads[1] + 1 : next(panel)],
     }
+
+
+def last_line(marks: Sequence[Mark], head: int) -> int:
+    """Where a caption in several lines ends."""
+    while (mark := marks[head + 1]).cls == "caption" and isinstance(mark, Text):
+        head += 1
+    return head
 
 
 def named(param: Sequence[object]) -> str:

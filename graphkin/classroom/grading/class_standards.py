@@ -21,7 +21,7 @@ from graphkin.classroom.grading.tolerance import pencil_errors
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.lab.variant_scales import by_arrays, empty, scaled
 from graphkin.construction.core.program import Program, Step
-from graphkin.documents.scaling import scales, the_crank
+from graphkin.documents.scaling import scales
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.scene.findings import Findings
@@ -179,17 +179,8 @@ def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
         done = scaled(usual, values, found)
         for place in np.flatnonzero(done & np.isfinite(found.kL)):
             i = like[place]
-            kL, seconds = float(found.kL[place]), float(found.seconds[place])
-            known[i] = as_sheet(own[i], kL, seconds, bool(found.triangles[place]))
+            known[i] = found.of(int(place))
     return [known[i] if i in known else scales(each) for i, each in enumerate(own)]
-
-
-def as_sheet(mechanism: Mechanism, kL: float, seconds: float, triangles: bool) -> Scales:
-    """The scale factors as a single sheet has them: of its crank, or with a round kv."""
-    crank = the_crank(mechanism)
-    if abs(seconds * crank - 1) <= CRANK:
-        return Scales(kL, 1 / crank, triangles=triangles)
-    return Scales(kL, seconds, from_driver=False, triangles=triangles)
 
 
 # --- the pencil -------------------------------------------------------------------------------

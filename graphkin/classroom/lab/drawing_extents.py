@@ -13,10 +13,11 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.construction.core.batch import run_batch
-from graphkin.construction.core.component import TriangleChoice, as_drawn
+from graphkin.construction.core.component import as_drawn
 from graphkin.construction.core.program import Part, Plane, Step, Target
 from graphkin.construction.core.quantities import PLANES
 from graphkin.construction.core.run import Trace
+from graphkin.documents.composing import Needs
 from graphkin.documents.scaling import sheet_targets
 from graphkin.drawing.scale import Extent
 from graphkin.mechanism import Mechanism
@@ -34,7 +35,7 @@ Array = Any
 class VariantSheet(Struct, frozen=True, dict=True):
     """The material of one sheet of many variants: the steps that it draws, and their values.
 
-    ``seconds`` is the pace of each variant, at which velocities are set on the mechanism.
+    ``seconds`` is the time of each variant in which velocities are set on the mechanism as ways.
     """
 
     mechanism: Mechanism
@@ -50,6 +51,11 @@ class VariantSheet(Struct, frozen=True, dict=True):
                 yield step, value
 
     @cached_property
+    def bare_box(self) -> Extent:
+        """The box of the mechanism alone, in metres."""
+        return boxes(list(self.positions()), len(self.seconds))
+
+    @cached_property
     def mechanism_box(self) -> Extent:
         """The box of the mechanism and what is drawn on it, in metres."""
         points = list(self.positions())
@@ -60,7 +66,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def plan_box(self) -> Extent:
-        """The box of the plan at the mechanism's scale, in metres."""
+        """The box of the plan once as large as its vectors on the mechanism, in metres."""
         scale = self.plan_seconds
         points = [p * scale for _, v in self.steps(PLANES[self.kind]) for p in ends(v)]
         return boxes(points, len(self.seconds))
@@ -75,12 +81,11 @@ class VariantSheet(Struct, frozen=True, dict=True):
         """The largest distance in the mechanism along x or y, in metres."""
         import numpy as np
 
-        box = boxes(list(self.positions()), len(self.seconds))
-        return np.maximum(box.width, box.height)
+        return np.maximum(self.bare_box.width, self.bare_box.height)
 
     @cached_property
     def largest(self) -> Array:
-        """The largest vector of the plan at the mechanism's scale, in metres."""
+        """The largest vector of the plan as it is set on the mechanism, in metres."""
         import numpy as np
 
         vectors = [
@@ -127,29 +132,25 @@ def boxes(points: Sequence[Array], size: int) -> Extent:
 
 
 def drawn_steps(
-    mechanism: Mechanism, targets: Sequence[Target], *, triangles: bool, apart: bool
+    mechanism: Mechanism, targets: Sequence[Target], *, triangles: bool
 ) -> tuple[int, ...]:
-    """The steps of a sheet, with or without the triangles that may give way.
-
-    ``apart``: ka is stated by itself, and no right triangle holds either.
-    """
+    """The steps of a sheet, with or without the triangles that may give way."""
     program = mechanism.program
     needed = program.needed(targets, by_hand=True)
     trace = Trace(program, dict.fromkeys(needed), {})
-    return tuple(as_drawn(trace, TriangleChoice(triangles, float(apart))).values)
+    return tuple(as_drawn(trace, triangles=triangles).values)
 
 
 def sketches(
     mechanism: Mechanism,
     values: Mapping[str, Any],
-    paces: Mapping[str, Array],
+    seconds: Array,
     *,
     triangles: bool,
-    apart: bool = False,
     rates: Mapping[int, Any] | None = None,
     margins: bool = False,
 ) -> list[VariantSheet]:
-    """The sheets of many variants, by ``paces`` the seconds in which each draws velocities as ways.
+    """The sheets of many variants, by the ``seconds`` in which velocities are set on each as ways.
 
     ``values`` are the scene's parameters as arrays; ``rates`` what the hand tries in trial plans.
     """
@@ -158,14 +159,40 @@ def sketches(
     program = mechanism.program
     found = []
     for kind, targets in sheet_targets(mechanism).items():
-        seconds = paces[kind]
         overrides = dict(rates or {})
         if program.seconds is not None:
             overrides[program.seconds] = seconds
-        steps = drawn_steps(mechanism, targets, triangles=triangles, apart=apart)
+        steps = drawn_steps(mechanism, targets, triangles=triangles)
         with np.errstate(all="ignore"):
             trace = run_batch(
                 program, steps, values, batch_kind(), steps, margins=margins, overrides=overrides
             )
         found.append(VariantSheet(mechanism, kind, trace, seconds))
     return found
+
+
+def needs_of(drafts: Sequence[VariantSheet]) -> list[Needs | None]:
+    """The boxes of the drafts of each variant, as in documents.scaling; None for no number."""
+    import numpy as np
+
+    bare, whole = (
+        Extent(
+            *(np.min([getattr(box, side) for box in some], axis=0) for side in ("left", "bottom")),
+            *(np.max([getattr(box, side) for box in some], axis=0) for side in ("right", "top")),
+        )
+        for some in ([d.bare_box for d in drafts], [d.mechanism_box for d in drafts])
+    )
+    plans = {draft.kind: rows(draft.plan_box) for draft in drafts}
+    found: list[Needs | None] = []
+    for i, (own, every) in enumerate(zip(rows(bare), rows(whole), strict=True)):
+        longest = {draft.kind: float(draft.largest[i]) for draft in drafts}
+        needs = Needs(own, every, {kind: some[i] for kind, some in plans.items()}, longest)
+        sound = np.isfinite([own.diagonal, every.diagonal, *longest.values()]).all()
+        found.append(needs if sound and own.diagonal else None)
+    return found
+
+
+def rows(box: Extent) -> list[Extent]:
+    """The box of each variant."""
+    columns = zip(box.left, box.bottom, box.right, box.top, strict=True)
+    return [Extent(*map(float, sides)) for sides in columns]

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import product
 from typing import Any
 
 from msgspec import Struct, field
@@ -27,7 +26,6 @@ from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
 from graphkin.classroom.lab.variant_scales import Loader, Scaling, scaling, taken
-from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
@@ -194,9 +192,8 @@ def judged_block(
     scales = scaling(mechanism, values, count, load, closes)
     names = tuple(item.field for item in form)
     found = Fairness(limits, names, closes, np.isfinite(scales.kL), scales.kL)
-    for triangles, apart in product((True, False), repeat=2):
-        alike = (scales.triangles == triangles) & ((scales.apart > 0) == apart)
-        which = np.flatnonzero(closes & found.fits & alike)
+    for triangles in (True, False):
+        which = np.flatnonzero(closes & found.fits & (scales.triangles == triangles))
         if len(which):
             drawn = drawn_at(mechanism, taken(values, which), scales.taken(which))
             put_drawn(found, drawn, form, scales.taken(which), which)
@@ -210,9 +207,8 @@ def drawn_at(
     return sketches(
         mechanism,
         values,
-        {kind: scales.pace(kind) for kind in SHEETS},
+        scales.seconds,
         triangles=bool(scales.triangles[0]),
-        apart=bool(scales.apart[0] > 0),
         rates=scales.rates,
         margins=True,
     )
@@ -252,7 +248,7 @@ def put_drawn(
         )
         put(found.triangles, triangle_ratios(sheet), which, len(found))
         put(found.rays, ray_angles(sheet, form), which, len(found))
-        put(found.on_page, held(sheet, form, scales.kL), which, len(found))
+        put(found.on_page, held(drawn, sheet, form, scales), which, len(found))
 
 
 def put(

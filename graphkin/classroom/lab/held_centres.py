@@ -7,20 +7,25 @@ from typing import Any
 
 from graphkin.classroom.lab.drawing_extents import VariantSheet
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.lab.variant_scales import Scaling
 from graphkin.construction.core.drawn_scene import ENDLESS
-from graphkin.construction.core.layout import LEAST, LEAST_FIELD
+from graphkin.construction.core.layout import POLES
 from graphkin.construction.core.program import Part, Plane
-from graphkin.drawing.areas import AREA, HEIGHT, MARGIN, WIDTH
+from graphkin.drawing.areas import AREA, HEIGHT, LEAST_FIELD, MARGIN
 from graphkin.numbers.plane import Ratio
 
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
 EDGE = 2.0
 """How far from the edge of its field a centre must lie to be marked in it, in mm."""
 Array = Any
+Sides = tuple[Array, ...]
+"""Left, bottom, right and top."""
 
 
-def held(sheet: VariantSheet, form: Sequence[Item], kL: Array) -> Iterator[tuple[str, Array]]:
-    """Whether the mechanism's field on its sheet holds each place of the form."""
+def held(
+    sheets: Sequence[VariantSheet], sheet: VariantSheet, form: Sequence[Item], scales: Scaling
+) -> Iterator[tuple[str, Array]]:
+    """Whether the mechanism's field holds each place of the form on a sheet."""
     asked = [item for item in form if item.what == "place"]
     targets = sheet.trace.program.targets
     places = {
@@ -31,9 +36,8 @@ def held(sheet: VariantSheet, form: Sequence[Item], kL: Array) -> Iterator[tuple
     }
     if not places:
         return
-    mm = 1000 / kL
-    width = shared_width(sheet, mm)
-    left, bottom, right, top = grown(sheet, mm, width)
+    mm = 1000 / scales.kL
+    (left, bottom, right, top), width = field_of(sheets, scales, mm)
     excess = (top - bottom) * mm - HEIGHT
     for name, value in places.items():
         point = placed(sheet, value)
@@ -43,33 +47,44 @@ def held(sheet: VariantSheet, form: Sequence[Item], kL: Array) -> Iterator[tuple
         yield name, (abs(x) <= width / 2 - EDGE) & (abs(y) <= room - EDGE)
 
 
-def shared_width(sheet: VariantSheet, mm: Array) -> Array:
-    """Width of the mechanism's field: each drawing gets what it needs and half of what is left."""
+def field_of(sheets: Sequence[VariantSheet], scales: Scaling, mm: Array) -> tuple[Sides, Array]:
+    """The box of the mechanism with its centres and poles, and the width of its field; in layout
+    placed is the same.
+    """
     import numpy as np
 
-    mechanism, plan = sheet.mechanism_box.width * mm, sheet.plan_box.width * mm
-    fair = mechanism + 2 * MARGIN + (WIDTH - mechanism - plan) * 0.5
+    every = [each.mechanism_box for each in sheets]
+    sides: Sides = (
+        np.min([box.left for box in every], axis=0),
+        np.min([box.bottom for box in every], axis=0),
+        np.max([box.right for box in every], axis=0),
+        np.max([box.top for box in every], axis=0),
+    )
+    plans = [each.plan_box.width * mm * scales.times(each.kind) for each in sheets]
     whole = AREA[2] - AREA[0]
-    shared = np.minimum(fair, np.maximum(whole - LEAST, mechanism + 2 * MARGIN))
-    return np.minimum(np.maximum(shared, LEAST_FIELD), whole - LEAST_FIELD)
+    most = whole - np.maximum(np.max(plans, axis=0) + 2 * MARGIN, LEAST_FIELD)
+    most = np.maximum(most, LEAST_FIELD)
+    own = (sides[2] - sides[0]) * mm + 2 * MARGIN
+    sides = grown(sheets, sides, mm, most)
+    width = np.maximum(own, (sides[2] - sides[0]) * mm + POLES)
+    return sides, np.minimum(np.maximum(width, LEAST_FIELD), most)
 
 
-def grown(sheet: VariantSheet, mm: Array, width: Array) -> tuple[Array, Array, Array, Array]:
-    """The box of the mechanism, grown by each centre and pole for which the field has room."""
+def grown(sheets: Sequence[VariantSheet], sides: Sides, mm: Array, width: Array) -> Sides:
+    """The box of the mechanism, grown by each centre and pole for which a field has room."""
     import numpy as np
 
-    box = sheet.mechanism_box
-    sides = box.left, box.bottom, box.right, box.top
-    room = width - 1.4 * MARGIN, AREA[3] - AREA[1] - 1.4 * MARGIN
-    for step, value in sheet.steps(Plane.MECHANISM):
-        if step.part is not PARTS[sheet.kind] or not isinstance(value, Ratio):
-            continue
-        point = placed(sheet, value)
-        left, bottom = np.fmin(sides[0], point.real), np.fmin(sides[1], point.imag)
-        right, top = np.fmax(sides[2], point.real), np.fmax(sides[3], point.imag)
-        fits = ((right - left) * mm <= room[0]) & ((top - bottom) * mm <= room[1])
-        wider = zip((left, bottom, right, top), sides, strict=True)
-        sides = tuple(np.where(fits, new, old) for new, old in wider)
+    room = width - POLES, AREA[3] - AREA[1] - POLES
+    for sheet in sheets:
+        for step, value in sheet.steps(Plane.MECHANISM):
+            if step.part is not PARTS[sheet.kind] or not isinstance(value, Ratio):
+                continue
+            point = placed(sheet, value)
+            left, bottom = np.fmin(sides[0], point.real), np.fmin(sides[1], point.imag)
+            right, top = np.fmax(sides[2], point.real), np.fmax(sides[3], point.imag)
+            fits = ((right - left) * mm <= room[0]) & ((top - bottom) * mm <= room[1])
+            wider = zip((left, bottom, right, top), sides, strict=True)
+            sides = tuple(np.where(fits, new, old) for new, old in wider)
     return sides
 
 

@@ -1,22 +1,23 @@
 """The scale factors of the sheets of many variants: for each those of its own sheet.
 
-A mechanism of pins and guides that one crank drives is reckoned in arrays, the same way as in
-scaling.scales; whatever else there is goes through scaling.scales, one variant after the other.
+The searches of all variants run side by side: what they ask for is reckoned in arrays, for those at
+once that ask alike. Mechanisms of pins and guides that one crank drives can be reckoned so; others
+go through scaling.scales, one variant after the other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct, field
 
-from graphkin.classroom.lab.drawing_extents import VariantSheet, sketches
+from graphkin.classroom.lab.drawing_extents import needs_of, sketches
 from graphkin.construction.core.component import may_give_way
 from graphkin.construction.core.quantities import SHEETS
-from graphkin.documents.scaling import HEADROOM, LITTLE, SMALL, larger_plans, scales
-from graphkin.drawing.areas import HEIGHT, WIDTH
-from graphkin.drawing.scale import lengths_needed, preferred
+from graphkin.documents.composing import Search, Stated, searched
+from graphkin.documents.scaling import scales
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.motion_curves import is_closer
 from graphkin.numbers.arithmetic import batch_kind
@@ -29,44 +30,53 @@ Loader = Callable[[int], Mechanism]
 
 
 class Scaling(Struct):
-    """kL and kL/kv of each variant, and whether triangles that may give way are drawn.
-
-    NaN where nothing fits. ``apart`` is the root of kL/ka where a scene states ka, else 0;
-    ``rates`` is what the hand tries in trial plans, by the step. As drawing.scale.Scales, an array
-    for each.
+    """The scale factors of each variant, as drawing.scale.Scales an array for each; NaN where
+    nothing fits. ``rates`` is what the hand tries in trial plans, by the step.
     """
 
     kL: Array  # noqa: N815
     seconds: Array
+    larger: Array
+    larger_still: Array
+    of_crank: Array
     triangles: Array
-    apart: Array
     rates: dict[int, Array] = field(default_factory=dict)
-
-    def pace(self, kind: str) -> Array:
-        """The seconds in which a sheet draws velocities as ways, and accelerations in twos."""
-        import numpy as np
-
-        own = np.where(self.apart > 0, self.apart, self.seconds)
-        return own if kind == "acceleration" else self.seconds
 
     def stands(self, kind: str) -> Array:
         """What a metre of paper stands for in a sheet's plan, in SI."""
-        return self.kL / self.pace(kind) ** (2 if kind == "acceleration" else 1)
+        if kind == "acceleration":
+            return self.kL / (self.seconds**2 * self.larger_still)
+        return self.kL / (self.seconds * self.larger)
+
+    def times(self, kind: str) -> Array:
+        """How many times as large as on the mechanism a sheet's plan draws its vectors."""
+        return self.larger_still if kind == "acceleration" else self.larger
+
+    def put(self, index: int, own: Scales) -> None:
+        """Put the scale factors of one variant at its place."""
+        for name in own.__struct_fields__:
+            getattr(self, name)[index] = getattr(own, name)
+
+    def of(self, index: int) -> Scales:
+        """The scale factors of one variant."""
+        kL, seconds, m, again, crank = (
+            float(each[index])
+            for each in (self.kL, self.seconds, self.larger, self.larger_still, self.of_crank)
+        )
+        return Scales(kL, seconds, m, again, crank, bool(self.triangles[index]))
 
     def taken(self, which: Array) -> Scaling:
         """The scale factors of some variants."""
-        parts = (self.kL, self.seconds, self.triangles, self.apart)
-        rates = {number: rate[which] for number, rate in self.rates.items()}
-        kL, seconds, triangles, apart = (part[which] for part in parts)
-        return Scaling(kL, seconds, triangles, apart, rates)
+        own = {name: getattr(self, name)[which] for name in Scales.__struct_fields__}
+        return Scaling(**own, rates={number: rate[which] for number, rate in self.rates.items()})
 
 
 def empty(count: int) -> Scaling:
     """No scale factors yet."""
     import numpy as np
 
-    kL, seconds = np.full(count, np.nan), np.full(count, np.nan)
-    return Scaling(kL, seconds, np.ones(count, dtype=bool), np.zeros(count))
+    own: dict[str, Any] = {name: np.full(count, np.nan) for name in Scales.__struct_fields__}
+    return Scaling(**own | {"triangles": np.ones(count, dtype=bool)})
 
 
 def scaling(
@@ -96,8 +106,6 @@ def by_arrays(mechanism: Mechanism) -> bool:
     return (
         len(scene.drivers) == 1
         and scene.drivers[0].kind == "turn"
-        and scene.sheet.ka is None
-        and scene.sheet.enlarge is None
         and not (ask.curves or ask.centrodes)
         and not any(link.wheels or link.rolls for link in links)
         and not any(step.action and is_closer(step.action.value) for step in steps)
@@ -106,119 +114,67 @@ def by_arrays(mechanism: Mechanism) -> bool:
 
 
 def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
-    """Scale what the crank scales; the result says of which variants.
-
-    Where triangles that may give way leave no room for a larger mechanism, they do.
-    """
+    """Scale what a crank drives that turns; the result says which variants that are."""
     import numpy as np
 
     size = len(found.kL)
     speed = np.broadcast_to(np.abs(mechanism.scene.drivers[0].speed.si(values, batch_kind())), size)
     turning = np.flatnonzero(np.asarray(speed, dtype=float) > 0)
+    part, speeds = taken(values, turning), speed[turning]
+    said = stated_of(mechanism, part, len(turning))
+    drawn = side_by_side(mechanism, part, speeds, said)
+    for index, own in zip(turning, drawn, strict=True):
+        if own is not None:
+            found.put(int(index), own)
     done = np.zeros(size, dtype=bool)
-    part = taken(values, turning)
-    kL, seconds, sure = crank_scales(mechanism, part, speed[turning], triangles=True)
-    drawn = np.ones(len(turning), dtype=bool)
-    if may_give_way(mechanism.program):
-        less, less_seconds, less_sure = crank_scales(
-            mechanism, part, speed[turning], triangles=False
-        )
-        sure &= less_sure
-        drawn = ~(less < kL)
-        kL, seconds = np.where(drawn, kL, less), np.where(drawn, seconds, less_seconds)
-    done[turning[sure]] = True
-    for whole, own in ((found.kL, kL), (found.seconds, seconds), (found.triangles, drawn)):
-        whole[turning[sure]] = own[sure]
+    done[turning] = True
     return done
 
 
-def crank_scales(
-    mechanism: Mechanism, values: Values, speed: Array, *, triangles: bool
-) -> tuple[Array, Array, Array]:
-    """kL and kL/kv as the crank says them, and of which variants it does; as scaling.scales_with.
-
-    A scale that the scene states, and that does not hold the drawing, leaves NaN.
-    """
+def stated_of(mechanism: Mechanism, values: Values, count: int) -> list[Stated]:
+    """What the scene says of the scale factors of each variant."""
     import numpy as np
 
-    count = len(speed)
-    if not count:
-        return np.zeros(0), np.zeros(0), np.zeros(0, dtype=bool)
-    seconds = 1 / speed
-    trials = sketches(mechanism, values, at(seconds), triangles=triangles)
-    least = fitting(trials, HEIGHT)
-    kL, wanted = least.copy(), mechanism.scene.sheet.scale
-    if wanted is not None:
-        stated = np.broadcast_to(
-            np.asarray(wanted.number(values, batch_kind()), dtype=float), count
-        )
-        kL = np.where(stated < least * (1 - 1e-12), np.nan, stated)
-    large = 1000 * np.min([trial.reach for trial in trials], axis=0) / kL >= LITTLE
-    sure = large | (wanted is not None)
-    seconds = enlarged(mechanism, values, kL, seconds, trials, triangles=triangles)
-    return kL, seconds, sure & (np.isfinite(least) & (least > 0))
+    sheet = mechanism.scene.sheet
+
+    def numbers(quantity: Any) -> list[float]:
+        value = quantity.number(values, batch_kind()) if quantity is not None else 0.0
+        return [float(each) for each in np.broadcast_to(np.asarray(value, dtype=float), count)]
+
+    once = [[1.0 if sheet.rule == "lab" else 0.0] * count]
+    times = [numbers(each) for each in sheet.enlarge] or once
+    columns = zip(numbers(sheet.scale), numbers(sheet.ka), times[0], times[-1], strict=True)
+    return [Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka) for kL, ka, m, n in columns]
 
 
-def enlarged(
-    mechanism: Mechanism,
-    values: Values,
-    kL: Array,
-    seconds: Array,
-    trials: list[VariantSheet],
-    *,
-    triangles: bool,
-) -> Array:
-    """kL/kv at which short plans are drawn larger where they fit, else as given.
-
-    As scaling.enlarged: the largest plans that do.
-    """
+def side_by_side(
+    mechanism: Mechanism, values: Values, speed: Array, said: Sequence[Stated]
+) -> list[Scales | None]:
+    """What the search of each variant ends in; None where nothing fits."""
     import numpy as np
 
-    found = seconds.copy()
-    lengths = np.array([1000 * trial.largest / kL for trial in trials])
-    short = ((lengths > 0) & (lengths < SMALL)).any(axis=0)
-    waiting, longest = np.flatnonzero(short), lengths.max(axis=0)
-    each = (map(float, column[waiting]) for column in (kL, seconds, longest))
-    ladders = [larger_plans(*one) for one in zip(*each, strict=True)]
-    while len(waiting):
-        larger = np.array([next(ladder, (np.nan, 1.0))[0] for ladder in ladders])
-        on = np.isfinite(larger)
-        waiting, larger, ladders = waiting[on], larger[on], some(ladders, on)
-        if not len(waiting):
-            break
-        again = sketches(mechanism, taken(values, waiting), at(larger), triangles=triangles)
-        fits = fitting(again, HEIGHT + HEADROOM) <= kL[waiting] * (1 + 1e-12)
-        found[waiting[fits]] = larger[fits]
-        waiting, ladders = waiting[~fits], some(ladders, ~fits)
+    found: list[Scales | None] = [None] * len(said)
+    gives_way = may_give_way(mechanism.program)
+    asking: list[Search] = [
+        searched(each, float(w), 0.0, may_give_way=gives_way)
+        for each, w in zip(said, speed, strict=True)
+    ]
+    waiting = {i: next(search) for i, search in enumerate(asking)}
+    while waiting:
+        triangles = next(iter(waiting.values())).triangles
+        alike = [i for i, draft in waiting.items() if draft.triangles == triangles]
+        which, seconds = np.array(alike), np.array([waiting[i].seconds for i in alike])
+        drafts = sketches(mechanism, taken(values, which), seconds, triangles=triangles)
+        for i, needs in zip(alike, needs_of(drafts), strict=True):
+            del waiting[i]
+            try:
+                if needs is not None:
+                    waiting[i] = asking[i].send(needs)
+            except StopIteration as end:
+                found[i] = end.value
+            except GraphkinError:
+                continue
     return found
-
-
-def at(seconds: Array) -> dict[str, Array]:
-    """The same kL/kv on every sheet."""
-    return dict.fromkeys(SHEETS, seconds)
-
-
-def some(every: list[Any], which: Array) -> list[Any]:
-    """Those of a list that a mask names."""
-    return [one for one, on in zip(every, which, strict=True) if on]
-
-
-def fitting(trials: list[VariantSheet], height: float) -> Array:
-    """The smallest preferred kL at which mechanism and plan stand side by side on every sheet."""
-    import numpy as np
-
-    needs = [(trial.mechanism_box, trial.plan_box) for trial in trials]
-    return first_preferred(np.max(list(lengths_needed(needs, WIDTH, height)), axis=0))
-
-
-def first_preferred(least: Array) -> Array:
-    """The first preferred number not less than each; NaN for what is not above nought."""
-    import numpy as np
-
-    sound = np.isfinite(least) & (least > 0)
-    return np.array(
-        [next(preferred(float(n))) if ok else np.nan for n, ok in zip(least, sound, strict=True)]
-    )
 
 
 def one_by_one(load: Loader, index: int, found: Scaling) -> None:
@@ -230,8 +186,7 @@ def one_by_one(load: Loader, index: int, found: Scaling) -> None:
         own = scales(one)
     except GraphkinError:
         return
-    found.kL[index], found.seconds[index] = own.kL, own.seconds
-    found.triangles[index], found.apart[index] = own.triangles, own.apart
+    found.put(index, own)
     for number, rate in one.trial_rates.items():
         rates = found.rates.setdefault(number, np.full(len(found.kL), np.nan))
         rates[index] = rate

@@ -34,8 +34,9 @@ class Drawing(Struct, frozen=True, dict=True):
     """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
 
     ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``stand`` is
-    where it stands on all sheets alike, None where this sheet alone decides. ``curves`` are those over the whole motion. ``computed`` says by the symbol why a quantity is computed,
-    not measured. ``driven`` are angles of drivers in degrees, where these are not the scene's.
+    where it stands on all sheets alike, None where this sheet alone decides. ``curves`` are those
+    over the whole motion. ``computed`` says by the symbol why a quantity is computed, not measured.
+    ``driven`` are angles of drivers in degrees, where these are not the scene's.
     """
 
     kind: str

@@ -17,7 +17,7 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Plane
-from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, MARGIN, WIDTH, Rect
+from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN, WIDTH, Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent
 from graphkin.numbers.plane import Circle, Line, Ratio
@@ -25,8 +25,6 @@ from graphkin.text.errors import PageError, Problem
 
 BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
-LEAST_FIELD = 42.0
-"""Width that every field has, in mm, so that its caption stands above it in two lines."""
 POLES = 1.4 * MARGIN
 """Room beside centres and poles, left and right or above and below together, in mm."""
 GROUND = 15.0

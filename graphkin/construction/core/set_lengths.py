@@ -36,7 +36,7 @@ def divided(drawing: Drawing, what: str, times: float) -> str:
 
 
 def beside_plan(drawing: Drawing, kind: str) -> str:
-    """How long vectors on the mechanism are beside those of a plan; nothing where they are alike."""
+    """How long vectors on the mechanism are beside a plan's; nothing where they are alike."""
     times = drawing.scales.times(kind)
     if times == 1:
         return ""

@@ -207,8 +207,8 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
         ("*k*_v", "", "velocity", "*m*", kv, KV),
         ("*k*_a", "^2", "acceleration", "*m*′", ka, KA),
     ):
-        m = scales.of_bar(kind)
-        sign, less = (f"/{times}", f"/{figure(drawing, m)}") if m != 1 else ("", "")
+        larger = scales.of_bar(kind)
+        sign, less = (f"/{times}", f"/{figure(drawing, larger)}") if larger != 1 else ("", "")
         numbers = f"{squared(w) if power else w}·{number}/1000{less}"
         yield Relation(symbol_, f"*ω*{index}{power}·*k*_L{sign}", numbers, result, unit)
 
