@@ -4,8 +4,8 @@ The mechanism stands at one place on all sheets, whose fields are divided alike.
 it as long as the one crank says that drives, or at a round kv; each plan is as many times as large
 as its field holds. Of the scales of the mechanism that is taken at which all is largest together.
 
-The search asks for boxes by yielding the scale factors of drafts, so that one search serves a single
-sheet and, all at a time, the variants of a class.
+The search asks for boxes by yielding the scale factors of drafts, so that one search serves a
+single sheet and, all at a time, the variants of a class.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ TIMES = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15
 """How many times as large as on the mechanism plans are drawn."""
 ROUND = (5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02)
 """The same where no crank says how large: round scale factors stay round."""
-SHORTER = (0.5, 0.25, 0.2, 0.1, 0.05, 0.02)
+SHORTER = (0.5, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 """How many times as long as the crank vectors are set on a mechanism that they outgrow."""
 LONGER = (1.5, 2.0, 3.0, 4.0, 5.0)
 """The same where they are short."""
@@ -46,6 +46,8 @@ SHORT, LONG = 20.0, 90.0
 """A longest vector on the mechanism that is long enough, and long, in mm."""
 COARSEST = 0.02
 """Part of the natural time in which vectors of no length are set."""
+NOISE = 1e-9
+"""A plan so many times smaller than the mechanism is rounding."""
 JUST = 1 + 1e-12
 """What fits but for rounding, fits."""
 
@@ -104,7 +106,7 @@ It raises PageError where what is stated leaves no room.
 """
 
 
-class Found(NamedTuple):
+class Attempt(NamedTuple):
     """A composition, and the scales of its draft."""
 
     composition: Composition
@@ -123,7 +125,7 @@ class Found(NamedTuple):
         return replace(self.draft, kL=kL, larger=m, larger_still=again)
 
 
-Best = Generator[Scales, Needs, Found]
+Best = Generator[Scales, Needs, Attempt]
 """A search with all triangles drawn, or without those that may give way."""
 
 
@@ -153,9 +155,9 @@ def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
     def draft(times: float) -> Scales:
         return Scales(1.0, times / crank, of_crank=times, triangles=triangles)
 
-    def tried(times: float, needs: Needs) -> Found | None:
+    def tried(times: float, needs: Needs) -> Attempt | None:
         composition = largest(needs, stated, times / crank, times_of(stated, TIMES, times))
-        return Found(composition, draft(times)) if composition else None
+        return Attempt(composition, draft(times)) if composition else None
 
     needs = yield draft(1.0)
     found, free = tried(1.0, needs), not any(stated.times.values())
@@ -186,16 +188,16 @@ def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Best:
     """Vectors on the mechanism at a round kv, at which the longest is at most 90 mm long."""
     first = yield Scales(1.0, natural, triangles=triangles)
     ladders = times_of(stated, ROUND, 1.0)
-    best: Found | None = None
+    best: Attempt | None = None
     for kL in islice(lengths(first, stated), LADDER):
-        own: Found | None = None
+        own: Attempt | None = None
         finest = kL / natural * coarseness(first, kL)
         for kv in islice(preferred(finest), PACES):
             draft = Scales(1.0, kL / kv, triangles=triangles)
             composition = composed((yield draft), kL, ladders, stated, draft.seconds)
             if composition and own and composition.size < own.size + PLAIN:
                 break
-            own = Found(composition, draft) if composition else own
+            own = Attempt(composition, draft) if composition else own
         if best and own and own.size < best.size + PLAIN:
             break
         best = own or best
@@ -279,7 +281,7 @@ def composed(
         found = next(fits, None)
         if found is None:
             return None
-        drawn = wide > 0 or high > 0
+        drawn = box.diagonal > NOISE * needs.bare.diagonal
         times[kind] = found if drawn or apart else 1.0
         sizes += [box.diagonal * mm * found] if drawn else []
     small = sum(1 / size for size in sizes) / len(sizes) if sizes else 0.0

@@ -34,6 +34,10 @@ HELPERS = ("construction", "trial")
 """Classes of letters that a drawing can do without where there is no room for them."""
 
 
+EDGE = 0.3
+"""How far labels stay inside their field, in mm."""
+
+
 class FieldContent(Struct):
     """One field of the page while it is drawn: its marks, and the labels still to be placed.
 
@@ -49,6 +53,12 @@ class FieldContent(Struct):
     notes: list[str] = field(default_factory=list)
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
+
+    @property
+    def lettering(self) -> Rect:
+        """The part of the field in which labels stand: clear of the lines around it."""
+        left, top, right, low = self.rect
+        return left + EDGE, top + EDGE, right - EDGE, low - EDGE
 
     def finish(self, made: tuple[list[Mark], list[Spot]] | None = None) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
@@ -164,7 +174,7 @@ class FieldContent(Struct):
         """The places of all labels, or of some, clear of marks, taken boxes and each other."""
         lines, boxes = self.obstacles(more)
         labels = self.labels if some is None else some
-        return place([label.wish() for label in labels], lines, boxes, self.rect)
+        return place([label.wish() for label in labels], lines, boxes, self.lettering)
 
     def obstacles(self, more: Sequence[Mark] = ()) -> tuple[Array, list[Box]]:
         """The lines and the boxes that labels keep clear of: of the marks, and of some more."""

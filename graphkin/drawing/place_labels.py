@@ -39,7 +39,7 @@ def spots_on(boards: Sequence[FieldContent], more: Sequence[Sequence[Mark]]) -> 
     lines = np.concatenate([drawn for drawn, _ in obstacles])
     boxes = [box for _, taken in obstacles for box in taken]
     wishes = [label.wish() for board in boards for label in board.labels]
-    fields = [board.rect for board in boards for _ in board.labels]
+    fields = [board.lettering for board in boards for _ in board.labels]
     found = iter(place(wishes, lines, boxes, fields))
     return [[next(found) for _ in board.labels] for board in boards]
 

@@ -1,13 +1,16 @@
-"""Scale factors: as large as the page takes, ka = kv²/kL, or as the scene says instead."""
+"""Scale factors: as large as the page takes, or as the scene says instead."""
 
 import pytest
 
-from graphkin.documents.scaling import scales, trials_of
-from graphkin.documents.sheet_documents import hand_out
+from graphkin.construction.core.layout import lay_out
+from graphkin.documents.scaling import drafts_of, scales
+from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
+from graphkin.drawing.areas import HEIGHT, WIDTH
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
+from graphkin.text import words
 from graphkin.text.errors import PageError, SceneError
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import HEAD, OTHERS, mechanism_named
@@ -30,6 +33,11 @@ def scene(sheet="", body=FOUR_BAR, **changes):
     return Mechanism(read_text(f"{head}[sheet]\n{sheet}\n{body}", "four-bar", None, {}))
 
 
+def proof(mechanism):
+    """A mechanism with its verdict."""
+    return mechanism, proved(mechanism, mechanism.solve())
+
+
 def said(mechanism, kind, view="key", language="en"):
     """All that a sheet says."""
     pages = next(s.pages for s in hand_out(mechanism, view, language) if s.kind == kind)
@@ -40,11 +48,49 @@ def said(mechanism, kind, view="key", language="en"):
 
 
 @pytest.mark.parametrize("name", CHOSEN)
-def test_ka_is_kv_squared_over_kL_wherever_no_scene_says_otherwise(name):
+def test_plans_are_drawn_as_many_times_as_large_as_vectors_on_the_mechanism(name):
+    """There ka = kv²/kL would hold, as right triangles need it."""
     found = scales(mechanism_named(name))
-    assert found.ka == pytest.approx(found.kv**2 / found.kL, rel=1e-12)
-    assert not found.apart
-    assert found.times == 1 or found.as_crank("velocity") is False
+    kv, ka = found.kv * found.larger, found.ka * found.larger_still
+    assert ka == pytest.approx(kv**2 / found.kL, rel=1e-12)
+    assert 0 < found.larger <= 5 and 0 < found.larger_still <= 5
+
+
+@pytest.mark.parametrize("name", ["pump", "watt-1", "five-bar", "stephenson-3", "trammel"])
+def test_every_drawing_fits_and_the_next_larger_plan_would_not(name):
+    mechanism = mechanism_named(name, 7) if name == "pump" else mechanism_named(name)
+    found = scales(mechanism)
+    mm, drafts = 1000 / found.kL, drafts_of(mechanism, (), found)
+    boxes = [draft.mechanism_extent() for draft in drafts]
+    width = max(box.right for box in boxes) - min(box.left for box in boxes)
+    room = WIDTH - width * mm
+    for draft in drafts:
+        plan, times = draft.plan_extent(), found.times(draft.kind)
+        wide, high = plan.width * mm, plan.height * mm
+        assert wide <= room + 1e-6 and high <= HEIGHT + 1e-6
+        if times < 5:
+            larger = min(m for m in (1, 1.5, 2, 2.5, 3, 4, 5) if m > times) / times
+            larger = larger if found.of_crank else 2.5
+            assert wide * larger > room or high * larger > HEIGHT
+
+
+def test_the_labs_own_rule_draws_vectors_as_long_as_the_crank():
+    found = scales(scene('rule = "lab"'))
+    assert (found.larger, found.larger_still, found.of_crank) == (1, 1, 1)
+    assert found.kv == pytest.approx(OMEGA * found.kL, rel=1e-12)
+    assert found.ka == pytest.approx(OMEGA**2 * found.kL, rel=1e-12)
+
+
+def test_a_rule_that_is_none_and_one_beside_enlarge_are_refused():
+    with pytest.raises(SceneError, match=r'sheet\.rule: "laboratory".*lab, largest'):
+        scene('rule = "laboratory"')
+    with pytest.raises(SceneError, match=r"sheet\.enlarge: .*lab"):
+        scene('rule = "lab"\nenlarge = 2')
+
+
+def test_the_mechanism_stands_at_one_place_on_both_sheets():
+    first, then = drawings_of(*proof(scene()), words("en"))
+    assert lay_out(first).mechanism == lay_out(then).mechanism
 
 
 @pytest.mark.parametrize("size", [1e-6, 1e-3, 1.0, 1e3, 1e6])
@@ -65,11 +111,17 @@ def test_a_mechanism_of_any_size_fills_the_same_page(size):
 def test_plans_are_enlarged_as_the_scene_says(m):
     found = scales(scene(f"enlarge = {m}"))
     assert found.kv == pytest.approx(OMEGA * found.kL / m, rel=1e-12)
-    assert found.ka == pytest.approx(OMEGA**2 * found.kL / m**2, rel=1e-12)
+    assert found.ka == pytest.approx(OMEGA**2 * found.kL / m, rel=1e-12)
+
+
+def test_each_plan_is_enlarged_by_its_own_number():
+    found = scales(scene("enlarge = [2, 0.5]"))
+    assert found.kv == pytest.approx(OMEGA * found.kL / 2, rel=1e-12)
+    assert found.ka == pytest.approx(OMEGA**2 * found.kL / 0.5, rel=1e-12)
 
 
 def test_an_enlargement_that_does_not_fit_a_stated_scale_is_refused_with_a_proposal():
-    with pytest.raises(PageError, match=r"does not fit: at 1:2 .*; write scale = 20"):
+    with pytest.raises(PageError, match=r"does not fit: at 1:2 .*; write scale = 2.5"):
         scales(scene("scale = 2\nenlarge = 4"))
 
 
@@ -108,13 +160,14 @@ def test_with_a_ka_of_its_own_every_acceleration_is_drawn_at_it():
     mechanism = scene("ka = 0.4")
     motion, found = mechanism.solve(), scales(mechanism)
     assert found.ka == pytest.approx(400, rel=1e-12)
-    assert found.kv == pytest.approx(OMEGA * found.kL, rel=1e-12)
+    assert found.kv == pytest.approx(OMEGA * found.kL / found.larger, rel=1e-12)
     drawn = lengths(mechanism)
     for point in ("A", "B", "C"):
         real = abs(motion.points[point].acceleration)
         on_plan, on_mechanism = (drawn[name] for name in (f"o′{point.lower()}′", f"a_{point}"))
-        for size in on_plan + on_mechanism:
-            assert size == pytest.approx(1000 * real / 400, rel=1e-6)
+        for sizes, times in ((on_plan, 1), (on_mechanism, found.larger_still)):
+            for size in sizes:
+                assert size == pytest.approx(1000 * real / 400 / times, rel=1e-6)
 
 
 def test_a_ka_too_small_is_refused_with_a_proposal():
@@ -128,10 +181,10 @@ def test_a_ka_too_small_is_refused_with_a_proposal():
         ("ka = 20", r"at 20 \(m/s²\)/mm the longest acceleration is .* mm long", "a smaller ka"),
         ("ka = 1000000", r"at 1000000 \(m/s²\)/mm the longest acceleration", "a smaller ka"),
         ("scale = 1000000", "at 1:1000000 the mechanism is drawn .* mm across", "a smaller scale"),
-        ("enlarge = 40", "at 40 times the mechanism is drawn .* mm across", "a smaller enlarge"),
+        ("enlarge = 400", "at 400 times the mechanism is drawn .* mm across", "a smaller enlarge"),
         ("enlarge = 1000000", "at 1000000 times the mechanism", "a smaller enlarge"),
         ("enlarge = 0.02", "at 0.02 times the longest velocity is drawn", "a larger enlarge"),
-        ("enlarge = 0.2", "at 0.2 times the longest acceleration is drawn", "a larger enlarge"),
+        ("enlarge = [1, 0.02]", "at 0.02 times the longest acceleration is", "a larger enlarge"),
     ],
 )
 def test_a_scale_factor_that_leaves_no_more_than_a_dot_is_refused(line, found, hint):
@@ -153,7 +206,7 @@ def test_the_scale_factor_that_is_proposed_instead_of_a_dot_is_accepted(line):
 def longest(mechanism):
     """How large the mechanism is drawn on each sheet, and its longest vector, in mm."""
     found = scales(mechanism)
-    for trial in trials_of(mechanism, (), found):
+    for trial in drafts_of(mechanism, (), found):
         yield 1000 * trial.reach / found.kL
         yield 1000 * abs(trial.at_scale(trial.plane, trial.largest)) / found.kL
 

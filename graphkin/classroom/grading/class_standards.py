@@ -21,7 +21,7 @@ from graphkin.classroom.grading.tolerance import pencil_errors
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.lab.variant_scales import by_arrays, empty, scaled
 from graphkin.construction.core.program import Program, Step
-from graphkin.documents.scaling import scales
+from graphkin.documents.scaling import scales, the_crank
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.scene.findings import Findings
@@ -179,8 +179,13 @@ def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
         done = scaled(usual, values, found)
         for place in np.flatnonzero(done & np.isfinite(found.kL)):
             i = like[place]
-            known[i] = found.of(int(place))
+            known[i] = as_sheet(own[i], found.of(int(place)))
     return [known[i] if i in known else scales(each) for i, each in enumerate(own)]
+
+
+def as_sheet(mechanism: Mechanism, found: Scales) -> Scales:
+    """Scale factors to the last digit as a single sheet has them, which one crank says."""
+    return replace(found, seconds=found.of_crank / the_crank(mechanism))
 
 
 # --- the pencil -------------------------------------------------------------------------------

@@ -9,9 +9,9 @@ from graphkin.classroom.lab.drawing_extents import VariantSheet
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.variant_scales import Scaling
 from graphkin.construction.core.drawn_scene import ENDLESS
-from graphkin.construction.core.layout import POLES
+from graphkin.construction.core.layout import GROUND, POLES
 from graphkin.construction.core.program import Part, Plane
-from graphkin.drawing.areas import AREA, HEIGHT, LEAST_FIELD, MARGIN
+from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN
 from graphkin.numbers.plane import Ratio
 
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
@@ -38,11 +38,11 @@ def held(
         return
     mm = 1000 / scales.kL
     (left, bottom, right, top), width = field_of(sheets, scales, mm)
-    excess = (top - bottom) * mm - HEIGHT
+    lift = raised((top - bottom) * mm)
     for name, value in places.items():
         point = placed(sheet, value)
         x = (point.real - (left + right) / 2) * mm
-        y = (point.imag - (bottom + top) / 2) * mm + positive(excess) / 2
+        y = (point.imag - (bottom + top) / 2) * mm + lift
         room = (AREA[3] - AREA[1]) / 2
         yield name, (abs(x) <= width / 2 - EDGE) & (abs(y) <= room - EDGE)
 
@@ -97,8 +97,10 @@ def placed(sheet: VariantSheet, value: Ratio) -> Array:
         return np.where(near, value.start + value.shift / value.size, np.nan + 0j)
 
 
-def positive(value: Array) -> Array:
-    """What of a number is above nought."""
+def raised(height: Array) -> Array:
+    """How far above the middle of its field the middle of a drawing stands; as layout raised."""
     import numpy as np
 
-    return np.maximum(value, 0.0)
+    spare = np.maximum(HEIGHT - height, 0.0)
+    below = ABOVE + np.maximum(spare / 2, np.minimum(spare, GROUND - ABOVE))
+    return below + height / 2 - (AREA[3] - AREA[1]) / 2

@@ -80,10 +80,10 @@ def number_of(taker: Taker) -> float:
 
 
 @lru_cache(4096)
-def sheet_of(lab: str, settings: str) -> tuple[float, float]:
-    """kL and kv of the sheets of a variant."""
+def sheet_of(lab: str, settings: str) -> tuple[float, float, float]:
+    """kL, kv and ka of the sheets of a variant."""
     scales = book_of(lab).marker({"n": settings}).standard.scales
-    return scales.kL, scales.kv
+    return scales.kL, scales.kv, scales.ka
 
 
 def written(field: str, value: float, digits: int) -> Answer:

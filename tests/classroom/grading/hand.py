@@ -4,8 +4,8 @@ A drawing is made on paper in millimetres, point by point, as a student makes it
 is marked lies off by a gaussian error along either axis, every direction that is laid off or
 transferred is turned by one, every length that is read is off by the ruler and rounded. What
 comes later is drawn from the points that were marked, and computed from the lengths that were read.
-Without errors it is the key. Sheets are given by kL (real over drawn) and kv (m/s for a metre of
-paper); ka = kv²/kL, so that v²/l in millimetres is drawn as it is computed.
+Without errors it is the key. Sheets are given by kL (real over drawn), kv and ka (m/s and m/s² for
+a metre of paper); v²/l of the lengths that are read is drawn kv²/(kL·ka) times as long.
 """
 
 from __future__ import annotations
@@ -60,6 +60,7 @@ class Hand:
 
     kL: float  # noqa: N815
     kv: float
+    ka: float
     rng: np.random.Generator | None = None
     sigma: float = 0.0
     degrees: float = 0.0
@@ -99,9 +100,14 @@ class Hand:
         """The normal component v²/l of the far end of a bar, towards its near end."""
         if "normal_missing" in self.slips:
             return 0j
-        size = self.read(abs(arrow)) ** 2 / abs(bar)
+        size = self.read(abs(arrow)) ** 2 / abs(bar) * self.square
         turned = self.turned(-bar / abs(bar)) * size
         return -turned if "normal_reversed" in self.slips else turned
+
+    @property
+    def square(self) -> float:
+        """How many times as long as v²/l of lengths on paper an acceleration is drawn."""
+        return self.kv**2 / (self.kL * self.ka)
 
     # --- what is handed in ---------------------------------------------------------------------
 
@@ -123,7 +129,7 @@ class Hand:
     def acceleration(self, name: str, arrow: complex) -> None:
         """Hand in an acceleration: its segment and its size in m/s²."""
         self.found[f"{name}_mm"] = length = self.read(abs(arrow))
-        self.found[name] = length * self.kv**2 / self.kL / 1000 * self.odd * self.fast**2
+        self.found[name] = length * self.ka / 1000 * self.odd * self.fast**2
 
     def along(self, name: str, arrow: complex, way: complex, per_mm: float) -> None:
         """Hand in the size of an arrow along a direction, in its unit, with the sense of it."""
@@ -134,7 +140,7 @@ class Hand:
     def rate(self, name: str, arrow: complex, bar: complex, length: float) -> None:
         """Hand in ω or ε: the relative arrow across a bar, over the bar of so many mm."""
         power = 1 if name.startswith("omega") else 2
-        per = (self.kv / self.kL) ** power * self.fast**power
+        per = (self.kv if power == 1 else self.ka) / self.kL * self.fast**power
         self.along(name, arrow, 1j * bar, per / length)
 
     def place(self, name: str, point: complex) -> None:
@@ -151,9 +157,8 @@ class Hand:
         way = self.turned(cmath.exp(1j * radians(angle)))
         pin = self.dot(way * self.metres(length))
         way = pin / abs(pin)
-        second = self.kv / self.kL
-        velocity = self.dot(self.turned(1j * way) * self.metres(length) * omega / second)
-        size = self.metres(length) * (omega / second) ** 2
+        velocity = self.dot(self.turned(1j * way) * length * omega / self.kv)
+        size = length * omega**2 / self.ka
         return pin, velocity, self.dot(-self.turned(way) * size)
 
 
@@ -197,7 +202,7 @@ def slotted_lever(hand: Hand, given: Data) -> None:
     vc = hand.crossing(0j, 1 + 0j, vb, 1j * bar)
     slip = va - v3
     turning = 1.0 if (v3 * (1j * way).conjugate()).real > 0 else -1.0
-    cor = 2 * hand.read(abs(v3)) * hand.read(abs(slip)) / arm * turning
+    cor = 2 * hand.read(abs(v3)) * hand.read(abs(slip)) / arm * turning * hand.square
     cor *= 1.0 if (slip * way.conjugate()).real > 0 else -1.0
     cor *= {"coriolis_missing": 0.0, "coriolis_reversed": -1.0}.get(
         next((slip for slip in hand.slips if slip.startswith("coriolis")), ""), 1.0
@@ -217,7 +222,7 @@ def slotted_lever(hand: Hand, given: Data) -> None:
     hand.rate("epsilon_3", a3 - third, lever, arm)
     hand.rate("epsilon_4", ac - tip, bar, rod)
     hand.along("v_slide_2", slip, way, hand.kv / 1000 * hand.fast)
-    hand.along("a_slide_2", away - a3, way, hand.kv**2 / hand.kL / 1000 * hand.fast**2)
+    hand.along("a_slide_2", away - a3, way, hand.ka / 1000 * hand.fast**2)
 
 
 def pump(hand: Hand, given: Data) -> None:
@@ -274,7 +279,7 @@ DRAW: dict[str, Callable[[Hand, Data], None]] = {
 def drawn(
     lab: str,
     given: Data,
-    sheet: tuple[float, float],
+    sheet: tuple[float, float, float],
     rng: np.random.Generator | None = None,
     sigma: float = 0.0,
     degrees: float | None = None,
@@ -282,7 +287,7 @@ def drawn(
     step: float = 0.0,
     slips: Collection[str] = (),
 ) -> dict[str, float]:
-    """Every field of a lab's form as it is read off one drawing at a sheet of (kL, kv).
+    """Every field of a lab's form as it is read off one drawing at a sheet of (kL, kv, ka).
 
     Rates have their sign. As many degrees as ``sigma`` has millimetres unless they are stated;
     without ``rng`` there are no errors. Raises ValueError where the drawing does not close.
@@ -294,6 +299,6 @@ def drawn(
     return hand.found
 
 
-def key(lab: str, given: Data, sheet: tuple[float, float]) -> dict[str, float]:
+def key(lab: str, given: Data, sheet: tuple[float, float, float]) -> dict[str, float]:
     """Every field as it is: the drawing without errors."""
     return drawn(lab, given, sheet)

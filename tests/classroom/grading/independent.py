@@ -124,7 +124,7 @@ class Task:
 
     lab: str
     given: Data
-    sheet: tuple[float, float]
+    sheet: tuple[float, float, float]
     points: Mapping[str, float]
     tolerance: Mapping[str, float]
 
@@ -148,8 +148,8 @@ class Task:
 
     def per_mm(self, field: str) -> float:
         """What a millimetre of the plan is worth."""
-        kL, kv = self.sheet
-        return (kv if field[0] == "v" else kv**2 / kL) / 1000
+        _, kv, ka = self.sheet
+        return (kv if field[0] == "v" else ka) / 1000
 
     def is_right(self, field: str, value: float) -> bool:
         """Whether an answer is right by the key; of what a drawing does not tell no sense is."""

@@ -15,7 +15,7 @@ def test_without_errors_it_is_the_key(lab):
     for n in range(1, 31):
         standard = marker_of(lab, n).standard
         scales = standard.scales
-        found = hand.key(lab, hand.data(lab, n), (scales.kL, scales.kv))
+        found = hand.key(lab, hand.data(lab, n), (scales.kL, scales.kv, scales.ka))
         assert set(found) == set(standard.key)
         for field, right in standard.key.items():
             tolerance = standard.tolerance.get(field)
@@ -30,7 +30,7 @@ def test_without_errors_it_is_the_key(lab):
 def test_errors_grow_with_the_hand(lab):
     """The error of the ruler alone is that of the readings; a hand twice as bad, twice as far."""
     scales = marker_of(lab, 7).standard.scales
-    given, sheet = hand.data(lab, 7), (scales.kL, scales.kv)
+    given, sheet = hand.data(lab, 7), (scales.kL, scales.kv, scales.ka)
     right = hand.key(lab, given, sheet)
     field = {"pump": "v_D_mm", "slotted-lever": "v_A3_mm"}.get(lab, "v_C_mm")
 

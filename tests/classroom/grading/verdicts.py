@@ -51,7 +51,7 @@ def form(lab: str, n: int, half: bool = False) -> tuple[Marker, Task]:
         none = [f for f in marker.standard.rubric.points if rng.random() < 0.5]
         marker = marker_with(lab, MORE[lab], n, points=dict.fromkeys(none, Fraction()))
     standard = marker.standard
-    sheet = standard.scales.kL, standard.scales.kv
+    sheet = standard.scales.kL, standard.scales.kv, standard.scales.ka
     points = {field: float(standard.rubric.points.get(field, 0)) for field in standard.key}
     tolerance = {field: allowed.value for field, allowed in standard.tolerance.items()}
     return marker, Task(lab, hand.data(lab, n), sheet, points, tolerance)

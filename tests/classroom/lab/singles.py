@@ -8,9 +8,8 @@ from graphkin import load
 from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, Rubric
 from graphkin.classroom.lab.rules import Settings
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import Verdict
-from graphkin.documents.scaling import drawing, scales, targets_of
+from graphkin.documents.sheet_documents import drawings_of
 from graphkin.mechanism import Mechanism
 from graphkin.text import words
 
@@ -27,12 +26,7 @@ def mechanism_of(name: str | Path, given: Settings) -> Mechanism:
 
 def sheets_of(mechanism: Mechanism) -> list[Drawing]:
     """The drawings of one variant's sheets, at its own scales."""
-    chosen = scales(mechanism)
-    return [
-        drawing(mechanism, kind, found, chosen, NOBODY, words("en"))
-        for kind in SHEETS
-        if (found := targets_of(mechanism, kind))
-    ]
+    return drawings_of(mechanism, NOBODY, words("en"))
 
 
 def lab_of(scene: Path, fair: Fair = Fair(), **draws: Range) -> Lab:  # noqa: B008
