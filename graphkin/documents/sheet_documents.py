@@ -138,7 +138,10 @@ def nearly_singular(mechanism: Mechanism) -> Problem:
 def drawings_of(
     mechanism: Mechanism, verdict: Verdict, spoken: Words, held: Scales | None = None
 ) -> list[Drawing]:
-    """The material of each sheet, all at the same scale: ``held``, else the one that fits best."""
+    """The material of each sheet, all at the same scale and the mechanism at the same place.
+
+    The scale factors are those ``held``, whose layout is held as well, else those that fit best.
+    """
     curves = curves_of(mechanism)
     chosen = held or scales(mechanism, curves)
     drawings = [
@@ -150,5 +153,5 @@ def drawings_of(
         raise SceneError(
             Problem("ask", "asks for nothing that is drawn", "velocities, accelerations, centres …")
         )
-    stand = placed(drawings)
+    stand = None if held else placed(drawings)
     return [replace(each, stand=stand, again=i > 0) for i, each in enumerate(drawings)]

@@ -33,7 +33,7 @@ def rules(drawing: Drawing) -> Iterator[str]:
     kv, ka = plan_scales(drawing, kL)
     rule = kv if first else ka
     m = figure(drawing, scales.of_bar(drawing.kind))
-    if not scales.of_crank:
+    if not scales.of_crank or (drawing.scene.sheet.ka and not first):
         yield f"{rule.left} = {rule.result} {rule.unit}"
         return
     yield f"{rule.left} = {rule.symbols.replace('*m*′', m).replace('*m*', m)}"

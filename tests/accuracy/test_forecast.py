@@ -47,7 +47,7 @@ def test_so_it_is_in_every_scene_that_comes_with_it(name):
         assert not outside(exact, Pencil(), 4000)
 
 
-@pytest.mark.parametrize("seed", [5, 17, 27, 34])
+@pytest.mark.parametrize("seed", [7, 19, 27, 34])
 def test_so_it_is_where_errors_do_not_add_or_drawings_do_not_close(seed):
     """Mechanisms made at random that single errors alone foretell badly."""
     made = case(seed)

@@ -6,6 +6,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.documents.scaling import scales
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.label import Label
@@ -79,7 +80,10 @@ def test_labels_stay_where_they_were_when_one_in_a_crowd_gets_a_key_number():
 
 def test_points_of_a_plan_that_nearly_fall_together_are_not_told_to_be_one():
     """In watt-1, drawn as the lab draws it, the images c and e are 0.22 mm apart."""
-    velocity, _ = drawings("watt-1", rule="lab")
+    found = mechanism("watt-1")
+    held = scales(found)
+    held = replace(held, larger=1.0, larger_still=1.0)
+    velocity, _ = drawings_of(found, proved(found, found.solve()), words("en"), held)
     page = sheet(velocity, "key", "1/2")
     labels = [plain(mark.markup) for mark in page.marks if isinstance(mark, Text)]
     assert "c ≈ e" in labels

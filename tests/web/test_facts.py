@@ -50,18 +50,20 @@ def test_the_scale_that_is_told_is_that_by_which_millimetres_are_marked(name):
     mechanism, lab = load(name), read_lab(name)
     paper = standard(mechanism, items(mechanism, lab), lab.rubric).paper
     speed = abs(float(mechanism.scene.drivers[0].speed.si(mechanism.scene.values)))
-    rules = {"kv = ω1·kL": speed, "ka = ω12·kL": speed**2}
+    rules = {r"kv = ω1·kL(?:/([\d.]+))?": speed, r"ka = ω12·kL(?:/([\d.]+))?": speed**2}
     planes = (Plane.VELOCITIES, Plane.ACCELERATIONS)
     for said, plane in zip(told(mechanism), planes, strict=True):
         values = [float(value) for value in re.findall(r"= ([\d.]+) \(m/s", said)]
-        values += [rate * paper.mechanism / 1000 for rule, rate in rules.items() if rule in said]
+        for rule, rate in rules.items():
+            for times in re.findall(rule, said):
+                values.append(rate * paper.mechanism / 1000 / float(times or 1))
         assert values == pytest.approx([paper.millimetre(plane)], rel=1e-4)
 
 
 def test_a_plan_that_is_enlarged_or_has_a_stated_ka_says_so():
     text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
     velocity, acceleration = told(Mechanism(read_text(f"{text}\n[sheet]\nenlarge = 2\n", "larger")))
-    assert "kv = ω1·kL/2." in velocity
-    assert "ka = kv2/kL." in acceleration
+    assert "kv = ω1·kL/2, oa = 2·O1A/kL." in velocity
+    assert "ka = ω12·kL/2." in acceleration
     again = Mechanism(read_text(f"{text}\n[sheet]\nka = 0.5\n", "stated"))
     assert "ka = 0.5 (m/s2)/mm." in told(again)[1]

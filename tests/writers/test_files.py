@@ -79,6 +79,7 @@ def expected_vectors(page: Drawn) -> dict[tuple[str, str], tuple[complex, comple
     drawing, scales = page.drawing, page.drawing.scales
     kL, kv, ka = scales.kL, scales.kv, scales.ka
     k = kv if drawing.kind == "velocity" else ka
+    times = scales.times(drawing.kind)
     origin = next(iter(drawing.scene.frame.points))
     found = {}
     for _, step, value in drawing.steps(drawing.plane):
@@ -90,14 +91,14 @@ def expected_vectors(page: Drawn) -> dict[tuple[str, str], tuple[complex, comple
         motion = drawing.trace.value(quantity, point)
         tail = 1000 * (here - start) / kL
         if motion is not None:
-            found["mechanism", f"{quantity[0]}_{point}"] = (tail, tail + 1000 * motion / k)
+            found["mechanism", f"{quantity[0]}_{point}"] = (tail, tail + 1000 * motion / k / times)
     for _, step, value in drawing.steps(Plane.NUMBERS):
         if isinstance(step.of, NormalComponent) and step.role == "vector":
             p, q, index = step.of.p, step.of.q, step.of.index
             tail = 1000 * (drawing.positions[q] - start) / kL
             relative = drawing.trace.value("velocity", q) - drawing.trace.value("velocity", p)
-            found["mechanism", f"v_{index}"] = (tail, tail + 1000 * relative / kv)
-            found["mechanism", f"a_{index}^ν"] = (tail, tail + 1000 * value / ka)
+            found["mechanism", f"v_{index}"] = (tail, tail + 1000 * relative / kv / scales.larger)
+            found["mechanism", f"a_{index}^ν"] = (tail, tail + 1000 * value / ka / times)
     return found
 
 

@@ -61,7 +61,8 @@ def given(drawing: Drawing, *, solved: bool = True) -> list[str]:
 def of_scales(drawing: Drawing) -> Iterator[str]:
     """What the scene says of the scale factors of the plans, so that a student can follow it."""
     m = drawing.scales.of_bar(drawing.kind)
-    if m not in (0, 1):
+    stated = drawing.kind == "acceleration" and drawing.scene.sheet.ka is not None
+    if m not in (0, 1) and not stated:
         yield drawing.words(f"page.enlarged_{drawing.kind}", m=figure(drawing, m))
 
 

@@ -203,14 +203,17 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
         return
     turning = float(drawing.scene.drivers[0].speed.si(drawing.scene.values))
     w, index = figure(drawing, abs(turning), OMEGA), f"_{{{escape(drawing.scene.drivers[0].link)}}}"
-    for symbol_, power, kind, times, result, unit in (
+    for name, power, kind, times, result, unit in (
         ("*k*_v", "", "velocity", "*m*", kv, KV),
         ("*k*_a", "^2", "acceleration", "*m*′", ka, KA),
     ):
+        if kind == "acceleration" and drawing.scene.sheet.ka is not None:
+            yield Relation(name, "", "", result, unit, chosen)
+            continue
         larger = scales.of_bar(kind)
         sign, less = (f"/{times}", f"/{figure(drawing, larger)}") if larger != 1 else ("", "")
         numbers = f"{squared(w) if power else w}·{number}/1000{less}"
-        yield Relation(symbol_, f"*ω*{index}{power}·*k*_L{sign}", numbers, result, unit)
+        yield Relation(name, f"*ω*{index}{power}·*k*_L{sign}", numbers, result, unit)
 
 
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:

@@ -148,7 +148,7 @@ def test_chance_gives_hardly_any_name_to_numbers_at_random():
             random = np.random.Generator(np.random.PCG64([n, 5]))
             for seed in (1, 2):
                 marks += lost(name, n, spoiled(handed_in(name, n, seed), random))
-    assert share_named(marks) < 0.01
+    assert share_named(marks) < 0.02
 
 
 def test_one_wrong_number_among_right_ones_seldom_has_a_name():

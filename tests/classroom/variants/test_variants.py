@@ -254,11 +254,11 @@ def test_a_full_disk_leaves_nothing(tmp_path, roster, monkeypatch):
 def test_the_command_writes_tells_and_leaves_with_1_for_unfair_data(tmp_path, roster):
     result = run("variants", "pump", roster, "-o", tmp_path / "out")
     assert result.exit_code == 1
-    assert "27 of 30 students" in result.stdout
-    assert "25      0025  Student 25  segment a_D_mm 1.8 mm, at least 3 mm" in result.stdout
+    assert "29 of 30 students" in result.stdout
+    assert "30      0030  Student 30  triangle v_DC v/l 0.0441, at least 0.05" in result.stdout
     assert "computed instead of measured" in result.stdout
     assert "flattest crossing, °" in result.stdout
-    assert "3 students have unfair data" in result.stderr
+    assert "1 student has unfair data" in result.stderr
     assert (tmp_path / "out" / "manifest.json").is_file()
 
 
