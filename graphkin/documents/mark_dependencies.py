@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.guides.slide_symbols import frame_guides, places_of
+from graphkin.construction.guides.rails import places_of
+from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
 from graphkin.construction.rolling.wheel_symbols import straight_tracks
 from graphkin.drawing.field import Field
