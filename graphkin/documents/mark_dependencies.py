@@ -17,7 +17,7 @@ Target = tuple[str, str]
 DRIVEN = ("x", "axis", "phi", "omega", "s", "speed")
 """What the names of a driver's marks begin with; its link follows where there are several."""
 
-BODY = ("plate", "link", "number", "label", "leader")
+BODY = ("plate", "outline", "link", "number", "label", "leader")
 """The classes of a link's bar or plate, and of its number."""
 
 

@@ -159,13 +159,23 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     mechanism_symbols.draw_ground(board, drawing, field)
     mechanism_symbols.draw_guides(board, drawing, field)
     raise_marks(board, covered(loci, board.marks))
+    below = len(board.marks)
     mechanism_symbols.draw_upper(board, drawing, field)
+    above = len(board.marks)
     step_marks.draw_mechanism_steps(plot, found=False)
+    thin = [mark for mark in board.marks[above:] if is_thin(mark)]
+    drawn = [mark for mark in board.marks[above:] if not is_thin(mark)]
+    board.marks[below:] = [*thin, *board.marks[below:above], *drawn]
     if drawing.kind == "velocity":
         driver_symbols.draw_drivers(board, drawing, field)
     mechanism_symbols.draw_pins(board, drawing, field)
     raise_marks(board, vectors(board.marks))
     return board
+
+
+def is_thin(mark: Mark) -> bool:
+    """True for a line of the construction, which lies below bars that it runs along."""
+    return isinstance(mark, LineMark) and mark.cls in ("construction", "ray")
 
 
 def raise_marks(board: FieldContent, some: Sequence[Mark]) -> None:

@@ -142,7 +142,7 @@ def apart(one: Sequence[float], other: Sequence[float]) -> float:
 
 def off_by(kind: str, cls: str) -> Callable[[Sequence[float], Sequence[float]], float]:
     """What tells how far marks of a kind and a class lie apart."""
-    if cls == "plate":
+    if cls in ("plate", "outline"):
         return around_apart
     if kind == "Polyline":
         return round_apart

@@ -157,6 +157,7 @@ def clear_of(
     if velocity is not None and not abs(velocity) < NOISE * drawing.largest:
         ways.append(velocity)
     elif drawing.held is not None:
+        driver = drawing.held.scene.drivers[drawing.scene.drivers.index(driver)]
         drawing = drawing.held
         end, sign = crank_end(drawing, driver), pick(speed_of(drawing, driver) > 0, 1, -1)
     ground = ground_ways(drawing, field.mm).get(here)

@@ -128,6 +128,7 @@ def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
     draw_plates(board, drawing, field)
     draw_slides(board, drawing, field)
     draw_bodies(board, drawing, field, carriers=False)
+    draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_contacts(board, drawing, field)
     draw_pins(board, drawing, field)
@@ -168,8 +169,9 @@ def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The other bars, the profiles, what shows how wheels roll, and the links' numbers."""
+    """The other bars, the sides of plates, profiles, how wheels roll, and the links' numbers."""
     draw_bodies(board, drawing, field, carriers=False)
+    draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_contacts(board, drawing, field)
     for link in drawing.scene.links.values():
@@ -182,6 +184,14 @@ def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers
     for link in drawing.scene.links.values():
         if corners_of(drawing, link) is None and (link.name in owners) is carriers:
             draw_body(board, drawing, field, link)
+
+
+def draw_outlines(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The sides of plates once more, above the construction's lines along them."""
+    for link in drawing.scene.links.values():
+        if corners := corners_of(drawing, link):
+            on_page = tuple(field(place) for place in corners)
+            board.marks.append(polygon(on_page, "outline", link.name))
 
 
 def draw_pins(board: FieldContent, drawing: Drawing, field: Field) -> None:
