@@ -53,7 +53,7 @@ def chosen(drawing: Drawing, mm: float) -> dict[str, complex]:
     for name, here in pivots(drawing).items():
         height = height_at(drawing, here, mm)
         lines = (((p - here) * mm, (q - here) * mm) for p, q in drawn)
-        near = [line for line in lines if gap(line) < NEAR]
+        near = [line for line in lines if away_from(0j, line) < NEAR]
         found[name] = min(WAYS, key=lambda way: WAYS[way] + crowding(near, way, height))
     return found
 
@@ -109,14 +109,14 @@ def apart(one: Segment, other: Segment) -> float:
     if max(sides) < 0:
         return -AIR
     return min(
-        *(gap((a - place, b - place)) for place in other),
-        *(gap((c - place, d - place)) for place in one),
+        *(away_from(place, one) for place in other),
+        *(away_from(place, other) for place in one),
     )
 
 
-def gap(line: Segment) -> float:
-    """How far a segment is from zero."""
-    start, along = line[0], line[1] - line[0]
+def away_from(place: complex, line: Segment) -> float:
+    """How far a place is from a segment."""
+    start, along = line[0] - place, line[1] - line[0]
     square = abs(along) ** 2
     share = min(max(-dot(start, along) / square, 0.0), 1.0) if square else 0.0
     return abs(start + share * along)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import hypot
-
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import above_foot
 from graphkin.construction.guides.pivot_grounds import ground_ways, height_at
@@ -12,8 +10,8 @@ from graphkin.construction.guides.slide_symbols import (
     draw_blocks,
     draw_frame_guides,
     draw_guide_bars,
-    number_side,
 )
+from graphkin.construction.links.link_numbers import draw_numbers
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
 from graphkin.construction.links.profile_symbols import draw_edges
 from graphkin.construction.rolling.wheel_symbols import (
@@ -21,20 +19,15 @@ from graphkin.construction.rolling.wheel_symbols import (
     draw_fixed_wheels,
     draw_tracks,
     draw_wheels,
-    number_beside,
 )
 from graphkin.drawing.field import XY, Field, clipped
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, polygon, reach
-from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, TALL, across, legs, pin, pivot_ground
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import FRAME, Link
-
-LONG = 14.0
-"""Length of a sliding link's own bar, in mm, from which its number stands there."""
 
 
 def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -174,8 +167,7 @@ def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
     draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_contacts(board, drawing, field)
-    for link in drawing.scene.links.values():
-        draw_number(board, drawing, field, link)
+    draw_numbers(board, drawing, field)
 
 
 def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers: bool) -> None:
@@ -238,45 +230,6 @@ def draw_body(board: FieldContent, drawing: Drawing, field: Field, link: Link) -
     else:
         on_page = tuple(field(place) for place in corners)
         board.marks.append(polygon(on_page, "plate", link.name))
-
-
-def draw_number(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
-    """A link's number or name in its balloon, beside its bar, its block or its wheel."""
-    beside = bar_of(drawing, field, link)
-    aside = number_side(drawing, field, link.name)
-    short = beside is None or hypot(beside[1][0] - beside[0][0], beside[1][1] - beside[0][1]) < LONG
-    if aside and (short or drawing_fixed(link)):
-        beside = aside
-    if beside is None:
-        beside = number_beside(drawing, field, link) or guide_bar_of(board, link)
-    if beside is not None:
-        label = Label(escape(link.name), "", beside, 2.5, link.name, priority=3, ring=True)
-        board.labels.append(label)
-
-
-def drawing_fixed(link: Link) -> bool:
-    """True for a block on a guide of the frame, whose number stands at the block."""
-    return any(slide.on == FRAME for slide in link.slides)
-
-
-def bar_of(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
-    """The bar, or the first side of the plate, that a link's number stands at."""
-    places = places_of(drawing, link.name)
-    corners = corners_of(drawing, link)
-    if corners is not None:
-        return field(corners[0]), field(corners[1])
-    if len(places) < 2:
-        return None
-    first, last = farthest(places)
-    return (field(first), field(last)) if first != last else None
-
-
-def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:
-    """The drawn guide of a link that has neither a bar, a block nor a wheel."""
-    for mark in board.marks:
-        if isinstance(mark, LineMark) and mark.cls == "guide-bar" and mark.name == link.name:
-            return (mark.x1, mark.y1), (mark.x2, mark.y2)
-    return None
 
 
 def outward(drawing: Drawing, field: Field, name: str) -> XY | None:
