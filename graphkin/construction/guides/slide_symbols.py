@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.plot import EDGE
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import (
     ALIKE,
@@ -190,11 +191,12 @@ def overlap(one: Rect, other: Rect) -> bool:
 
 
 def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
-    """Marks whose lines end at the edge of a field."""
+    """Marks whose lines end clear of the edges of a field."""
+    inner = rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - EDGE
     for mark in marks:
         if not isinstance(mark, LineMark):
             yield mark
-        elif part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), rect):
+        elif part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), inner):
             yield LineMark(*part[0], *part[1], mark.cls, mark.name)
 
 
