@@ -27,6 +27,7 @@ from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
 from graphkin.documents.listing import listed
 from graphkin.documents.members import members
+from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.areas import A3_AREA, AREA, BELOW, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame
@@ -52,6 +53,8 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
     (left, detail), (right, other) = parted(*boards)
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
+        detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
+        other += plan_signs(drawing, layout.plan, [*right, *other])
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
         *heading(drawing),
