@@ -14,7 +14,16 @@ from graphkin.drawing.candidates import Blots
 from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY
 from graphkin.drawing.marks import Mark, Text, reach
-from graphkin.drawing.shapes import Array, distance, joined, rectangles, segments, separation, where
+from graphkin.drawing.shapes import (
+    Array,
+    distance,
+    joined,
+    overlap,
+    rectangles,
+    segments,
+    separation,
+    where,
+)
 
 GRID = 5.0
 """Distance of the places tried, in mm."""
@@ -61,8 +70,11 @@ class Space:
         left, top, right, bottom = self.rect
         inside = (x - wide >= left + air) & (x + wide <= right - air)
         inside &= (y - high >= top + air) & (y + high <= bottom - air)
-        near = distance(x, y, wide, high, joined(self.lines, self.texts).upright())
-        free = where(inside & (near.min(axis=0, initial=inf) > air))
+        hull = np.array([(x - wide).min(), (y - high).min(), (x + wide).max(), (y + high).max()])
+        drawn = joined(self.lines, self.texts)
+        near = drawn.take(where(overlap(hull[:, None], drawn.boxes(air))))
+        apart = distance(x, y, wide, high, near.upright())
+        free = where(inside & (apart.min(axis=0, initial=inf) > air))
         return places[int(free[0])] if len(free) else None
 
     def take(self, box: Rect) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from typing import NamedTuple
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -138,14 +138,14 @@ def label_beside(link: Link, start: complex, end: complex, others: Sequence[Body
     length = abs(end - start)
     way = (end - start) / length
     off = (NUMBER + GAP) * 1j * way
-
-    def worth(choice: tuple[float, int]) -> float:
-        share, side = choice
+    found: list[tuple[float, float, int]] = []
+    for share, side in product(SHARES, (1, -1)):
         place = start + share * (end - start) + side * off
         room = min((other.apart(place) for other in others), default=ENOUGH)
-        return min(room, ENOUGH) - SHIFT * (share - 0.5) ** 2
-
-    share, side = max(((share, side) for share in SHARES for side in (1, -1)), key=worth)
+        found.append((min(room, ENOUGH) - SHIFT * (share - 0.5) ** 2, share, side))
+        if room >= ENOUGH:
+            break
+    _, share, side = max(found, key=lambda each: each[0])
     middle, half = start + share * (end - start), min(HALF, 0.2 * length) * way
     low, high, away = middle - half, middle + half, side * off / abs(off)
     return labelled(link, ((low.real, low.imag), (high.real, high.imag)), (away.real, away.imag))
