@@ -20,6 +20,7 @@ from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.higher_class.closed_group import draw_closing_arcs
 from graphkin.construction.links import mechanism_symbols
+from graphkin.construction.normal_component.normal_component import pins_of_triangles
 from graphkin.construction.result_tables import tables
 from graphkin.documents.captions import headlines
 from graphkin.documents.detail import parted
@@ -42,6 +43,8 @@ TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
+CROWD = 3
+"""So many triangles at one pin are shown enlarged."""
 RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
@@ -172,6 +175,7 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     if drawing.kind == "velocity":
         driver_symbols.draw_drivers(board, drawing, field)
     mechanism_symbols.draw_pins(board, drawing, field)
+    board.crowds += [field(pin) for pin in pins_of_triangles(drawing, CROWD)]
     raise_marks(board, vectors(board.marks))
     return board
 

@@ -113,12 +113,14 @@ def plan_scale(drawing: Drawing, space: Space) -> Iterator[Mark]:
     x, y = at[0] - half[0] + 1, at[1] + 2.5
     yield LineMark(x, y, x + length, y, "dimension", "scale")
     parts = STEPS[first]
-    for i in range(parts + 1):
+    numbers = [words.decimal(f"{value * i / parts:g}") for i in range(parts + 1)]
+    wide = max(extent(number, HEIGHT)[0] for number in numbers)
+    for i, number in enumerate(numbers):
         along = x + length * i / parts
         yield LineMark(along, y, along, y - TICK, "dimension", "scale")
-        number = words.decimal(f"{value * i / parts:g}")
-        yield Text(along, y - TICK - 0.8, number, "caption", HEIGHT, "middle", "scale")
-    after = x + length + extent(words.decimal(f"{value:g}"), HEIGHT)[0] / 2 + 1
+        if i in (0, parts) or wide + APART / 2 < length / parts:
+            yield Text(along, y - TICK - 0.8, number, "caption", HEIGHT, "middle", "scale")
+    after = x + length + extent(numbers[-1], HEIGHT)[0] / 2 + 1
     yield Text(after, y - TICK - 0.8, unit, "caption", HEIGHT, name="scale")
 
 

@@ -39,7 +39,8 @@ class FieldContent(Struct):
 
     ``taken`` are boxes that labels keep clear of, ``notes`` what is said at the field's foot,
     ``lettered`` the places of the labels that are letters of points; ``unnamed`` begins the note
-    that lists the vectors for whose names there is no room.
+    that lists the vectors for whose names there is no room. At ``crowds`` so much meets that it is
+    shown enlarged.
     """
 
     rect: Rect
@@ -49,6 +50,7 @@ class FieldContent(Struct):
     notes: list[str] = field(default_factory=list)
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
+    crowds: list[XY] = field(default_factory=list)
 
     def finish(self, made: tuple[list[Mark], list[Spot]] | None = None) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
