@@ -191,12 +191,15 @@ def overlap(one: Rect, other: Rect) -> bool:
 
 
 def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
-    """Marks whose lines end clear of the edges of a field."""
+    """Marks whose lines end clear of the edges of a field; strokes of hatching are left whole."""
     inner = rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - EDGE
     for mark in marks:
         if not isinstance(mark, LineMark):
             yield mark
-        elif part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), inner):
+            continue
+        ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
+        part = clipped(*ends, inner)
+        if part and (part == ends or mark.cls != "ground"):
             yield LineMark(*part[0], *part[1], mark.cls, mark.name)
 
 
