@@ -1,8 +1,9 @@
-"""A small picture beside a drawing: its shortest vectors enlarged in a circle."""
+"""Small pictures beside a drawing: its shortest vectors, and where much meets, enlarged."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import count
 from math import dist, hypot, sqrt
 from typing import NamedTuple, TypeGuard
 
@@ -10,10 +11,9 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.plan_marks import DOT
-from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
 from graphkin.drawing.free_space import FreeDisc, Space
-from graphkin.drawing.label import SMALL, Label, segment_of
+from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import HELPERS, FieldContent, free_ones
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, moved
 from graphkin.drawing.place_labels import finished
@@ -23,10 +23,12 @@ from graphkin.drawing.symbols import SHORT, head
 
 SHOWN = (*VECTORS, "construction", "link")
 """The classes of lines that a detail shows."""
-ENLARGED = (5, 10)
-"""How many times a detail is enlarged."""
-RADIUS = 14.0
+CROWDED, ENLARGED = 5, (5, 10)
+"""How many times a place where much meets is enlarged, and how many times a short vector."""
+RADIUS = 16.0
 """Radius of a detail circle in mm."""
+LETTERS = 2.5
+"""Height of the letters of a detail in mm, whose indices are as high as the smallest lettering."""
 SEEN = 5.0
 """Length in mm that a part of a vector must have in a detail to be named there."""
 WHOLE = 6
@@ -51,18 +53,24 @@ class Source(NamedTuple):
         return CircleMark(*self.at, RADIUS / self.times, "detail", "detail")
 
 
-def source(marks: Sequence[Mark]) -> Source | None:
-    """The place of a drawing's shortest vector worth a detail; None where there is none."""
-    for mark in marks:
+def sources(board: FieldContent) -> Iterator[Source]:
+    """The place of a drawing's first short vector worth a detail, and where much meets apart."""
+    for mark in board.marks:
         if is_vector(mark) and TOO_SHORT <= length_of(mark) < SHORT:
             times = ENLARGED[0] if length_of(mark) * ENLARGED[0] >= 4 else ENLARGED[1]
-            return Source(((mark.x1 + mark.x2) / 2, (mark.y1 + mark.y2) / 2), times)
-    return None
+            at = (mark.x1 + mark.x2) / 2, (mark.y1 + mark.y2) / 2
+            if all(dist(at, crowd) > RADIUS / CROWDED for crowd in board.crowds):
+                yield Source(at, times)
+            break
+    yield from (Source(at, CROWDED) for at in board.crowds)
 
 
 class Detail(NamedTuple):
-    """What a detail shows: its source, and a board with the part enlarged, aside of the page."""
+    """What a detail shows: the board that it belongs to, its source, and a board with the part
+    enlarged, aside of the page.
+    """
 
+    of: FieldContent
     source: Source
     board: FieldContent
 
@@ -73,42 +81,41 @@ def with_detail(*boards: FieldContent) -> list[Mark]:
 
 
 def parted(*boards: FieldContent) -> list[tuple[list[Mark], list[Mark]]]:
-    """Finished fields, and apart from each its detail circle; no marks where there is none."""
-    details = [detail_of(board, at) for board, at in zip(boards, aside(boards), strict=True)]
-    for board, detail in zip(boards, details, strict=True):
-        board.marks += [detail.source.circle()] if detail else []
-    every, places = finished(boards, [detail.board for detail in details if detail])
-    spots = iter(places)
-    return [
-        put_in_disc(board.rect, marks, detail, next(spots)) if detail else (marks, [])
-        for board, marks, detail in zip(boards, every, details, strict=True)
+    """Finished fields, and apart from each its detail circles; no marks where there is none."""
+    found = [(board, source) for board in boards for source in sources(board)]
+    details = [
+        Detail(board, source, enlarged_part(board, source, at))
+        for (board, source), at in zip(found, aside(boards), strict=False)
     ]
+    for board, source in found:
+        board.marks.append(source.circle())
+    every, places = finished(boards, [detail.board for detail in details])
+    fields = [(marks, list[Mark]()) for marks in every]
+    for detail, spots in zip(details, places, strict=True):
+        marks, shown = fields[[board is detail.of for board in boards].index(True)]
+        more = put_in_disc([*marks, *shown], detail, spots)
+        shown += more
+        if not more:
+            marks.remove(detail.source.circle())
+    return fields
 
 
 def aside(boards: Sequence[FieldContent]) -> Iterator[XY]:
     """Places for details, one below another, where they overlap neither boards nor each other."""
     x, y = max(board.rect[2] for board in boards) + RADIUS, boards[0].rect[1] + RADIUS
-    for nth in range(len(boards)):
+    for nth in count():
         yield x + 1, y + nth * (2 * RADIUS + 1)
 
 
-def detail_of(board: FieldContent, at: XY) -> Detail | None:
-    """The detail of a drawing, with its middle at a place; None where none is needed."""
-    found = source(board.marks)
-    return Detail(found, enlarged_part(board, found, at)) if found else None
-
-
-def put_in_disc(
-    rect: Rect, marks: list[Mark], detail: Detail, spots: Sequence[Spot]
-) -> tuple[list[Mark], list[Mark]]:
-    """The marks of a field and its detail, where there is room for it; else no small circle."""
-    disc = Space(marks, rect).disc(detail.source.at, RADIUS + 4)
+def put_in_disc(marks: Sequence[Mark], detail: Detail, spots: Sequence[Spot]) -> list[Mark]:
+    """A detail where there is room for it among the marks of its field; else nothing."""
+    disc = Space(marks, detail.of.rect).disc(detail.source.at, RADIUS + 4)
     if disc is None:
-        return [mark for mark in marks if mark != detail.source.circle()], []
+        return []
     x, y = centre(detail.board.rect)
     drawn = [*detail.board.marks, *free_ones(detail.board, spots)]
     shown = [moved(mark, disc.at[0] - x, disc.at[1] - y) for mark in drawn]
-    return marks, [*shown, *pointing(disc, detail.source)]
+    return [*shown, *pointing(disc, detail.source)]
 
 
 def pointing(disc: FreeDisc, source: Source) -> Iterator[Mark]:
@@ -188,7 +195,7 @@ def named(board: FieldContent, source: Source, at: XY) -> Iterator[Label]:
     drawn = {m.name: ((m.x1, m.y1), (m.x2, m.y2)) for m in board.marks if is_vector(m)}
     for label in board.labels:
         ends = segment_of(label) or drawn.get(label.name)
-        bare = replace(label, height=SMALL, name="", step=None)
+        bare = replace(label, height=LETTERS, name="", step=None)
         if ends is None:
             x, y = label.subject
             assert isinstance(x, float) and isinstance(y, float)

@@ -12,7 +12,7 @@ from graphkin.construction.core.curve_marks import ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.too_short import TINY
-from graphkin.construction.guides.slide_symbols import places_of
+from graphkin.construction.guides.rails import places_of
 from graphkin.construction.links.plates import corners_of, farthest
 from graphkin.drawing.field import Field
 from graphkin.drawing.free_space import Space

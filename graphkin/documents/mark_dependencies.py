@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.guides.slide_symbols import frame_guides, places_of
+from graphkin.construction.guides.rails import places_of
+from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
 from graphkin.construction.rolling.wheel_symbols import straight_tracks
 from graphkin.drawing.field import Field
@@ -16,7 +17,7 @@ Target = tuple[str, str]
 DRIVEN = ("x", "axis", "phi", "omega", "s", "speed")
 """What the names of a driver's marks begin with; its link follows where there are several."""
 
-BODY = ("plate", "link", "number", "label", "leader")
+BODY = ("plate", "outline", "link", "number", "label", "leader")
 """The classes of a link's bar or plate, and of its number."""
 
 

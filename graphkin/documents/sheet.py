@@ -20,6 +20,7 @@ from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.higher_class.closed_group import draw_closing_arcs
 from graphkin.construction.links import mechanism_symbols
+from graphkin.construction.normal_component.normal_component import pins_of_triangles
 from graphkin.construction.result_tables import tables
 from graphkin.documents.captions import headlines
 from graphkin.documents.detail import parted
@@ -27,6 +28,7 @@ from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
 from graphkin.documents.listing import listed
 from graphkin.documents.members import members
+from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.areas import A3_AREA, AREA, BELOW, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame
@@ -41,6 +43,8 @@ TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
+CROWD = 3
+"""So many triangles at one pin are shown enlarged."""
 RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
@@ -52,6 +56,8 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
     (left, detail), (right, other) = parted(*boards)
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
+        detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
+        other += plan_signs(drawing, layout.plan, [*right, *other])
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
         *heading(drawing),
@@ -159,13 +165,24 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     mechanism_symbols.draw_ground(board, drawing, field)
     mechanism_symbols.draw_guides(board, drawing, field)
     raise_marks(board, covered(loci, board.marks))
+    below = len(board.marks)
     mechanism_symbols.draw_upper(board, drawing, field)
+    above = len(board.marks)
     step_marks.draw_mechanism_steps(plot, found=False)
+    thin = [mark for mark in board.marks[above:] if is_thin(mark)]
+    drawn = [mark for mark in board.marks[above:] if not is_thin(mark)]
+    board.marks[below:] = [*thin, *board.marks[below:above], *drawn]
     if drawing.kind == "velocity":
         driver_symbols.draw_drivers(board, drawing, field)
     mechanism_symbols.draw_pins(board, drawing, field)
+    board.crowds += [field(pin) for pin in pins_of_triangles(drawing, CROWD)]
     raise_marks(board, vectors(board.marks))
     return board
+
+
+def is_thin(mark: Mark) -> bool:
+    """True for a line of the construction, which lies below bars that it runs along."""
+    return isinstance(mark, LineMark) and mark.cls in ("construction", "ray")
 
 
 def raise_marks(board: FieldContent, some: Sequence[Mark]) -> None:

@@ -17,6 +17,7 @@ from graphkin.documents.flattest import crossings_on, group_closed, is_gap, lett
 from graphkin.documents.inset import insets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import heading, left_board, panels, right_board, title_block, title_of
+from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.step_numbers import BEFORE, stages
 from graphkin.documents.step_visibility import appearing, grown, when_told
 from graphkin.drawing.areas import A3_TITLE_BLOCK, BELOW, MARKED
@@ -48,7 +49,9 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     standing = appearing(drawing, field, left, staged, said)
     timed = [(max(stage, given), mark) for stage, mark in standing]
     timed += appearing(drawing, field, right, staged, said)
-    last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
+    detail += insets(drawing, layout.mechanism, [*left, *detail])
+    detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
+    last = [*detail, *other, *plan_signs(drawing, layout.plan, [*right, *other])]
     block, same = title_block(drawing, "steps", number), [*heading(drawing), *panels(layout)]
     lines = [
         (stage_of_crossing(drawing, each, staged), each)

@@ -24,6 +24,7 @@ from graphkin.drawing.shapes import (
     rectangles,
     segments,
     separation,
+    struck,
     where,
 )
 
@@ -31,6 +32,7 @@ OWN = 0.4  # mm within which a drawn line is taken for the subject itself
 ROOM = 1.4  # mm of air around a label beyond which more is no better
 LEADER = np.array([6.0, 3.7])  # what one costs to a point and to a segment; costs are in mm
 CROSSING = 0.9  # a line that a leader crosses
+STRONG = 30.0  # a link, a guide or a vector that it crosses, besides
 SKIRT = 2.5  # a line that a leader runs along
 ASTRAY = 4.0  # a label further than FAR_OFF from its segment and nearer to another of length LONG
 FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
@@ -92,6 +94,7 @@ class Clearance:
         boxes: ArrayLike,
         field: ArrayLike,
         stroke: ArrayLike,
+        strong: ArrayLike = (),
     ) -> None:
         """Prepare for labels that stay in one field, or each in its own."""
         drawn, taken = (np.asarray(a, dtype=np.float64).reshape(-1, 4) for a in (lines, boxes))
@@ -102,6 +105,7 @@ class Clearance:
         start, end = subjects.ends[:, :2], subjects.ends[:, 2:]
         core = np.concatenate([start + (end - start) / 6, end - (end - start) / 6], axis=1)
         self.subjects = subjects
+        self.strong = np.asarray(strong, dtype=np.float64).reshape(-1, 4)
         self.field = np.broadcast_to(np.asarray(field, dtype=np.float64), (len(start), 4))
         self.sides = np.concatenate([drawn, taken, core]).T.copy()
         self.shapes = joined(segments(drawn), rectangles(taken), segments(core))
@@ -255,7 +259,8 @@ class Clearance:
         hit = separation(solid.x, solid.y, solid.ex, solid.ey, segments(path.T)) < limit
         hit &= separation(path[2], path[3], zero, zero, solid) > limit
         toll[which.take(where(hit))] = np.inf
-        return np.asarray(np.bincount(place, toll, len(leader)), dtype=np.float64)
+        every = np.bincount(place, toll, len(leader)) + STRONG * struck(leader, self.strong)
+        return np.asarray(every, dtype=np.float64)
 
     def _off(self, path: Array, shape: Index) -> Array:
         """Return on which side of shapes, and how far off in mm, both ends of leaders lie.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from math import inf
 from typing import NamedTuple
 
@@ -13,7 +14,16 @@ from graphkin.drawing.candidates import Blots
 from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY
 from graphkin.drawing.marks import Mark, Text, reach
-from graphkin.drawing.shapes import Array, distance, joined, rectangles, segments, separation, where
+from graphkin.drawing.shapes import (
+    Array,
+    distance,
+    joined,
+    overlap,
+    rectangles,
+    segments,
+    separation,
+    where,
+)
 
 GRID = 5.0
 """Distance of the places tried, in mm."""
@@ -41,9 +51,31 @@ class Space:
 
     def __init__(self, marks: Sequence[Mark], rect: Rect) -> None:
         self.rect = rect
-        lines = pieces_of(marks)
-        self.lines, self.blots = segments(lines), Blots(lines, rect, 0.0, BLOT)
+        self.drawn = pieces_of(marks)
+        self.lines = segments(self.drawn)
         self.texts = rectangles([reach(mark) for mark in marks if is_shown(mark)])
+
+    @cached_property
+    def blots(self) -> Blots:
+        """Marks along what is drawn, which rule most places of discs out at a glance."""
+        return Blots(self.drawn, self.rect, 0.0, BLOT)
+
+    def first(self, places: Sequence[XY], half: XY, air: float) -> XY | None:
+        """The first place in the field where a box has so much air around it; None where none has.
+
+        ``half`` are half the sides of the box.
+        """
+        x, y = np.array(places, dtype=np.float64).reshape(-1, 2).T
+        wide, high = (np.full(len(x), side) for side in half)
+        left, top, right, bottom = self.rect
+        inside = (x - wide >= left + air) & (x + wide <= right - air)
+        inside &= (y - high >= top + air) & (y + high <= bottom - air)
+        hull = np.array([(x - wide).min(), (y - high).min(), (x + wide).max(), (y + high).max()])
+        drawn = joined(self.lines, self.texts)
+        near = drawn.take(where(overlap(hull[:, None], drawn.boxes(air))))
+        apart = distance(x, y, wide, high, near.upright())
+        free = where(inside & (apart.min(axis=0, initial=inf) > air))
+        return places[int(free[0])] if len(free) else None
 
     def take(self, box: Rect) -> None:
         """Keep a rectangle free of discs from now on."""

@@ -13,7 +13,7 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import LED, SMALL, Label
-from graphkin.drawing.leaders import with_leaders
+from graphkin.drawing.leaders import strong_lines, with_leaders
 from graphkin.drawing.marks import Mark, Text, reach
 from graphkin.drawing.placement import Spot, place
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
@@ -43,7 +43,8 @@ class FieldContent(Struct):
 
     ``taken`` are boxes that labels keep clear of, ``notes`` what is said at the field's foot,
     ``lettered`` the places of the labels that are letters of points; ``unnamed`` begins the note
-    that lists the vectors for whose names there is no room.
+    that lists the vectors for whose names there is no room. At ``crowds`` so much meets that it is
+    shown enlarged.
     """
 
     rect: Rect
@@ -53,6 +54,7 @@ class FieldContent(Struct):
     notes: list[str] = field(default_factory=list)
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
+    crowds: list[XY] = field(default_factory=list)
 
     @property
     def lettering(self) -> Rect:
@@ -174,7 +176,8 @@ class FieldContent(Struct):
         """The places of all labels, or of some, clear of marks, taken boxes and each other."""
         lines, boxes = self.obstacles(more)
         labels = self.labels if some is None else some
-        return place([label.wish() for label in labels], lines, boxes, self.lettering)
+        wishes = [label.wish() for label in labels]
+        return place(wishes, lines, boxes, self.lettering, strong=strong_lines(self.marks))
 
     def obstacles(self, more: Sequence[Mark] = ()) -> tuple[Array, list[Box]]:
         """The lines and the boxes that labels keep clear of: of the marks, and of some more."""

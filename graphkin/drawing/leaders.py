@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import dist
 from typing import Any
 
+import numpy as np
 from msgspec.structs import replace
 
+from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.marks import LineMark, Mark, Polyline
 from graphkin.drawing.placement import CLEAR, Spot
+from graphkin.drawing.shapes import Array, struck
 from graphkin.drawing.style import VECTORS
 
+STRONG = (*VECTORS, "link", "outline", "guide", "guide-bar")
+"""Classes of the lines that leaders should not cross."""
 BARS, DIRECTIONS = ("link",), ("construction", "trial")
 """Classes of the bars of a mechanism, and of the lines that a plan is constructed by."""
 KINDS = {cls: kinds for kinds in (BARS, VECTORS, DIRECTIONS) for cls in kinds}
 MARGIN = 0.3
 """How much nearer a neighbour may be, in mm, before a label gets a leader."""
+SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)
+"""Where else on its segment a leader may end."""
 LEAST = MARGIN + CLEAR - 0.1
 """A label no farther from its own segment, in mm, is nearest to it: none is so near to a line."""
 
@@ -29,19 +36,26 @@ def with_leaders(
     """The places of labels, with a leader for each doubtful one that can have one."""
     found = list(spots)
     doubtful = [*doubtful_ones(labels, spots, marks), *doubtful_letters(labels, spots)]
-    if doubtful:
-        areas = [label.area(spot) for label, spot in zip(labels, spots, strict=True)]
+    if not doubtful:
+        return found
+    areas = [label.area(spot) for label, spot in zip(labels, spots, strict=True)]
+    strong = strong_lines(marks)
     for i in doubtful:
-        leader = leader_to(labels[i], spots[i])
+        leaders = [*leaders_to(labels[i], spots[i])]
+        crossed = struck(np.array(leaders).reshape(-1, 4), strong)
+        leader = leaders[int(crossed.argmin())]
         if not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
             found[i] = replace(spots[i], leader=leader)
     return found
 
 
+def strong_lines(marks: Sequence[Mark]) -> Array:
+    """The links, guides and vectors of a drawing, which leaders should not cross."""
+    return pieces_of([mark for mark in marks if mark.cls.split()[0] in STRONG])
+
+
 def doubtful_letters(labels: Sequence[Label], spots: Sequence[Spot]) -> list[int]:
     """The letters of points without a leader that are nearer to another letter's point."""
-    import numpy as np
-
     both = enumerate(zip(labels, spots, strict=True))
     letters = [i for i, (label, _) in both if label.radius and not segment_of(label)]
     bare = [i for i in letters if not (spots[i].leader or labels[i].led)]
@@ -63,7 +77,6 @@ def doubtful_ones(
     Numbers of links are held against bars and plates, directions against the construction's lines,
     other names against vectors.
     """
-    import numpy as np
     import shapely
 
     found: list[int] = []
@@ -98,7 +111,6 @@ def kinds_of(label: Label) -> tuple[str, ...]:
 
 def rivals(marks: Sequence[Mark]) -> dict[tuple[str, ...], dict[str, Any]]:
     """The bars and plates, the vectors, and the construction's lines of a drawing, by name."""
-    import numpy as np
     import shapely
 
     lines: dict[tuple[str, ...], dict[str, list[tuple[XY, XY]]]] = {}
@@ -122,17 +134,18 @@ def rivals(marks: Sequence[Mark]) -> dict[tuple[str, ...], dict[str, Any]]:
     return {**found, BARS: {**found.get(BARS, {}), **plates}}
 
 
-def leader_to(label: Label, spot: Spot) -> tuple[XY, XY]:
-    """From the side of a label's box to the nearest point in the middle part of its segment, or to
-    the circle that its point is drawn as."""
+def leaders_to(label: Label, spot: Spot) -> Iterator[tuple[XY, XY]]:
+    """From the side of a label's box to the nearest point in the middle part of its segment and to
+    others, or to the circle that its point is drawn as."""
     ends = segment_of(label)
     if ends is None:
         start, (x, y) = label.short_leader(spot)
         far = dist(start, (x, y))
         share = max(0.0, 1 - label.radius / far) if far else 0.0
-        return start, (start[0] + share * (x - start[0]), start[1] + share * (y - start[1]))
+        yield start, (start[0] + share * (x - start[0]), start[1] + share * (y - start[1]))
+        return
     (x0, y0), (x1, y1) = ends
     dx, dy = x1 - x0, y1 - y0
-    share = ((spot.x - x0) * dx + (spot.y - y0) * dy) / (dx * dx + dy * dy)
-    share = min(max(share, 0.15), 0.85)
-    return label.side(spot, x0 + share * dx, y0 + share * dy)
+    near = ((spot.x - x0) * dx + (spot.y - y0) * dy) / (dx * dx + dy * dy)
+    for share in (min(max(near, 0.15), 0.85), *SHARES):
+        yield label.side(spot, x0 + share * dx, y0 + share * dy)

@@ -8,6 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.leaders import strong_lines
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.placement import Spot, place
 
@@ -40,7 +41,8 @@ def spots_on(boards: Sequence[FieldContent], more: Sequence[Sequence[Mark]]) -> 
     boxes = [box for _, taken in obstacles for box in taken]
     wishes = [label.wish() for board in boards for label in board.labels]
     fields = [board.lettering for board in boards for _ in board.labels]
-    found = iter(place(wishes, lines, boxes, fields))
+    strong = np.concatenate([strong_lines(board.marks) for board in boards])
+    found = iter(place(wishes, lines, boxes, fields, strong=strong))
     return [[next(found) for _ in board.labels] for board in boards]
 
 

@@ -21,6 +21,8 @@ CLEAR = 0.6  # mm between a label and a drawn line, unless the caller says other
 SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
 UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may stay so
 DEAR = 7.4  # what a label may pay before places with a leader are looked for
+STRUCK = 20.0  # what a place costs at least whose leader crosses a strong line
+WIDE = Level(108, 24)  # how far a label looks that has such a place
 BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
 SHORT, LONG, LONGEST = 8, 16, 150  # how many labels are pushed about in a chase
@@ -60,17 +62,19 @@ def place(
     boxes: ArrayLike,
     field: Box | Sequence[Box],
     clearance: ArrayLike = CLEAR,
+    strong: ArrayLike = (),
 ) -> list[Spot]:
     """Return a place for every wish, in the order of the wishes; lengths in mm.
 
     ``lines`` are drawn segments x0, y0, x1, y1 and ``clearance`` is how far labels stay from
-    them (one length or one for each line); ``boxes`` are taken rectangles xmin, ymin, xmax,
-    ymax; no label leaves the rectangle ``field``, or its own one if there is one for each. A label
-    that is ``free`` touches nothing; one that is not is returned where it would like to be.
+    them (one length or one for each line), ``strong`` those that leaders should not cross;
+    ``boxes`` are taken rectangles xmin, ymin, xmax, ymax; no label leaves the rectangle ``field``,
+    or its own one if there is one for each. A label that is ``free`` touches nothing; one that is
+    not is returned where it would like to be.
     """
     if not wishes:
         return []
-    offers = CandidateSet(Clearance(_subjects(wishes), lines, boxes, field, clearance))
+    offers = CandidateSet(Clearance(_subjects(wishes), lines, boxes, field, clearance, strong))
     seats = Assignment(offers, [_fine(wish) for wish in wishes])
     seats.settle(seats.order())
     seats.improve(seats.regretted(BAD), SHORT)
@@ -105,6 +109,10 @@ def _widen(seats: Assignment) -> None:
     more = dict.fromkeys(dear, CLOSE) | _round_about(seats, CLOSE, Level(32, 12))
     if offers.widen(more):
         seats.settle(i for i in seats.order() if i in more)
+        seats.improve(seats.regretted(BAD), SHORT)
+    struck = dict.fromkeys((i for i, paid in enumerate(seats.paid) if paid > STRUCK), WIDE)
+    if offers.widen(struck):
+        seats.settle(i for i in seats.order() if i in struck)
         seats.improve(seats.regretted(BAD), SHORT)
     before = [*seats.pick]
     seats.shift(seats.seeking())

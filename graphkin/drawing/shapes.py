@@ -11,6 +11,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 Box = tuple[float, float, float, float]
+SHY = 0.8  # mm before its end where a leader no longer crosses what it leads to
 TINY = 1e-9  # mm
 NOWHERE = 1e9  # mm, where that is which has no place
 
@@ -140,6 +141,15 @@ def crossings(one: Array, other: Array) -> Mask:
     return np.asarray(
         (size > 0) & (np.minimum(s, t) >= 0) & (np.maximum(s, t) <= size), dtype=np.bool_
     )
+
+
+def struck(leaders: Array, lines: Array) -> Index:
+    """Return how many lines each leader crosses before it comes to what it leads to."""
+    way = leaders[:, 2:] - leaders[:, :2]
+    length = np.maximum(np.hypot(way[:, 0], way[:, 1]), TINY)
+    share = np.maximum(1.0 - SHY / length, 0.0)[:, None]
+    short = np.concatenate([leaders[:, :2], leaders[:, :2] + share * way], axis=1)
+    return np.asarray(crossings(short[:, None], lines).sum(axis=1))
 
 
 def where(mask: Mask) -> Index:

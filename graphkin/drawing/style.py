@@ -18,7 +18,7 @@ Ink = Literal["colour", "black"]
 
 BLACK = "#000000"
 GREY = "#6a6a6a"
-BODY = "#767676"
+BODY = "#767676"  # of links, grey in both inks so that vectors along them are seen
 BLUE = "#0b4f9e"
 TEAL = "#006d77"
 RED = "#b3260e"
@@ -51,8 +51,6 @@ BRIEF = "brief"
 """The class of a vector that is short, and has a thinner shaft for its head to be seen."""
 SHAFT = 0.25
 """The widest shaft of such a vector, in mm."""
-BODIES = ("link", "plate", "guide-bar", "weld", "spoke")
-"""What is grey among black lines, so that vectors along it are seen."""
 
 DASHED = (2.4, 0.8)
 CHAIN = (5.0, 0.8, 0.4, 0.8)
@@ -111,21 +109,22 @@ STYLES: dict[str, Style] = {
     "qr": Style(0, fill="ink"),
     "shade": Style(0, PALE, fill="ink"),
     # mechanism
-    "link": Style(0.7, round=True),
-    "plate": Style(0.5, fill=LIGHT, round=True),
+    "link": Style(0.7, BODY, round=True),
+    "plate": Style(0.5, BODY, fill=LIGHT, round=True),
+    "outline": Style(0.5, BODY, round=True),
     "ground": Style(0.25),
     "guide": Style(0.5),
     "slider": Style(0.5, fill=WHITE),
     "block": Style(0.5, fill=WHITE),
-    "guide-bar": Style(0.7, round=True),
+    "guide-bar": Style(0.7, BODY, round=True),
     "gear-disc": Style(0.35, fill=PALE, round=True),
     "slot": Style(0.5, fill=WHITE, round=True),
-    "weld": Style(0, fill="ink"),
+    "weld": Style(0, BODY, fill="ink"),
     "profile": Style(0.5, round=True),
     "hinge": Style(0.25),
     "wheel": Style(0.5),
     "disc": Style(0.5, fill=PALE),
-    "spoke": Style(0.35, round=True),
+    "spoke": Style(0.35, BODY, round=True),
     "track": Style(0.5),
     "pitch": Style(0.25, GREY, CHAIN),
     "gear": Style(0.35, round=True),
@@ -180,17 +179,16 @@ def style_of(cls: str, ink: Ink = "colour") -> Style:
     if BRIEF in names:
         first = replace(first, width=min(first.width, SHAFT))
     if NOW in names:
-        colour = BLACK if colour == GREY else colour
+        colour = BLACK if colour in (GREY, BODY) else colour
         first = replace(first, width=first.width + STRONGER if first.width else 0)
     if ink == "black":
-        grey = BODY if names[0] in BODIES else BLACK
-        colour, fill = black(colour, grey), black(fill, grey) if fill == colour else fill
+        colour, fill = black(colour), black(fill)
     return replace(first, colour=colour, fill=fill)
 
 
-def black(colour: str, ink: str) -> str:
-    """Turn every colour into an ink; white and the light fills stay."""
-    return colour if colour in ("", WHITE, LIGHT, PALE) else ink
+def black(colour: str) -> str:
+    """Turn every colour into black; white, the light fills and the grey of links stay."""
+    return colour if colour in ("", WHITE, LIGHT, PALE, BODY) else BLACK
 
 
 def in_variables(rules: str) -> str:

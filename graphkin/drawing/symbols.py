@@ -27,8 +27,12 @@ HINGE = 0.9
 """How much wider each further circle of a multiple hinge is, in mm."""
 PIVOT = 5.6
 """Height of a fixed pivot's triangle in mm."""
+TALL = 9.5
+"""The same of one about which a block turns, in mm."""
 HIP = 4 / 7
 """Half its width, in parts of its height."""
+STRIP, HATCH = 5.2, 2.0
+"""Half the length of the hatched line on which it stands, and the depth of hatching, in mm."""
 BLOCK = (11.0, 6.4)
 """Length and width of a block in mm."""
 SLOT = 1.75
@@ -71,7 +75,7 @@ def pin(at: XY, name: str, radius: float = PIN) -> Mark:
     return CircleMark(*at, radius, "pin", name)
 
 
-def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = 2.0) -> Iterator[Mark]:
+def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = HATCH) -> Iterator[Mark]:
     """A line of the frame with hatching on its right-hand side as one walks along it (y down)."""
     length, way = toward(start, end)
     yield LineMark(*start, *end, "guide")
@@ -80,17 +84,19 @@ def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = 2.0) -> 
         yield LineMark(*foot, *across(foot, way, -depth, depth), "ground")
 
 
-def pivot_ground(at: XY, height: float = PIVOT) -> Iterator[Mark]:
-    """The triangle on a hatched line that carries a pin of the frame."""
-    (x, y), half = at, HIP * height
-    yield polygon((at, (x - half, y + height), (x + half, y + height)), "fixed-pivot")
-    yield from hatched((x - half - 2, y + height), (x + half + 2, y + height))
+def pivot_ground(at: XY, way: XY, height: float = PIVOT) -> Iterator[Mark]:
+    """The triangle on a hatched line that carries a pin of the frame, a unit way from it."""
+    half = HIP * height
+    feet = (across(at, way, height, side * half) for side in (1, -1))
+    yield polygon((at, *feet), "fixed-pivot")
+    left, right = (across(at, way, height, side * (half + STRIP - HIP * PIVOT)) for side in (1, -1))
+    yield from hatched(left, right)
 
 
-def legs(at: XY, height: float) -> Iterator[Mark]:
+def legs(at: XY, way: XY, height: float) -> Iterator[Mark]:
     """Both sides of such a triangle once more, thin, where a block in front of it covers them."""
-    for half in (-HIP * height, HIP * height):
-        yield LineMark(*at, at[0] + half, at[1] + height, "ground")
+    for half in (HIP * height, -HIP * height):
+        yield LineMark(*at, *across(at, way, height, half), "ground")
 
 
 def distance(start: XY, end: XY) -> float:

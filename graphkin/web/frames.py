@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import SHEETS
@@ -89,8 +90,10 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     if len(kept) < LEAST:
         raise SceneError(stands(cycle))
     numbers = {old: new for new, old in enumerate(kept)}
-    moments = tuple(moment for moment in found if moment is not None)
+    some = [moment for moment in found if moment is not None]
     shown = tuple(numbers[i] for i in order if i in numbers)
+    start = some[shown[0]].alone
+    moments = tuple(replace(m, alone=replace(m.alone, held=start)) for m in some)
     return FrameSequence(cycle, moments, shown, low, high, reached)
 
 

@@ -8,6 +8,7 @@ from math import dist, hypot
 
 import pytest
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plan_vector import plan_vector
@@ -130,6 +131,21 @@ def named_marks(page: Drawn, field: str) -> list[Mark]:
     ]
 
 
+def taken_up(mark: Mark) -> BaseGeometry:
+    """The middle line of a mark's stroke; of a plate all of it, for its number stands inside."""
+    is_plate = isinstance(mark, Polyline) and kind_of(mark) == "plate"
+    return shapely.Polygon(mark.points) if is_plate else outline(mark)
+
+
+def test_the_number_of_a_plate_stands_inside_where_there_is_room(page):
+    plates = [mark for mark in page.marks["mechanism"] if kind_of(mark) == "plate"]
+    for label in page.labels("mechanism"):
+        for plate in plates:
+            body = shapely.Polygon(plate.points)
+            if label.ring and plate.name == label.text.name and not body.buffer(-5).is_empty:
+                assert body.contains(label.ink()), label.text
+
+
 def names_of(page: Drawn, mark: Mark) -> set[str]:
     """The markups that a mark may be called by."""
     names = {symbol(mark.name), symbol(mark.name.partition("_")[0])}
@@ -148,7 +164,7 @@ def test_every_label_stands_by_what_it_names_or_leads_to_it(page):
             if mark.name and not isinstance(mark, Text) and not is_label(mark)
         ]
         for label in page.labels(field):
-            own = [outline(mark) for mark in subjects if mark.name in label.names()]
+            own = [taken_up(mark) for mark in subjects if mark.name in label.names()]
             if not own:
                 continue
             near = shapely.union_all(own)

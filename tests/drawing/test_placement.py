@@ -239,3 +239,15 @@ def test_no_label_sits_beyond_another_line_without_a_leader(turn, length):
     own, bare = LineString(rays[1]), spots[1].leader is None
     way = LineString([(spots[1].x, spots[1].y), own.interpolate(own.length / 2)])
     assert not bare or not any(way.crosses(LineString(rays[k])) for k in (0, 2))
+
+
+def test_a_leader_goes_round_a_strong_line_where_there_is_another_place():
+    """A crowd above its point leaves a label places with a leader only, most behind a bar."""
+    near = [(14.0 + 3 * i, 8.0, 14.0 + 3 * i, 32.0) for i in range(5)]
+    bar = (0.0, 36.0, 60.0, 36.0)
+    wish = Wish(6.0, 3.0, (20.0, 30.0))
+    field = (0.0, 0.0, 60.0, 60.0)
+    (free,) = place([wish], [*near, bar], [], field)
+    (led,) = place([wish], [*near, bar], [], field, strong=[bar])
+    assert free.leader is not None and free.y > 36
+    assert led.leader is not None and led.y < 36

@@ -55,7 +55,7 @@ def redrawn(
     overrides = {n: value for n, value in overrides.items() if n in drawn}
     trace = run(program, sorted(drawn), scene.values, FLOAT, overrides=overrides)
     standing = Course(sweep, scene.branches).standing(place)
-    here = replace(sheet.drawing, scene=standing, trace=trace)
+    here = replace(sheet.drawing, scene=standing, trace=trace, held=sheet.drawing)
     fields = Layout(roomy(sheet.layout.mechanism), roomy(sheet.layout.plan), {})
     layout = Layout(fields.mechanism, fields.plan, spans(here, fields))
     boards = left_board(here, layout, "key"), right_board(here, layout, "key")
@@ -142,7 +142,7 @@ def apart(one: Sequence[float], other: Sequence[float]) -> float:
 
 def off_by(kind: str, cls: str) -> Callable[[Sequence[float], Sequence[float]], float]:
     """What tells how far marks of a kind and a class lie apart."""
-    if cls == "plate":
+    if cls in ("plate", "outline"):
         return around_apart
     if kind == "Polyline":
         return round_apart

@@ -36,7 +36,8 @@ class Drawing(Struct, frozen=True, dict=True):
     ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``stand`` is
     where it stands on all sheets alike, None where this sheet alone decides. ``curves`` are those
     over the whole motion. ``computed`` says by the symbol why a quantity is computed, not measured.
-    ``driven`` are angles of drivers in degrees, where these are not the scene's.
+    ``driven`` are angles of drivers in degrees, where these are not the scene's. ``held``
+    is the drawing at whose position sides of symbols are chosen, where it is not this one.
     """
 
     kind: str
@@ -50,6 +51,7 @@ class Drawing(Struct, frozen=True, dict=True):
     curves: tuple[Curve, ...] = ()
     computed: Mapping[str, str] = field(default_factory=dict)
     driven: Mapping[str, Any] = field(default_factory=dict)
+    held: Drawing | None = None
 
     @property
     def plane(self) -> Plane:
@@ -125,6 +127,11 @@ class Drawing(Struct, frozen=True, dict=True):
         """The largest distance in the mechanism, in metres."""
         box = extent_of([*self.positions.values(), *self.corners()])
         return float(max(box.width, box.height))
+
+    @cached_property
+    def grounds(self) -> dict[float, dict[str, complex]]:
+        """The ways of the grounds of pivots that were chosen at this position, by the scale."""
+        return {}
 
     @property
     def positions(self) -> Mapping[str, complex]:

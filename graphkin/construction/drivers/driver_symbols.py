@@ -8,7 +8,9 @@ from math import degrees, pi
 from graphkin.construction.core.amounts import in_degrees, written
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
-from graphkin.construction.guides.slide_symbols import seat, within
+from graphkin.construction.guides.pivot_grounds import ground_ways
+from graphkin.construction.guides.rails import seat
+from graphkin.construction.guides.slide_symbols import within
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
@@ -36,6 +38,8 @@ ENOUGH = 4.0
 """How far points stay from a dimension line, in mm."""
 SENSE, AROUND = (12.0, 70.0), 10.0
 """Between which angles beyond its crank a turning arrow stands, and what it keeps clear, in °."""
+GROUND = 35.0
+"""Half the angle under which its pin sees the ground of a pivot, in °."""
 HALF = 5.5
 """Half the length of the arrow of a driver's speed, in mm."""
 
@@ -65,8 +69,8 @@ def draw_crank(
     base = drawing.standing.axis(driver.against)
     if base is None:
         return
-    zero, swept = phase(base) * DEGREE, drawn_angle(drawing, driver)
-    end = zero + swept
+    swept = drawn_angle(drawing, driver)
+    zero, end = phase(base) * DEGREE, crank_end(drawing, driver)
     ray = across(centre, field.way(base), radius + 6, 0)
     board.marks.append(LineMark(*centre, *ray, "centre-line", f"x {driver.link}"))
     if driver.of is None and not lies_along(drawing, driver.link, end):
@@ -81,6 +85,13 @@ def draw_crank(
     text = f"{angle_symbol(drawing.scene, driver)} = {in_degrees(*given) or written(*given)}"
     board.labels.append(Label(text, "", middle, 2.5, name, away=half))
     draw_sense(board, drawing, field, end, driver, radius - 3)
+
+
+def crank_end(drawing: Drawing, driver: Driver) -> Real:
+    """The bearing of a crank in degrees."""
+    base = drawing.standing.axis(driver.against)
+    assert base is not None
+    return phase(base) * DEGREE + drawn_angle(drawing, driver)
 
 
 def pivot_of(drawing: Drawing, driver: Driver) -> str:
@@ -116,7 +127,7 @@ def draw_sense(
     if omega == 0:
         return
     sign = pick(omega > 0, 1, -1)
-    near, long = clear_of(drawing, driver, end, sign)
+    near, long = clear_of(drawing, field, driver, end, sign)
     tip = end + sign * (near + long)
     way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
     board.marks += turned_arrow(centre, radius, way, (tip, -sign * long), "sense")
@@ -133,19 +144,29 @@ def speed_of(drawing: Drawing, driver: Driver) -> Real:
     return float(driver.speed.si(drawing.scene.values))
 
 
-def clear_of(drawing: Drawing, driver: Driver, end: Real, sign: Real) -> tuple[Real, float]:
+def clear_of(
+    drawing: Drawing, field: Field, driver: Driver, end: Real, sign: Real
+) -> tuple[Real, float]:
     """How far beyond its crank a turning arrow begins and how long it is, in degrees in its sense.
 
-    Further on where the velocity of its pivot, which is set there, or a bar would cut it.
+    Further on where a bar, the ground of its pivot or the velocity set there would cut it.
     """
     (near, far), here = SENSE, pivot_of(drawing, driver)
     velocity = drawing.trace.value("velocity", here)
-    if velocity is None or abs(velocity) < NOISE * drawing.largest:
-        return near, far - near
+    ways: list[complex] = []
+    if velocity is not None and not abs(velocity) < NOISE * drawing.largest:
+        ways.append(velocity)
+    elif drawing.held is not None:
+        driver = drawing.held.scene.drivers[drawing.scene.drivers.index(driver)]
+        drawing = drawing.held
+        end, sign = crank_end(drawing, driver), pick(speed_of(drawing, driver) > 0, 1, -1)
+    ground = ground_ways(drawing, field.mm).get(here)
+    if ground is not None:
+        ways += [ground * turn_by(side * GROUND / DEGREE) for side in (-1, 0, 1)]
     links = (link for link in drawing.scene.links.values() if here in link.points)
     others = (point for link in links for point in link.points if link.name != driver.link)
-    ways = [drawing.positions[point] - drawing.positions[here] for point in others]
-    turns = (sign * (phase(way) * DEGREE - end) % 360 for way in (velocity, *ways) if abs(way) > 0)
+    ways += [drawing.positions[p] - drawing.positions[here] for p in others if p != here]
+    turns = (sign * (phase(way) * DEGREE - end) % 360 for way in ways if abs(way) > 0)
     cuts = sorted(turns)
     starts = [start for start in (near, *(cut + near for cut in cuts)) if start + far < 360]
     length = far - near

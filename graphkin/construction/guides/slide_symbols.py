@@ -5,10 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
 
-from msgspec import Struct, field
-
-from graphkin.construction.core.bodies import Guideway
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.plot import EDGE
+from graphkin.construction.guides.pivot_grounds import ground_ways
+from graphkin.construction.guides.rails import (
+    ALIKE,
+    BEYOND,
+    REACH,
+    Rail,
+    is_swivel,
+    places_of,
+    rails_of,
+    seat,
+)
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field, clipped
 from graphkin.drawing.labels import FieldContent
@@ -24,96 +33,18 @@ from graphkin.drawing.symbols import (
     slot_ground,
     weld,
 )
-from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
-from graphkin.numbers.plane import cross, dot
-from graphkin.scene.model import FRAME, Slide
+from graphkin.numbers.arithmetic import Real, larger, pick, smaller
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import FRAME
 
-REACH = 15.0
-"""Half the length of a drawn guide in mm."""
 LEAST = 7.0
 """Half the length of a guide where there is no room for more, in mm."""
 AWAY = 8.0
 """How far a guide of the frame stays from the middle of a fixed pivot, in mm."""
-BEYOND = 10.5
-"""How far a bar is drawn beyond the middle of a block on it, in mm."""
 STROKE = 13.0
 """Half the length of a drawn slot in mm."""
 CLEAR = 4.0
 """How far a slot ends from a pin of its bar, in mm."""
-ALIKE = 1e-6
-"""Lines nearer than this, in parts of the mechanism, are one."""
-
-
-class Rail(Struct):
-    """A straight line of one link that blocks slide on, with the places of what is on it.
-
-    ``marks`` are coordinates of ``blocks`` along the line, in metres from ``zero``; ``slots`` those
-    of pins.
-    """
-
-    owner: str
-    zero: complex
-    along: complex
-    marks: list[float] = field(default_factory=list)
-    blocks: list[str] = field(default_factory=list)
-    slots: list[tuple[float, str]] = field(default_factory=list)
-
-    def holds(self, owner: str, point: complex, along: complex, near: float) -> bool:
-        """True for a link and a line that are this one's."""
-        return (
-            owner == self.owner
-            and abs(cross(self.along, along)) < ALIKE
-            and abs(cross(self.along, point - self.zero)) < near
-        )
-
-    def at(self, coordinate: float) -> complex:
-        """The place at a distance along the line."""
-        return self.zero + coordinate * self.along
-
-    def along_of(self, point: complex) -> float:
-        """How far along the line a point lies."""
-        return dot(point - self.zero, self.along)  # type: ignore[no-any-return]
-
-
-def is_swivel(drawing: Drawing, slide: Slide) -> bool:
-    """True where the guide is a block that only turns about its one point: the bar slides in it."""
-    if slide.on == FRAME or slide.pin:
-        return False
-    scene = drawing.scene
-    carrier = scene.links[slide.on]
-    served = [s for link in scene.links.values() for s in link.slides if s.on == slide.on]
-    alone = carrier.points == (slide.through,) and not carrier.slides and not carrier.wheels
-    return alone and len(served) == 1
-
-
-def rails_of(drawing: Drawing) -> list[Rail]:
-    """The guides of all links, those on one line of one link together."""
-    found: list[Rail] = []
-    near = ALIKE * drawing.standing.size
-    for way in drawing.standing.guideways:
-        swivel = is_swivel(drawing, way.slide)
-        owner = way.block if swivel else way.slide.on
-        start = way.at if swivel or owner == FRAME else way.zero
-        rail = next((r for r in found if r.holds(owner, start, way.along, near)), None)
-        if rail is None:
-            rail = Rail(owner, start, way.along)
-            found.append(rail)
-        if way.slide.pin:
-            rail.slots.append((rail.along_of(way.at), way.block))
-        else:
-            rail.marks.append(rail.along_of(seat(drawing, way)))
-            rail.blocks.append(way.block)
-    return found
-
-
-def seat(drawing: Drawing, way: Guideway) -> Point:
-    """Where the middle of the rectangle of a sliding pair stands."""
-    if way.slide.on == FRAME:
-        return drawing.standing.beside_wheels(way)
-    if not is_swivel(drawing, way.slide):
-        return way.foot
-    pivot = drawing.positions[drawing.scene.links[way.slide.on].points[0]]
-    return way.at + dot(pivot - way.at, way.along) * way.along
 
 
 def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -147,12 +78,9 @@ def clear_of_pivots(drawing: Drawing, field: Field, rail: Rail, middle: Real) ->
     """The part of a guide about a block, in mm, shorter where a fixed pivot stands in the way."""
     low, high, (x, y) = middle - REACH, middle + REACH, field(rail.zero)
     u, v = field.way(rail.along)
-    moving = {point for link in drawing.scene.links.values() for point in link.points}
-    for name in drawing.scene.frame.points:
-        if name not in moving or name not in drawing.positions:
-            continue
+    for name, ground in ground_ways(drawing, field.mm).items():
         at = field(drawing.positions[name])
-        dx, dy = at[0] - x, at[1] - y + PIVOT / 2
+        dx, dy = at[0] - x + PIVOT / 2 * ground.real, at[1] - y - PIVOT / 2 * ground.imag
         along, aside = dx * u + dy * v, dy * u - dx * v
         if abs(aside) < AWAY:
             beyond = along > middle
@@ -262,24 +190,16 @@ def overlap(one: Rect, other: Rect) -> bool:
     return across and one[1] <= other[3] and other[1] <= one[3]
 
 
-def swivelling(drawing: Drawing) -> list[complex]:
-    """Where the rectangles stand that are drawn on moving links."""
-    ways = drawing.standing.guideways
-    return [seat(drawing, w) for w in ways if w.slide.on != FRAME and not w.slide.pin]
-
-
-def places_of(drawing: Drawing, link: str) -> list[complex]:
-    """Where the points of a link stand."""
-    points = drawing.scene.link(link).points
-    return [drawing.positions[p] for p in points if p in drawing.positions]
-
-
 def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
-    """Marks whose lines end at the edge of a field."""
+    """Marks whose lines end clear of the edges of a field; strokes of hatching are left whole."""
+    inner = rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - EDGE
     for mark in marks:
         if not isinstance(mark, LineMark):
             yield mark
-        elif part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), rect):
+            continue
+        ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
+        part = clipped(*ends, inner)
+        if part and (part == ends or mark.cls != "ground"):
             yield LineMark(*part[0], *part[1], mark.cls, mark.name)
 
 

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from math import hypot
-
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import above_foot
+from graphkin.construction.guides.pivot_grounds import ground_ways, height_at
+from graphkin.construction.guides.rails import places_of, rails_of
 from graphkin.construction.guides.slide_symbols import (
     draw_blocks,
     draw_frame_guides,
     draw_guide_bars,
-    number_side,
-    places_of,
-    rails_of,
-    swivelling,
 )
+from graphkin.construction.links.link_numbers import draw_numbers
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
 from graphkin.construction.links.profile_symbols import draw_edges
 from graphkin.construction.rolling.wheel_symbols import (
@@ -22,22 +19,15 @@ from graphkin.construction.rolling.wheel_symbols import (
     draw_fixed_wheels,
     draw_tracks,
     draw_wheels,
-    number_beside,
 )
 from graphkin.drawing.field import XY, Field, clipped
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import CircleMark, LineMark, polygon
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.marks import CircleMark, LineMark, polygon, reach
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, PIVOT, across, legs, pin, pivot_ground
+from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, TALL, across, legs, pin, pivot_ground
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import FRAME, Link
-
-LONG = 14.0
-"""Length of a sliding link's own bar, in mm, from which its number stands there."""
-TALL = 9.5
-"""Height of the pivot of a block, in mm."""
 
 
 def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -55,32 +45,30 @@ def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The ground under the fixed pivots, without their pins."""
-    pinned = moving_points(drawing)
-    for name in drawing.scene.frame.points:
-        at = field(drawing.positions[name])
-        if name in pinned:
-            height = TALL if is_covered(drawing, field, name) else PIVOT
-            board.marks += pivot_ground(at, height)
-            half = 5.2 * height / PIVOT + 0.4
-            board.taken.append((at[0] - half, at[1] + height, at[0] + half, at[1] + height + 2.6))
-
-
-def is_covered(drawing: Drawing, field: Field, name: str) -> bool:
-    """True for a point of the frame about which a block turns."""
-    here = drawing.positions[name]
-    return any(abs(place - here) * field.mm < PIN for place in swivelling(drawing))
+    """The grounds of the fixed pivots, without their pins."""
+    for name, way in ground_ways(drawing, field.mm).items():
+        here = drawing.positions[name]
+        ground = [*pivot_ground(field(here), field.way(way), height_at(drawing, here, field.mm))]
+        board.marks += ground
+        boxes = [*zip(*(reach(mark) for mark in ground if mark.cls != "fixed-pivot"), strict=True)]
+        board.taken.append((min(boxes[0]), min(boxes[1]), max(boxes[2]), max(boxes[3])))
 
 
 def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
     """The letter of a point: of the frame's beside its pivot, of others away from their bars."""
     at = field(drawing.positions[name])
     fixed = name in drawing.scene.frame.points
-    away = (-0.8, -0.6) if fixed else outward(drawing, field, name)
+    away = off_ground(drawing, field, name) if fixed else outward(drawing, field, name)
     radius = PIN + HINGE * max(0, sharers(drawing, name) - 2)
     board.labels.append(
         Label(symbol(name), "", at, 3.5, name, away=away, priority=2, radius=radius)
     )
+
+
+def off_ground(drawing: Drawing, field: Field, name: str) -> XY:
+    """The way from a point of the frame to its letter: aside of its ground, and away from it."""
+    ground = ground_ways(drawing, field.mm).get(name, -1j)
+    return field.way(ground * (-0.6 - 0.8j))
 
 
 def moving_points(drawing: Drawing) -> set[str]:
@@ -133,6 +121,7 @@ def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
     draw_plates(board, drawing, field)
     draw_slides(board, drawing, field)
     draw_bodies(board, drawing, field, carriers=False)
+    draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_contacts(board, drawing, field)
     draw_pins(board, drawing, field)
@@ -157,9 +146,10 @@ def draw_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
     for link in drawing.scene.links.values():
         draw_guide_line(board, drawing, field, link)
     draw_slides(board, drawing, field)
-    for name in drawing.scene.frame.points:
-        if is_covered(drawing, field, name):
-            board.marks += legs(field(drawing.positions[name]), TALL)
+    for name, way in ground_ways(drawing, field.mm).items():
+        here = drawing.positions[name]
+        if height_at(drawing, here, field.mm) == TALL:
+            board.marks += legs(field(here), field.way(way), TALL)
 
 
 def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -172,12 +162,12 @@ def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The other bars, the profiles, what shows how wheels roll, and the links' numbers."""
+    """The other bars, the sides of plates, profiles, how wheels roll, and the links' numbers."""
     draw_bodies(board, drawing, field, carriers=False)
+    draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_contacts(board, drawing, field)
-    for link in drawing.scene.links.values():
-        draw_number(board, drawing, field, link)
+    draw_numbers(board, drawing, field)
 
 
 def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers: bool) -> None:
@@ -186,6 +176,14 @@ def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers
     for link in drawing.scene.links.values():
         if corners_of(drawing, link) is None and (link.name in owners) is carriers:
             draw_body(board, drawing, field, link)
+
+
+def draw_outlines(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The sides of plates once more, above the construction's lines along them."""
+    for link in drawing.scene.links.values():
+        if corners := corners_of(drawing, link):
+            on_page = tuple(field(place) for place in corners)
+            board.marks.append(polygon(on_page, "outline", link.name))
 
 
 def draw_pins(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -232,45 +230,6 @@ def draw_body(board: FieldContent, drawing: Drawing, field: Field, link: Link) -
     else:
         on_page = tuple(field(place) for place in corners)
         board.marks.append(polygon(on_page, "plate", link.name))
-
-
-def draw_number(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
-    """A link's number or name in its balloon, beside its bar, its block or its wheel."""
-    beside = bar_of(drawing, field, link)
-    aside = number_side(drawing, field, link.name)
-    short = beside is None or hypot(beside[1][0] - beside[0][0], beside[1][1] - beside[0][1]) < LONG
-    if aside and (short or drawing_fixed(link)):
-        beside = aside
-    if beside is None:
-        beside = number_beside(drawing, field, link) or guide_bar_of(board, link)
-    if beside is not None:
-        label = Label(escape(link.name), "", beside, 2.5, link.name, priority=3, ring=True)
-        board.labels.append(label)
-
-
-def drawing_fixed(link: Link) -> bool:
-    """True for a block on a guide of the frame, whose number stands at the block."""
-    return any(slide.on == FRAME for slide in link.slides)
-
-
-def bar_of(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
-    """The bar, or the first side of the plate, that a link's number stands at."""
-    places = places_of(drawing, link.name)
-    corners = corners_of(drawing, link)
-    if corners is not None:
-        return field(corners[0]), field(corners[1])
-    if len(places) < 2:
-        return None
-    first, last = farthest(places)
-    return (field(first), field(last)) if first != last else None
-
-
-def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:
-    """The drawn guide of a link that has neither a bar, a block nor a wheel."""
-    for mark in board.marks:
-        if isinstance(mark, LineMark) and mark.cls == "guide-bar" and mark.name == link.name:
-            return (mark.x1, mark.y1), (mark.x2, mark.y2)
-    return None
 
 
 def outward(drawing: Drawing, field: Field, name: str) -> XY | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.guides.slide_symbols import places_of
+from graphkin.construction.guides.rails import places_of
 from graphkin.numbers.arithmetic import phase
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import Link

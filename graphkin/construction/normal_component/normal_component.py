@@ -7,6 +7,7 @@ what the perpendicular cuts off (lab, figure 4).
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from string import digits
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -354,3 +355,11 @@ def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
         return together(found, rest, tail)
     place = firsts[0] + 1
     return [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]
+
+
+def pins_of_triangles(drawing: Drawing, least: int) -> list[complex]:
+    """Where at least so many right triangles stand at one pin of a sheet."""
+    kinds = {id(step.of): step.of for _, step in drawing.normals}.values()
+    drawn = [k for k in kinds if isinstance(k, NormalComponent) and not k.is_hidden(drawing)]
+    pins = Counter(kind.pin for kind in drawn)
+    return [drawing.trace.values[pin] for pin, count in pins.items() if count >= least]

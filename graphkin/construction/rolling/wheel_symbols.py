@@ -9,7 +9,8 @@ from math import pi
 
 from graphkin.construction.core.bodies import Disc, Touch
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.guides.slide_symbols import ALIKE, REACH, places_of, seat, within
+from graphkin.construction.guides.rails import ALIKE, REACH, places_of, seat
+from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.plates import is_all_wheel
 from graphkin.construction.rolling.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
 from graphkin.drawing.field import XY, Field

@@ -1,0 +1,122 @@
+"""Where the ground of each fixed pivot stands: on the side of the pin that is freest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from math import sqrt
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.guides.rails import BEYOND, REACH, places_of, rails_of, swivelling
+from graphkin.drawing.symbols import BLOCK, HATCH, HIP, PIN, PIVOT, STRIP, TALL
+from graphkin.numbers.plane import cross, dot
+from graphkin.scene.model import FRAME
+
+Segment = tuple[complex, complex]
+
+HALFWAY = sqrt(0.5)
+WAYS = {
+    -1j: 0.0,
+    1 + 0j: 0.4,
+    -1 + 0j: 0.4,
+    1j: 0.8,
+    HALFWAY * (1 - 1j): 1.2,
+    HALFWAY * (-1 - 1j): 1.2,
+    HALFWAY * (1 + 1j): 1.6,
+    HALFWAY * (-1 + 1j): 1.6,
+}
+"""The ways in which a ground may lead from its pin, and what each costs, in mm of air."""
+AIR = 2.5
+"""How far a ground should stay from what is drawn at its pin, in mm."""
+RAIL = BLOCK[1] / 2 + HATCH
+"""How far a guide of the frame reaches to both sides of its line, in mm."""
+RAY = 17.0
+"""How far the axis from which a crank's angle counts is drawn from its pin, in mm."""
+NEAR = 2 * PIVOT + AIR
+"""How far from its pin lies what a ground may meet, in mm."""
+
+
+def ground_ways(drawing: Drawing, mm: float) -> dict[str, complex]:
+    """The way from each fixed pivot to its ground, held while the mechanism moves.
+
+    ``mm`` are the millimetres of paper that a metre takes up.
+    """
+    still = drawing.held or drawing
+    if mm not in still.grounds:
+        still.grounds[mm] = chosen(still, mm)
+    return still.grounds[mm]
+
+
+def chosen(drawing: Drawing, mm: float) -> dict[str, complex]:
+    """The freest way of each pivot, which leads down where that is as free as any."""
+    drawn, found = [*segments(drawing, mm)], {}
+    for name, here in pivots(drawing).items():
+        height = height_at(drawing, here, mm)
+        lines = (((p - here) * mm, (q - here) * mm) for p, q in drawn)
+        near = [line for line in lines if away_from(0j, line) < NEAR]
+        found[name] = min(WAYS, key=lambda way: WAYS[way] + crowding(near, way, height))
+    return found
+
+
+def pivots(drawing: Drawing) -> dict[str, complex]:
+    """The points of the frame that moving links own."""
+    moving = {point for link in drawing.scene.links.values() for point in link.points}
+    return {
+        name: drawing.positions[name]
+        for name in drawing.scene.frame.points
+        if name in moving and name in drawing.positions
+    }
+
+
+def height_at(drawing: Drawing, here: complex, mm: float) -> float:
+    """The height of a pivot's triangle in mm: greater where a block turns about its pin."""
+    covered = any(abs(place - here) * mm < PIN for place in swivelling(drawing))
+    return TALL if covered else PIVOT
+
+
+def segments(drawing: Drawing, mm: float) -> Iterator[Segment]:
+    """The bars, the sides of plates, the guides, and the axes from which cranks' angles count."""
+    for link in drawing.scene.links:
+        yield from combinations(places_of(drawing, link), 2)
+    for rail in rails_of(drawing):
+        if rail.owner == FRAME:
+            for mark in rail.marks:
+                low, high = (rail.at(mark + side * REACH / mm) for side in (-1, 1))
+                for aside in (-RAIL, 0.0, RAIL):
+                    yield low + 1j * rail.along * aside / mm, high + 1j * rail.along * aside / mm
+        else:
+            ends = [mark + side * BEYOND / mm for mark in rail.marks for side in (-1, 1)]
+            ends += [rail.along_of(place) for place in places_of(drawing, rail.owner)]
+            yield rail.at(min(ends)), rail.at(max(ends))
+    for driver in drawing.scene.drivers:
+        start = (driver.of or drawing.scene.links[driver.link].points)[0]
+        base = drawing.standing.axis(driver.against)
+        if driver.kind == "turn" and base is not None and start in drawing.positions:
+            yield drawing.positions[start], drawing.positions[start] + base * RAY / mm
+
+
+def crowding(near: Sequence[Segment], way: complex, height: float) -> float:
+    """The air that a ground lacks beside lines about its pin, in mm."""
+    middle, half = way * (height + HATCH / 2), 1j * way * (STRIP + HIP * (height - PIVOT))
+    ground = middle - half, middle + half
+    return sum(max(0.0, AIR - apart(ground, line)) for line in near)
+
+
+def apart(one: Segment, other: Segment) -> float:
+    """How far two segments are from one another; less than zero where they cross."""
+    (a, b), (c, d) = one, other
+    sides = cross(b - a, c - a) * cross(b - a, d - a), cross(d - c, a - c) * cross(d - c, b - c)
+    if max(sides) < 0:
+        return -AIR
+    return min(
+        *(away_from(place, one) for place in other),
+        *(away_from(place, other) for place in one),
+    )
+
+
+def away_from(place: complex, line: Segment) -> float:
+    """How far a place is from a segment."""
+    start, along = line[0] - place, line[1] - line[0]
+    square = abs(along) ** 2
+    share = min(max(-dot(start, along) / square, 0.0), 1.0) if square else 0.0
+    return abs(start + share * along)

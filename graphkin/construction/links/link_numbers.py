@@ -1,0 +1,165 @@
+"""The numbers of links: inside their plates, or beside their bars where these stand alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations, pairwise, product
+from typing import NamedTuple
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.guides.pivot_grounds import Segment, away_from
+from graphkin.construction.guides.rails import places_of
+from graphkin.construction.guides.slide_symbols import number_side
+from graphkin.construction.links.plates import corners_of, farthest
+from graphkin.construction.rolling.wheel_symbols import number_beside
+from graphkin.drawing.field import XY, Field
+from graphkin.drawing.label import GAP, NUMBER, Label
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import LineMark
+from graphkin.drawing.richtext import escape, extent
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import FRAME, Link
+
+LONG = 14.0
+"""Length of a sliding link's own bar, in mm, from which its number stands there."""
+EDGE = 0.8
+"""How far a number in a plate stays from its sides, in mm."""
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
+"""Where along a bar its number may stand, the likeliest first."""
+ENOUGH = 6.0
+"""How far the middle of a number is from other links, in mm, where more is no better."""
+HALF = 4.0
+"""Half the part of a bar that its number belongs to, in mm, at most."""
+SHIFT = 8.0
+"""What it costs, in mm of room, to stand at the end of a bar and not at its middle."""
+PARTS = 8
+"""Into how many parts the sides of a plate are divided to find where there is most room."""
+
+
+class Body(NamedTuple):
+    """A bar or a plate on the page: its sides, and the corners of a plate in order around it."""
+
+    sides: list[Segment]
+    corners: list[complex]
+
+    def apart(self, place: complex) -> float:
+        """How far a place is from it; zero inside a plate."""
+        return 0.0 if self.holds(place) else min(away_from(place, side) for side in self.sides)
+
+    def holds(self, place: complex) -> bool:
+        """True for a place inside a plate."""
+        if not self.corners:
+            return False
+        turns = [cross(q - p, place - p) > 0 for p, q in self.sides]
+        return all(turns) or not any(turns)
+
+
+def draw_numbers(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The number or name of each link in its balloon."""
+    bodies = {name: body_of(drawing, field, link) for name, link in drawing.scene.links.items()}
+    for name, link in drawing.scene.links.items():
+        others = [body for other, body in bodies.items() if body and other != name]
+        wished = wish(board, drawing, field, link, bodies[name], others)
+        if wished is not None:
+            board.labels.append(wished)
+
+
+def wish(
+    board: FieldContent,
+    drawing: Drawing,
+    field: Field,
+    link: Link,
+    body: Body | None,
+    others: Sequence[Body],
+) -> Label | None:
+    """Where a link's number is to stand: at its plate, its bar, its block or its wheel."""
+    aside = number_side(drawing, field, link.name)
+    if body is not None and body.corners:
+        inside = label_inside(link, body, others)
+        return inside or labelled(link, beside_plate(body))
+    short = body is None or abs(body.sides[0][1] - body.sides[0][0]) < LONG
+    if aside and (short or on_frame(link)):
+        return labelled(link, aside)
+    if body is not None:
+        return label_beside(link, *body.sides[0], others)
+    beside = number_beside(drawing, field, link) or guide_bar_of(board, link)
+    return labelled(link, beside) if beside else None
+
+
+def labelled(link: Link, subject: XY | tuple[XY, XY], away: XY | None = None) -> Label:
+    """A link's number that wants a place at a subject."""
+    return Label(escape(link.name), "", subject, 2.5, link.name, away=away, priority=3, ring=True)
+
+
+def on_frame(link: Link) -> bool:
+    """True for a block on a guide of the frame, whose number stands at the block."""
+    return any(slide.on == FRAME for slide in link.slides)
+
+
+def body_of(drawing: Drawing, field: Field, link: Link) -> Body | None:
+    """The bar or the plate of a link on the page; None where it has neither."""
+    corners = [complex(*field(corner)) for corner in corners_of(drawing, link) or ()]
+    if corners:
+        return Body([*pairwise([*corners, corners[0]])], corners)
+    places = places_of(drawing, link.name)
+    if len(places) < 2:
+        return None
+    first, last = (complex(*field(place)) for place in farthest(places))
+    return Body([(first, last)], []) if first != last else None
+
+
+def label_inside(link: Link, body: Body, others: Sequence[Body]) -> Label | None:
+    """A number inside its plate, where it is farthest from the sides and from other links.
+
+    None where there is no room for it.
+    """
+    wide = max(NUMBER, (extent(escape(link.name), 2.5)[0] + NUMBER) / 2)
+    sides = [*body.sides, *(side for other in others for side in other.sides)]
+
+    def room(place: complex) -> float:
+        return min(away_from(place, side) for side in sides)
+
+    place = max(within(body.corners), key=room)
+    if min(away_from(place, side) for side in body.sides) < wide + EDGE:
+        return None
+    return labelled(link, (place.real - wide - GAP, place.imag), (1.0, 0.0))
+
+
+def within(corners: Sequence[complex]) -> Iterator[complex]:
+    """Places spread over a plate, all of them inside."""
+    first = corners[0]
+    for second, third in pairwise(corners[1:]):
+        for i, j in combinations(range(1, PARTS), 2):
+            yield (i * first + (j - i) * second + (PARTS - j) * third) / PARTS
+
+
+def label_beside(link: Link, start: complex, end: complex, others: Sequence[Body]) -> Label:
+    """A number beside its bar, on the side and at the place where it is farthest from others."""
+    length = abs(end - start)
+    way = (end - start) / length
+    off = (NUMBER + GAP) * 1j * way
+    found: list[tuple[float, float, int]] = []
+    for share, side in product(SHARES, (1, -1)):
+        place = start + share * (end - start) + side * off
+        room = min((other.apart(place) for other in others), default=ENOUGH)
+        found.append((min(room, ENOUGH) - SHIFT * (share - 0.5) ** 2, share, side))
+        if room >= ENOUGH:
+            break
+    _, share, side = max(found, key=lambda each: each[0])
+    middle, half = start + share * (end - start), min(HALF, 0.2 * length) * way
+    low, high, away = middle - half, middle + half, side * off / abs(off)
+    return labelled(link, ((low.real, low.imag), (high.real, high.imag)), (away.real, away.imag))
+
+
+def beside_plate(body: Body) -> tuple[XY, XY]:
+    """The first side of a plate."""
+    (start, end) = body.sides[0]
+    return (start.real, start.imag), (end.real, end.imag)
+
+
+def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:
+    """The drawn guide of a link that has neither a bar, a block nor a wheel."""
+    for mark in board.marks:
+        if isinstance(mark, LineMark) and mark.cls == "guide-bar" and mark.name == link.name:
+            return (mark.x1, mark.y1), (mark.x2, mark.y2)
+    return None
