@@ -43,16 +43,6 @@ TEETH = ("gear", "gear-disc")
 """The outlines of gears."""
 CURVES = ("trajectory", "fixed-centrode", "moving-centrode", "locus")
 """Curves of the whole motion: they are drawn once, and carried with what bears them."""
-OTHERWISE = {
-    ("four-bar-change-point", "ray"): "a link that only shifts: rounding says which end is far",
-    ("excavator-absolute", "sense"): "the place of the arrow is chosen where the scene stands",
-    ("excavator-relative", "sense"): "the place of the arrow is chosen where the scene stands",
-    ("jumper", "sense"): "the place of the arrow is chosen where the scene stands",
-    ("trammel", "drive"): "a dimension that is short somewhere is left out there on paper",
-    ("trammel", "sense"): "the heads of that dimension",
-    ("rod-and-wheel", ""): "the construction has other steps in a closure of another number",
-}
-"""What is not compared, and why: marks of a class, or a whole scene."""
 PLACES = tuple((k + 0.5) / 24 for k in range(24)) if EVERY else (0.07, 0.38, 0.72)
 """The places looked at, in parts of the range."""
 
@@ -134,7 +124,6 @@ def is_nothing(at: Sequence[float]) -> bool:
 def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
     """What a page draws otherwise than Python at a place of the driver."""
     (sheets, found), mechanism = page_of(name), named(name)
-    left = {cls for scene, cls in OTHERWISE if scene == name}
     here = defaultdict(list)
     drawn: dict[Any, int] = defaultdict(int)
     places = {mark_id: (mark, s, side) for mark_id, mark, s, side in fields(sheets)}
@@ -164,7 +153,7 @@ def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
             for mark in there:
                 wanted[s, side, *kind_of(mark)].append(numbers(mark))
             mine = {key: at for key, at in here.items() if key[:2] == (s, side)}
-            yield from differences(mine, wanted, drawn, x, left)
+            yield from differences(mine, wanted, drawn, x)
 
 
 def differences(
@@ -172,11 +161,10 @@ def differences(
     wanted: dict[Any, list[Any]],
     drawn: dict[Any, int],
     x: float,
-    left: set[str],
 ) -> Iterator[str]:
     """Marks of one that no mark of the other lies at; those that were not drawn cannot follow."""
     for key in {*mine, *wanted}:
-        if is_left(key) or key[3].removeprefix("arrowhead ") in left:
+        if is_left(key):
             continue
         a, b = mine.get(key, []), wanted.get(key, [])
         off = off_by(*key[2:4])
@@ -198,7 +186,7 @@ def is_left(key: tuple[Any, ...]) -> bool:
     return is_curve or (kind == "Polyline" and cls in TEETH) or (bool(name) and far)
 
 
-@pytest.mark.parametrize("name", [name for name in WHICH if (name, "") not in OTHERWISE])
+@pytest.mark.parametrize("name", WHICH)
 def test_marks_follow_as_python_draws_them(name):
     """Every line, circle, arc and vector within 0.01 mm of a fresh drawing at the same scales."""
     _, found = page_of(name)

@@ -35,6 +35,8 @@ class Drawing(Struct, frozen=True, dict=True):
     ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``curves``
     are those over the whole motion. ``computed`` says by the symbol why a quantity is computed,
     not measured. ``driven`` are angles of drivers in degrees, where these are not the scene's.
+    ``chosen`` is the sheet whose choices of places hold for it too: where a mark has room, and what
+    is long enough for one, which may be otherwise where the same scene stands elsewhere.
     """
 
     kind: str
@@ -47,6 +49,12 @@ class Drawing(Struct, frozen=True, dict=True):
     curves: tuple[Curve, ...] = ()
     computed: Mapping[str, str] = field(default_factory=dict)
     driven: Mapping[str, Any] = field(default_factory=dict)
+    chosen: Drawing | None = None
+
+    @property
+    def choosing(self) -> Drawing:
+        """The sheet at whose position places of marks are chosen."""
+        return self.chosen or self
 
     @property
     def plane(self) -> Plane:
