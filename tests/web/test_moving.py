@@ -14,13 +14,16 @@ import pytest
 import shapely
 from msgspec.structs import replace
 
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import above_foot
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import clipped
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.pieces import followed
 from graphkin.motion.sweep import sweep_of
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
 from graphkin.text import words
 from graphkin.web.moving import Moving, moving, still
@@ -121,6 +124,19 @@ def is_nothing(at: Sequence[float]) -> bool:
     return len(at) == 4 and hypot(at[2] - at[0], at[3] - at[1]) < 1e-6
 
 
+def is_of_one_position(mark: Mark, drawing: Drawing) -> bool:
+    """Whether a mark follows from the position alone; labels are placed by what is about them,
+    curves are of the whole motion, teeth mesh by a law of their own, auxiliary circles may leave
+    the page, and the head of a ray to a centre lies off it."""
+    first, *about = mark.cls.split()
+    if isinstance(mark, Text) or first in ("label", "number", "leader"):
+        return False
+    if isinstance(mark, Polyline) and first == "arrowhead":
+        value = None if mark.step is None else drawing.trace.values[mark.step]
+        return not isinstance(value, Ratio) or about[0] not in SHEETS
+    return not isinstance(mark, Polyline) or first not in (*CURVES, *TEETH, "construction")
+
+
 def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
     """What a page draws otherwise than Python at a place of the driver."""
     (sheets, found), mechanism = page_of(name), named(name)
@@ -128,8 +144,7 @@ def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
     drawn: dict[Any, int] = defaultdict(int)
     places = {mark_id: (mark, s, side) for mark_id, mark, s, side in fields(sheets)}
     for mark_id, mark, s, side in fields(sheets):
-        first = mark.cls.split()[0]
-        if isinstance(mark, Text) or first in ("label", "number", "leader"):
+        if not is_of_one_position(mark, sheets[s].drawing):
             continue
         drawn[s, side, *kind_of(mark)] += 1
         at = marks.get(mark_id, numbers(mark))
@@ -150,7 +165,7 @@ def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
         }
         for side, there in enumerate(redrawn_near(mechanism, found.driven, sheet, x, pins)):
             wanted = defaultdict(list)
-            for mark in there:
+            for mark in (each for each in there if is_of_one_position(each, sheet.drawing)):
                 wanted[s, side, *kind_of(mark)].append(numbers(mark))
             mine = {key: at for key, at in here.items() if key[:2] == (s, side)}
             yield from differences(mine, wanted, drawn, x)
@@ -164,8 +179,6 @@ def differences(
 ) -> Iterator[str]:
     """Marks of one that no mark of the other lies at; those that were not drawn cannot follow."""
     for key in {*mine, *wanted}:
-        if is_left(key):
-            continue
         a, b = mine.get(key, []), wanted.get(key, [])
         off = off_by(*key[2:4])
         for at in (each for each in a if not is_nothing(each)):
@@ -175,15 +188,6 @@ def differences(
             for at in (each for each in b if not is_nothing(each)):
                 if min((off(at, other) for other in a), default=9.0) > LIMIT:
                     yield f"at {x:g} {key}: {at} is not on the page, which has {a}"
-
-
-def is_left(key: tuple[Any, ...]) -> bool:
-    """Curves of the whole motion; teeth, which mesh by a law of their own; auxiliary circles, which
-    may leave the page; the head of a ray to what is far, which lies off it."""
-    kind, cls, name = key[2:5]
-    far = cls.startswith("arrowhead") and name[:1] in "IJW" and not name.startswith("W_")
-    is_curve = kind == "Polyline" and cls.split()[0] in (*CURVES, "construction")
-    return is_curve or (kind == "Polyline" and cls in TEETH) or (bool(name) and far)
 
 
 @pytest.mark.parametrize("name", WHICH)
