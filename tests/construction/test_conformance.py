@@ -49,7 +49,6 @@ PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 UNREACHED = {
     "AccelerationPole.mark_far",
     "CoriolisComponent.is_drawn",
-    "GuideCentre.marks",
     "KleinComponent.is_computed",
     "KleinComponent.room",
     "LaidOff.said_before",
