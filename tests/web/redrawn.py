@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.layout import Layout, spans
 from graphkin.construction.core.program import Program, Step
 from graphkin.construction.core.run import StepFailed, run
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
@@ -94,7 +95,7 @@ def redrawn_near(
 
 def is_closing(step: Step) -> bool:
     """Whether a step closes a group of class III."""
-    return step.action is not None and step.action.key == "close"
+    return closer_of(step) is not None
 
 
 def in_closure(program: Program, closing: int, number: int) -> Program:
