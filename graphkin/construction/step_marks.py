@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part, raise_points_aside
 from graphkin.construction.core.plan_marks import put_arrow
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.plot import Plot
 from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 
 
 def draw_mechanism_steps(plot: Plot, *, found: bool) -> None:
@@ -20,6 +21,14 @@ def draw_mechanism_steps(plot: Plot, *, found: bool) -> None:
             put_step(plot, number, step, value)
 
 
+def draw_closing_arcs(plot: Plot) -> None:
+    """Put down the arcs by which the loci are cut where groups of class III close."""
+    trace = plot.drawing.trace
+    for kind in constructions(trace.program, ClosedGroup):
+        if kind.closing in trace.values:
+            draw_part(PaperCanvas(plot, kind.closing), kind)
+
+
 def draw_plan_steps(plot: Plot) -> None:
     """Put down every step of the plan, in order."""
     for number, step, value in plot.drawing.steps(plot.drawing.plane):
@@ -27,16 +36,17 @@ def draw_plan_steps(plot: Plot) -> None:
     for number, step, _ in plot.drawing.steps(Plane.NUMBERS):
         kind = construction(step)
         if kind is not None and step.part is Part(plot.drawing.kind):
-            draw_part(plot, number, step, kind)
+            draw_part(PaperCanvas(plot, number), kind)
     raise_points_aside(plot)
 
 
 def put_step(plot: Plot, number: int, step: Step, value: Any) -> None:
     """Put down one step: what its construction draws, as part of an auxiliary plan, as an arrow."""
     kind, plan = construction(step), auxiliary_plan(plot.drawing, number)
+    canvas = PaperCanvas(plot, number)
     if kind is not None:
-        draw_part(plot, number, step, kind)
+        draw_part(canvas, kind)
     if plan is not None:
-        plan.marks(PaperCanvas(plot, number), number)
+        plan.marks(canvas, number)
     elif plan_vector(step):
         put_arrow(plot, number, step, value)

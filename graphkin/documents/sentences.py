@@ -83,7 +83,6 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
     """The sentences of the steps of a sheet, in their order."""
     program, shown = drawing.trace.program, set[type[Component]]()
     for number, step, _ in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
-        key = step.action.key if step.action else ""
         component, laid = component_of(program, number), laid_off(program, number)
         if component is not None:
             first = type(component) not in shown and component.is_drawn(drawing)
@@ -95,9 +94,9 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
             yield from plan.sentences(drawing, number)
         elif laid is not None:
             if is_own(drawing, step) and (markup := laid.sentence(drawing)):
-                yield Sentence(number, key, markup)
+                yield Sentence(number, step.role, markup)
         elif alone := said_alone(drawing, step):
-            yield Sentence(number, key, alone)
+            yield Sentence(number, step.role, alone)
         elif is_found_point(drawing, number, step) and not is_again(drawing, step):
             yield Sentence(number, step.name, point_sentence(drawing, step))
 

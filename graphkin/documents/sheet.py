@@ -12,13 +12,12 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import called
-from graphkin.construction.core.paper_canvas import draw_part
+from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plot import Plot, above_foot
 from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
-from graphkin.construction.higher_class.closed_group import draw_closing_arcs
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.normal_component.normal_component import pins_of_triangles
 from graphkin.construction.result_tables import tables
@@ -160,7 +159,7 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     mechanism_symbols.draw_plates(board, drawing, field)
     draw_curves(board, drawing, field, above_foot(field.rect))
     step_marks.draw_mechanism_steps(plot, found=True)
-    draw_closing_arcs(board, drawing, field)
+    step_marks.draw_closing_arcs(plot)
     loci = list(board.marks)
     mechanism_symbols.draw_ground(board, drawing, field)
     mechanism_symbols.draw_guides(board, drawing, field)
@@ -206,7 +205,7 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     if view == "task":
         for number, step, _ in drawing.steps(drawing.plane):
             if isinstance(pole := construction(step), PlanPole):
-                draw_part(plot, number, step, pole)
+                draw_part(PaperCanvas(plot, number), pole)
         return board
     step_marks.draw_plan_steps(plot)
     return board

@@ -41,6 +41,7 @@ class Label(Struct, frozen=True):
     led: bool = False
     spare: bool = False
     optional: bool = False
+    part: int = 0
 
     def size(self) -> tuple[float, float]:
         """Width and height of the label's box."""
@@ -67,7 +68,7 @@ class Label(Struct, frozen=True):
         leader = spot.leader or (self.short_leader(spot) if self.led else None)
         if leader:
             style = f"leader {self.cls}".strip()
-            yield LineMark(*leader[0], *leader[1], style, self.name, self.step)
+            yield LineMark(*leader[0], *leader[1], style, self.name, self.step, self.part)
         if self.ring:
             yield self.balloon(spot)
         yield self.text(spot)
@@ -85,7 +86,8 @@ class Label(Struct, frozen=True):
         width, top, bottom = extent(self.markup, self.height)
         x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
         style = f"label {self.cls}".strip()
-        return Text(x, y, self.markup, style, self.height, "start", self.name, self.step)
+        own = self.name, self.step
+        return Text(x, y, self.markup, style, self.height, "start", *own, part=self.part)
 
     def area(self, spot: Spot) -> Rect:
         """The box that the text's ink takes up at a place."""

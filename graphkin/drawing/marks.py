@@ -3,7 +3,7 @@
 Coordinates have their origin at the page's top-left corner, x to the right, y DOWN. Angles are in
 degrees, counter-clockwise as seen on the paper. ``cls`` holds one or more classes separated by
 blanks; the first decides the style (see ``style``). ``name`` and ``step`` go into the SVG as
-``data-name`` and ``data-step``.
+``data-name`` and ``data-step``; ``part`` counts the strokes by which a step was drawn.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SLACK = 1e-6  # mm, rounding forgiven at the page's edge
 
 
 class LineMark(Struct, frozen=True):
-    """A straight line between two points; ``part`` tells the lines of one step apart."""
+    """A straight line between two points."""
 
     x1: float
     y1: float
@@ -33,7 +33,7 @@ class LineMark(Struct, frozen=True):
     cls: str
     name: str = ""
     step: int | None = None
-    part: str = ""
+    part: int = 0
 
 
 class Polyline(Struct, frozen=True):
@@ -44,6 +44,7 @@ class Polyline(Struct, frozen=True):
     name: str = ""
     step: int | None = None
     closed: bool = False
+    part: int = 0
 
 
 class CircleMark(Struct, frozen=True):
@@ -55,6 +56,7 @@ class CircleMark(Struct, frozen=True):
     cls: str
     name: str = ""
     step: int | None = None
+    part: int = 0
 
 
 class Arc(Struct, frozen=True):
@@ -68,6 +70,7 @@ class Arc(Struct, frozen=True):
     cls: str
     name: str = ""
     step: int | None = None
+    part: int = 0
 
     def at(self, angle: float) -> Point:
         """Give the point of the arc's circle at an angle in degrees."""
@@ -87,6 +90,7 @@ class Text(Struct, frozen=True):
     name: str = ""
     step: int | None = None
     rotate: float = 0.0
+    part: int = 0
 
     def left(self) -> float:
         """Tell how far the text's beginning lies from x along the baseline, in mm."""

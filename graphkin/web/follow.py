@@ -11,18 +11,14 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.plot import above_foot
-from graphkin.construction.core.too_short import TINY
 from graphkin.construction.links.mechanism_symbols import stretched
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
-from graphkin.drawing.style import VECTORS
-from graphkin.numbers.arithmetic import pick, smaller
+from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.numbers.plane import Line as Carrier
-from graphkin.numbers.plane import Ratio, Vector
+from graphkin.numbers.plane import Ratio
 from graphkin.web.body_binding import told
-from graphkin.web.body_pose import BodyPose, unit
 from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
 from graphkin.web.field_extents import must_be_seen
-from graphkin.web.step_binding import FAR, Steps
+from graphkin.web.step_binding import StepStrokes
 
 LABELS = ("label", "number", "leader")
 """The classes of a letter and of the circle and the leader that go with it."""
@@ -49,9 +45,9 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return self.binder.places.drawing
 
     @cached_property
-    def steps(self) -> Steps:
+    def steps(self) -> StepStrokes:
         """The steps of this field."""
-        return Steps(self.binder, self.layout)
+        return StepStrokes(self.binder, self.layout)
 
     @cached_property
     def on_mechanism(self) -> bool:
@@ -109,17 +105,17 @@ class MarkBindings(Struct, frozen=True, dict=True):
         """
         for k, mark in enumerate(self.marks):
             first = mark.cls.split()[0]
-            if not isinstance(mark, LineMark) or mark.step is None:
+            if not isinstance(mark, LineMark) or mark.step is None or first in LABELS:
                 continue
-            ends, after = self.steps.vector(mark.step), self.marks[k + 1 : k + 2]
-            found = None
-            if first in VECTORS and ends is not None:
+            stroke, after = self.steps.stroke(mark), self.marks[k + 1 : k + 2]
+            undrawn = self.steps.canvas(mark.step).undrawn
+            if stroke is not None and stroke.is_vector:
                 if not (after and after[0].cls.startswith("arrowhead")):
-                    found = self.binder.head(*ends, self.steps.seen(mark.step))(mark)
-                if found is not None:
-                    yield k, "polygon", f"arrowhead {first}", found
-            elif self.steps.is_short(mark):
-                found = self.steps.part(mark.step, FAR)(mark)
+                    found = stroke.head(mark)
+                    if found is not None:
+                        yield k, "polygon", f"arrowhead {first}", found
+            elif undrawn is not None:
+                found = undrawn.mark(mark)
                 if found is not None:
                     yield k, "line", mark.cls, found
 
@@ -132,7 +128,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         if first in LABELS:
             return self.label(k, mark)
         if mark.step is not None:
-            return self.steps.binding(mark) or only_at_start
+            return self.steps.binding(mark)
         if isinstance(mark, Text):
             return only_at_start if mark.name == "note" else still
         return self.body(mark, first)
@@ -160,12 +156,9 @@ class MarkBindings(Struct, frozen=True, dict=True):
         text = self.text_of(k)
         if text is None:
             return only_at_start
-        name, step = text.name, text.step
-        if step is not None:
-            if (step, name) not in self.named:
-                self.named[step, name] = self.of_step(text, step)
-            return self.named[step, name]
-        places = self.binder.places
+        if text.step is not None:
+            return self.steps.label(text)
+        name, places = text.name, self.binder.places
         if name in self.drawing.scene.links:
             return self.binder.carried_by(places.pose(name))
         if name in places.spots:
@@ -177,56 +170,9 @@ class MarkBindings(Struct, frozen=True, dict=True):
             return still
         return only_at_start
 
-    @cached_property
-    def named(self) -> dict[tuple[int, str], Binding]:
-        """The labels of steps that are known."""
-        return {}
-
     def text_of(self, k: int) -> Text | None:
         """The text of a label: a leader and a circle come right before it."""
         for mark in self.marks[k : k + 3]:
             if isinstance(mark, Text):
                 return mark
         return None
-
-    def of_step(self, mark: Mark, number: int) -> Binding:
-        """The label of a vector, of a construction line, or of a point."""
-        binder, steps = self.binder, self.steps
-        if number not in binder.places.values:
-            return only_at_start
-        ends, value = steps.vector(number), steps.value(number)
-        if ends is not None and not (number in steps.ends and self.names_point(mark, number)):
-            tail, tip = (binder.page(end) for end in ends)
-            pose = BodyPose((tail + tip) * 0.5, unit(tip - tail))
-            size, seen = abs(tip - tail) - TINY, steps.seen(number)
-            return binder.beside(pose, size if seen is None else smaller(size, seen))
-        if isinstance(value, Carrier):
-            return self.beside_line(number)
-        if isinstance(value, Ratio):
-            if not self.near_mark(number):
-                return only_at_start
-            place = steps.part_of(number).place
-            return binder.at(place, steps.within(place))
-        if isinstance(value, Vector) or not isinstance(binder.tape.now(value), complex):
-            return only_at_start
-        return binder.at(value, steps.seen(number))
-
-    def names_point(self, mark: Mark, number: int) -> bool:
-        """Whether a label is the letter of the point at a vector's tip."""
-        letter = self.steps.step(number).name
-        return bool(letter) and mark.name == letter
-
-    def near_mark(self, number: int) -> bool:
-        """Whether a centre is marked in this field, so that its label stands beside it."""
-        return any(isinstance(m, CircleMark) and m.step == number for m in self.marks)
-
-    def beside_line(self, number: int) -> Binding:
-        """What stands beside the far end of a construction line."""
-        binder, line = self.binder, self.steps.value(number)
-        if number not in self.layout.spans:
-            return only_at_start
-        low, high = binder.places.span(number, binder.field.mm)
-        way = binder.places.way(number).conjugate()
-        near_low = abs(low) < abs(high) if self.steps.part_of(number).is_locus else low < high
-        end = pick(near_low, high, low)
-        return binder.beside(BodyPose(binder.page(line.point) + way * end, way))

@@ -25,7 +25,7 @@ from graphkin.construction.step_marks import draw_plan_steps
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field, clipped
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import LineMark, Mark, Polyline, reach
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, reach
 from graphkin.drawing.scale import Extent, extent_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import symbol
@@ -76,10 +76,12 @@ def plan_seen(drawing: Drawing, field: Field) -> FrameView:
     board = FieldContent(field.rect)
     draw_plan_steps(Plot(board, field, drawing, Layout(field, field, Free())))
     marks = [mark for mark in board.marks if is_shown(drawing, mark)]
+    parts = {mark.step: mark.part for mark in board.marks if isinstance(mark, CircleMark)}
     letters, places = dict[str, PointLetter](), {}
     for number, step, value in drawing.steps(drawing.plane):
         if is_point(step) and isinstance(value, complex):
-            letters[step.name] = PointLetter(symbol(step.name), drawing.kind, number)
+            own = number, parts.get(number, 0)
+            letters[step.name] = PointLetter(symbol(step.name), drawing.kind, *own)
             places[step.name] = field(value)
     return FrameView(
         letters, places, marks, {name: joined(drawing, name, letters) for name in letters}

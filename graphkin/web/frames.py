@@ -93,7 +93,7 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     some = [moment for moment in found if moment is not None]
     shown = tuple(numbers[i] for i in order if i in numbers)
     start = some[shown[0]].alone
-    moments = tuple(replace(m, alone=replace(m.alone, held=start)) for m in some)
+    moments = tuple(replace(m, alone=replace(m.alone, chosen=start)) for m in some)
     return FrameSequence(cycle, moments, shown, low, high, reached)
 
 

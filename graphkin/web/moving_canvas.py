@@ -3,51 +3,70 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from math import pi
 from typing import Any
 
 from msgspec import Struct, field
 
+from graphkin.construction.centres.instant_centre import PARALLEL
+from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.layout import BEYOND
-from graphkin.numbers.arithmetic import larger, smaller
-from graphkin.numbers.plane import Circle, Ratio, dot
-from graphkin.web.body_pose import unit
-from graphkin.web.field_binder import FieldBinder
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.layout import BEYOND, SWEEP, Layout
+from graphkin.construction.core.paper_canvas import BEYOND_TIPS, STRAIGHT
+from graphkin.construction.core.paper_canvas import FAR as ENDLESS
+from graphkin.construction.core.plot import above_foot
+from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.too_short import NEAR as SHORTEST
+from graphkin.construction.core.too_short import TINY
+from graphkin.drawing.marks import Mark
+from graphkin.drawing.symbols import SHORT
+from graphkin.numbers.arithmetic import larger, pick, smaller
+from graphkin.numbers.plane import Circle, Ratio, cross, dot
+from graphkin.web.body_pose import BodyPose, unit
+from graphkin.web.field_binder import Binding, FieldBinder, Record, only_at_start
 from graphkin.web.moving_sheet import place_of
 
 Ends = tuple[Any, Any]
+FULL, NEAR, FAR, LAST = 0, 1, 2, 3
+"""The parts of a construction line: all of it, before its first point, after its last, its end."""
+SQUARE, ROOMY = 2.0, 6.0
+"""Side of the mark of a right angle, and of a triangle that has room for one, in mm."""
+ALIKE = 1e-6
+"""Millimetres within which two places of the page are one."""
 
 
-class MovingCanvas(Struct):
-    """What the marks of one step are drawn from: its vector, its legs, and what its line faces.
+class Stroke(Struct, frozen=True):
+    """How what is drawn at once follows: its marks, its label, and the head of a vector."""
 
-    ``stands`` is where its circle is laid; one that ``is_cut`` shows only where the field has room.
-    ``endless`` are start and direction of a ray, ``tips`` the vectors whose tips are joined.
+    mark: Binding
+    label: Binding = only_at_start
+    head: Binding = only_at_start
+    is_vector: bool = False
+
+
+class MovingCanvas(Struct, frozen=True):
+    """The strokes of one step on a field that moves; what is not drawn there is not worked out.
+
+    The ``loci`` are the strokes that draw a line beyond the points on it, the near one first.
     """
 
     binder: FieldBinder
-    ends: Ends | None = None
-    legs: list[Callable[[], Ends]] = field(default_factory=list)
-    faces: Any = None
-    swung: Ends | None = None
-    is_beyond: bool = False
-    is_locus: bool = False
-    is_side: bool = False
-    is_end: bool = False
-    stands: Any = None
-    is_cut: bool = False
-    endless: Ends | None = None
-    tips: tuple[Ends, Ends] | None = None
-
-    @property
-    def place(self) -> Any:
-        """The point where its circle is laid; None where it has none."""
-        return place_of(self.stands) if isinstance(self.stands, Ratio) else self.stands
+    layout: Layout
+    number: int
+    strokes: list[Stroke] = field(default_factory=list)
+    loci: list[Stroke] = field(default_factory=list)
 
     @property
     def drawing(self) -> Drawing:
         """The sheet where the scene stands."""
         return self.binder.places.drawing
+
+    @property
+    def step(self) -> Step:
+        """The step."""
+        return self.drawing.trace.program.steps[self.number]
 
     @property
     def mm(self) -> float:
@@ -62,77 +81,203 @@ class MovingCanvas(Struct):
         """How long a way of the mechanism is drawn, in mm."""
         return abs(self.binder.tape.lifted(way)) * self.binder.field.mm
 
+    def put(
+        self, mark: Callable[[], Binding], label: Callable[[], Binding] = lambda: only_at_start
+    ) -> Stroke:
+        """A stroke whose bindings are worked out where they are asked for."""
+        self.strokes.append(Stroke(once(mark), once(label)))
+        return self.strokes[-1]
+
+    @property
+    def seen(self) -> Any:
+        """By how much a triangle on the mechanism is larger than what is drawn at all, in mm.
+
+        None for what belongs to none.
+        """
+        kind = construction(self.step)
+        if not isinstance(kind, TriangleComponent) or self.step.plane is not Plane.MECHANISM:
+            return None
+        return kind.room(self)
+
+    def while_seen(self, shown: Any) -> Any:
+        """A condition, and that of the triangle to which a stroke belongs."""
+        seen = self.seen
+        return shown if seen is None else smaller(shown, seen)
+
+    def within(self, point: Any, margin: float = 2.0) -> Any:
+        """How far a point lies within what the field can grow to, less a margin, in mm."""
+        left, top, right, bottom = self.binder.room
+        place = self.binder.page(point)
+        x, y = place.real, place.imag
+        across = smaller(x - left, right - x)
+        return smaller(across, smaller(y - top, bottom - y)) - margin + ALIKE
+
+    # --- on the mechanism ----------------------------------------------------------------------
+
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
-        """A vector between two points that move."""
-        self.ends = tail, tip
+        """A vector between two points that move; of a centre, at the drawn position alone."""
+        if isinstance(self.value(self.number), Ratio):
+            self.put(lambda: only_at_start)
+            return
+        binder = self.binder
+        self.strokes.append(
+            Stroke(
+                once(lambda: binder.between(tail, tip, shown=self.seen)),
+                once(lambda: self.beside_vector(tail, tip)),
+                once(lambda: binder.head(tail, tip, self.seen)),
+                is_vector=True,
+            )
+        )
+
+    def beside_vector(self, tail: Any, tip: Any) -> Binding:
+        """What stands beside a vector that is not too short to be named."""
+        tail, tip = (self.binder.page(end) for end in (tail, tip))
+        pose = BodyPose((tail + tip) * 0.5, unit(tip - tail))
+        return self.binder.beside(pose, self.while_seen(abs(tip - tail) - TINY))
 
     def point(self, name: str, at: Any) -> None:
-        """A small point, which is the step's own value."""
+        """A small point."""
+        self.put(*[lambda: self.binder.at(at, self.seen)] * 2)
 
     def segment(self, start: Any, end: Any) -> None:
         """A thin line between two points that move."""
-        self.legs.append(lambda: (start, end))
+        self.put(lambda: self.binder.between(start, end, shown=self.seen))
 
     def line(self) -> bool:
         """The step's own line."""
+        self.put(lambda: self.part(FULL))
         return True
 
     def line_beyond(self) -> None:
         """The same, while it leads farther than its own two points."""
-        self.is_beyond = True
+        self.put(lambda: self.part(FULL, is_beyond=True))
 
     def line_end(self, name: str) -> None:
         """The end of the step's own line."""
-        self.is_end = True
+        self.put(lambda: self.part(LAST))
+
+    def part(self, which: int, *, is_beyond: bool = False) -> Binding:
+        """A part of the step's own line, cut at the edge of what its field can grow to."""
+        binder, line, number = self.binder, self.value(self.number), self.number
+        origin = binder.page(line.point)
+        way = binder.places.way(number).conjugate()
+        low, high = binder.places.span(number, self.mm)
+        shown = self.while_seen(high - low - (2 * BEYOND + TINY)) if is_beyond else self.seen
+        tape, rect = binder.tape, binder.rect(above_foot(binder.room))
+        return lambda _: [
+            "s",
+            binder.condition(shown),
+            *map(tape.point, (origin, way)),
+            *map(tape.number, (low, high)),
+            which,
+            rect,
+        ]
 
     def arc(self, name: str) -> None:
         """The arc, which is the step's own value."""
+        self.put(self.arc_on_points)
 
-    def right_angle(self, toward: Any) -> None:
-        """The mark of a right angle at the beginning of the step's line."""
-        self.faces = toward
+    def arc_on_points(self) -> Binding:
+        """As much of the step's own circle as finds the points on it."""
+        circle = self.value(self.number)
+        span = self.binder.places.arc_span(self.number, self.mm)
+        return self.binder.arc(circle.centre, circle.radius, span)
 
     def swing(self, centre: Any, end: Any) -> None:
         """The arc by which a point was carried about a centre."""
-        self.swung = centre, end
+        self.put(lambda: self.arc_about(centre, end, SWEEP / 2))
+
+    def opening(self, name: str, centre: Any, end: Any) -> None:
+        """As much of the arc about a centre as finds a point on it."""
+        self.put(lambda: self.arc_about(centre, end, SWEEP))
+
+    def arc_about(self, centre: Any, end: Any, sweep: float) -> Binding:
+        """An arc about a centre through a point, so many mm of it on both sides of that."""
+        way, degrees = self.binder.tape.lifted(end - centre), 180 / pi
+        radius = abs(way)
+        bearing = way.imag.do("atan2", way.real) * degrees
+        half = smaller(degrees * sweep / (radius * self.mm), 60.0)
+        span = bearing - half, bearing + half
+        return self.binder.arc(centre, radius, span, radius * self.mm - SHORT)
+
+    def right_angle(self, toward: Any) -> None:
+        """The mark of a right angle at the beginning of the step's line."""
+        self.put(lambda: self.square(toward))
+
+    def square(self, toward: Any) -> Binding:
+        """The mark of a right angle at the corner of a triangle on the mechanism."""
+        binder = self.binder
+        corner, pivot = binder.page(self.value(self.number).point), binder.page(toward)
+        first = unit(pivot - corner)
+        low, high = binder.places.span(self.number, self.mm)
+        along = binder.places.way(self.number).conjugate()
+        second = along * pick(-low > high, -1.0, 1.0)
+        places = [corner + SQUARE * way for way in (first, first + second, second)]
+        return binder.corners(places, self.while_seen(abs(pivot - corner) - ROOMY))
 
     # --- plans -------------------------------------------------------------------------------
 
     def locus(self, name: str, text: str) -> None:
-        """The step's own line beyond the points on it."""
-        self.is_locus = True
+        """The step's own line beyond the points on it, in two strokes."""
+        self.loci.append(self.put(lambda: self.part(NEAR), self.beside_locus))
+        self.loci.append(self.put(lambda: self.part(FAR), self.beside_locus))
+
+    def beside_locus(self) -> Binding:
+        """What stands beside the far end of a construction line."""
+        low, high = self.binder.places.span(self.number, self.mm)
+        way = self.binder.places.way(self.number).conjugate()
+        end = pick(abs(low) < abs(high), high, low)
+        origin = self.binder.page(self.value(self.number).point)
+        return self.binder.beside(BodyPose(origin + way * end, way))
+
+    @property
+    def undrawn(self) -> Stroke | None:
+        """The far end of a line that is too short to be drawn in two where the scene stands."""
+        if not self.loci or self.number in self.drawing.auxiliary:
+            return None
+        low, high = self.layout.spans[self.number]
+        return self.loci[-1] if high - low <= 2 * BEYOND + TINY else None
 
     def image(self) -> None:
         """The step's own point."""
+        self.point("", self.value(self.number))
 
     def pole(self) -> None:
         """The pole, which stays."""
+        self.image()
 
     def side(self, start: Any, end: Any) -> None:
         """A side of the image of a link."""
-        self.is_side = True
-        self.segment(start, end)
+        self.leg("", "", start, end)
 
     def image_aside(self) -> None:
         """The same of an auxiliary plan."""
+        self.image()
 
     def line_aside(self) -> None:
         """The step's own line."""
+        self.line()
 
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
-        """A thin line between two points that move."""
-        self.legs.append(lambda: (start, end))
+        """A thin line between two points that move, while they stand apart."""
+        self.put(lambda: self.joining(start, end))
+
+    def joining(self, start: Any, end: Any) -> Binding:
+        """A line between two points while they stand apart."""
+        start, end = map(self.binder.tape.lifted, (start, end))
+        return self.binder.between(start, end, shown=self.size(end - start) - SHORTEST)
 
     def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
         """A thin line of a look on a line through a point, from one distance to another."""
-        self.legs.append(lambda: (at + along * low, at + along * high))
+        self.put(lambda: self.joining(at + along * low, at + along * high))
 
     def chain(self) -> None:
         """The step's own line."""
+        self.line()
 
     def through(self, first: Any, second: Any, third: Any) -> None:
         """The line through two points as far as a third, a little beyond them all."""
-        self.legs.append(lambda: self.around(first, second, third))
+        self.put(lambda: self.joining(*self.around(first, second, third)))
 
     def around(self, first: Any, second: Any, third: Any) -> Ends:
         """The ends of such a line."""
@@ -150,32 +295,79 @@ class MovingCanvas(Struct):
 
     def ray(self, name: str) -> None:
         """The step's own line."""
+        self.line()
 
     def centre(self, value: Ratio) -> bool:
         """A centre that moves, and shows where the field has room for it."""
-        self.spot(value)
+        self.put(*[lambda: self.in_room(place_of(value))] * 2)
         return True
+
+    def in_room(self, place: Any) -> Binding:
+        """A point, where the field has room for it."""
+        return self.binder.at(place, self.within(place))
 
     def ring(self, at: Any) -> None:
         """The ring around a pin."""
-        self.stands = at
+        self.put(lambda: self.binder.at(at), lambda: self.in_room(at))
 
     def spot(self, at: Any) -> None:
         """A small point, where the field has room for it."""
-        self.stands, self.is_cut = at, True
+        self.put(lambda: self.in_room(at), lambda: self.binder.at(at))
 
     def circle(self, circle: Circle, look: str) -> None:
-        """A circle, which is the step's own value."""
+        """A circle, while it is neither a point nor straight."""
+        self.put(lambda: self.around_centre(circle))
+
+    def around_centre(self, circle: Circle) -> Binding:
+        """As much of a circle as lies in what the field can grow to."""
+        binder = self.binder
+        size = binder.tape.lifted(circle.radius) * self.mm
+        centre = binder.page(circle.centre)
+        rect = binder.rect(above_foot(binder.room))
+        shown = smaller(size - TINY, STRAIGHT - size)
+        return lambda _: [
+            "i",
+            binder.condition(shown),
+            binder.tape.point(centre),
+            binder.tape.number(size),
+            rect,
+        ]
 
     def away(
         self, start: Any, way: Any, text: str, *, ray: bool = True, headed: bool = True
     ) -> None:
         """The ray to what lies at infinity."""
-        self.endless = start, way
+        self.put(lambda: self.endless(start, way))
+
+    def endless(self, start: Any, way: Any) -> Binding:
+        """The ray to what lies at infinity."""
+        start, way = map(self.binder.tape.lifted, (start, way))
+        end = start + unit(way) * (ENDLESS / self.mm)
+        return self.binder.between(start, end, above_foot(self.binder.room))
 
     def through_tips(self, one: Ends, other: Ends) -> None:
         """The line through the tips of two vectors, while these are parallel."""
-        self.tips = one, other
+        self.put(lambda: self.tips(one, other))
+
+    def tips(self, *vectors: Ends) -> Binding:
+        """The line through the tips of two vectors, while these are parallel."""
+        lift = self.binder.tape.lifted
+        ways = [lift(way) for _, way in vectors]
+        first, last = (lift(tail) + way for (tail, _), way in zip(vectors, ways, strict=True))
+        on = unit(last - first) * (BEYOND_TIPS / self.mm)
+        shown = PARALLEL - abs(cross(*map(unit, ways)))
+        room = above_foot(self.binder.room)
+        return self.binder.between(first - on, last + on, room, shown)
 
     def note(self, text: str) -> None:
         """Words of the drawn position alone."""
+
+
+def once(made: Callable[[], Binding]) -> Binding:
+    """A binding that is worked out where a mark first asks for it."""
+    found = cache(made)
+
+    def bound(mark: Mark) -> Record | None:
+        return found()(mark)
+
+    return bound

@@ -80,11 +80,12 @@ def off(at: XY, others: Sequence[XY]) -> XY:
 
 
 class PointLetter(Struct, frozen=True):
-    """The letter of a point: its markup and look, and the number of its step."""
+    """The letter of a point: its markup and look, its step, and the stroke that draws its point."""
 
     markup: str
     look: str = ""
     step: int | None = None
+    part: int = 0
 
     @property
     def width(self) -> float:
@@ -96,7 +97,8 @@ class PointLetter(Struct, frozen=True):
         width, top, bottom = extent(self.markup, LETTER)
         look = f"label {self.look}".strip()
         x, y = at[0] - width / 2, at[1] - (top + bottom) / 2
-        return Text(x, y, self.markup, look, LETTER, "start", name, self.step)
+        own = name, self.step
+        return Text(x, y, self.markup, look, LETTER, "start", *own, part=self.part)
 
 
 class FrameView(Struct, frozen=True):

@@ -34,7 +34,7 @@ class MovingSheet(Struct, frozen=True, dict=True):
     @cached_property
     def moving(self) -> Drawing:
         """The drawing in traced numbers."""
-        return replace(self.drawing, trace=self.trace, held=self.drawing)
+        return replace(self.drawing, trace=self.trace, chosen=self.drawing)
 
     @property
     def spots(self) -> Mapping[str, Any]:

@@ -27,7 +27,7 @@ SOME = ["pump", *(str(SCENES / f"{name}.toml") for name in ("rapid-return", "gea
 SOME += [str(SCENES / f"{name}.toml") for name in ("oscillating-slide", "centrodes-cardan")]
 SOME += [str(SCENES / f"{name}.toml") for name in ("stephenson-2-ternary", "rod-and-wheel")]
 
-UNDRAWN = {"close", "share", "c", "ν none", "ν by number"}
+UNDRAWN = {"closing", "share", "c", "ν none", "ν by number"}
 """The names of sentences that may draw nothing: of numbers, of trials without a locus."""
 ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in CHOSEN)]
 

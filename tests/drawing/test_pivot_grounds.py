@@ -42,7 +42,7 @@ def test_the_ground_turns_away_from_a_bar_that_leads_down(angle):
 
 def test_the_ground_stays_where_it_was_chosen_while_the_mechanism_moves():
     first = crank(90)
-    assert ground_ways(replace(crank(270), held=first), 1000.0) == ground_ways(first, 1000.0)
+    assert ground_ways(replace(crank(270), chosen=first), 1000.0) == ground_ways(first, 1000.0)
 
 
 @pytest.mark.parametrize(("name", "n"), [*((name, None) for name in SCENES), *VARIANTS])

@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.layout import Layout, spans
 from graphkin.construction.core.program import Program, Step
 from graphkin.construction.core.run import StepFailed, run
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
@@ -30,13 +31,16 @@ from graphkin.web.screen_sheets import ScreenSheet
 
 CLOSURES = range(1, 9)
 """The closures of a group of class III that are tried."""
+PAGE = 420.0
+"""How long a page is, in mm."""
 Fields = tuple[list[Mark], list[Mark]]
 
 
 def redrawn(
     mechanism: Mechanism, driven: PageDriver, sheet: ScreenSheet, x: float, program: Program
 ) -> Fields:
-    """The marks of both fields of a sheet, but for labels, at a place of the driver."""
+    """The marks of both fields of a sheet, but for labels, at a place of the driver, where they
+    stand on the side that is chosen on the sheet."""
     scene, drawn = mechanism.scene, sheet.drawing.trace.values
     sweep = sweep_of(scene)
     place = x * driven.metres
@@ -55,7 +59,7 @@ def redrawn(
     overrides = {n: value for n, value in overrides.items() if n in drawn}
     trace = run(program, sorted(drawn), scene.values, FLOAT, overrides=overrides)
     standing = Course(sweep, scene.branches).standing(place)
-    here = replace(sheet.drawing, scene=standing, trace=trace, held=sheet.drawing)
+    here = replace(sheet.drawing, scene=standing, trace=trace, chosen=sheet.drawing)
     fields = Layout(roomy(sheet.layout.mechanism), roomy(sheet.layout.plan), {})
     layout = Layout(fields.mechanism, fields.plan, spans(here, fields))
     boards = left_board(here, layout, "key"), right_board(here, layout, "key")
@@ -91,7 +95,7 @@ def redrawn_near(
 
 def is_closing(step: Step) -> bool:
     """Whether a step closes a group of class III."""
-    return step.action is not None and step.action.key == "close"
+    return closer_of(step) is not None
 
 
 def in_closure(program: Program, closing: int, number: int) -> Program:
@@ -146,7 +150,7 @@ def off_by(kind: str, cls: str) -> Callable[[Sequence[float], Sequence[float]], 
         return around_apart
     if kind == "Polyline":
         return round_apart
-    return strokes_apart if cls == "ground" else apart
+    return {"ground": strokes_apart, "ray": rays_apart}.get(cls, apart)
 
 
 def around_apart(one: Sequence[float], other: Sequence[float]) -> float:
@@ -161,6 +165,16 @@ def round_apart(one: Sequence[float], other: Sequence[float]) -> float:
     if len(circle) != 3 or len(line) == 3:
         return apart(one, other)
     return float(abs(abs(places(line) - complex(*circle[:2])) - circle[2]).max())
+
+
+def rays_apart(one: Sequence[float], other: Sequence[float]) -> float:
+    """The same of two rays; of those that leave the page only their carriers are told apart, for a
+    point at infinity lies both ways."""
+    (start, end), (first, last) = places(one), places(other)
+    if min(abs(end - start), abs(last - first)) < PAGE:
+        return apart(one, other)
+    along = (last - first) / abs(last - first)
+    return float(max(abs(((at - first) * along.conjugate()).imag) for at in (start, end)))
 
 
 def strokes_apart(one: Sequence[float], other: Sequence[float]) -> float:

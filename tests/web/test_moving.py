@@ -14,13 +14,16 @@ import pytest
 import shapely
 from msgspec.structs import replace
 
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import above_foot
+from graphkin.construction.core.quantities import SHEETS
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import clipped
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.pieces import followed
 from graphkin.motion.sweep import sweep_of
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
 from graphkin.text import words
 from graphkin.web.moving import Moving, moving, still
@@ -43,16 +46,6 @@ TEETH = ("gear", "gear-disc")
 """The outlines of gears."""
 CURVES = ("trajectory", "fixed-centrode", "moving-centrode", "locus")
 """Curves of the whole motion: they are drawn once, and carried with what bears them."""
-OTHERWISE = {
-    ("four-bar-change-point", "ray"): "a link that only shifts: rounding says which end is far",
-    ("excavator-absolute", "sense"): "the place of the arrow is chosen where the scene stands",
-    ("excavator-relative", "sense"): "the place of the arrow is chosen where the scene stands",
-    ("jumper", "sense"): "the place of the arrow is chosen where the scene stands",
-    ("trammel", "drive"): "a dimension that is short somewhere is left out there on paper",
-    ("trammel", "sense"): "the heads of that dimension",
-    ("rod-and-wheel", ""): "the construction has other steps in a closure of another number",
-}
-"""What is not compared, and why: marks of a class, or a whole scene."""
 PLACES = tuple((k + 0.5) / 24 for k in range(24)) if EVERY else (0.07, 0.38, 0.72)
 """The places looked at, in parts of the range."""
 
@@ -131,16 +124,27 @@ def is_nothing(at: Sequence[float]) -> bool:
     return len(at) == 4 and hypot(at[2] - at[0], at[3] - at[1]) < 1e-6
 
 
+def is_of_one_position(mark: Mark, drawing: Drawing) -> bool:
+    """Whether a mark follows from the position alone; labels are placed by what is about them,
+    curves are of the whole motion, teeth mesh by a law of their own, auxiliary circles may leave
+    the page, and the head of a ray to a centre lies off it."""
+    first, *about = mark.cls.split()
+    if isinstance(mark, Text) or first in ("label", "number", "leader"):
+        return False
+    if isinstance(mark, Polyline) and first == "arrowhead":
+        value = None if mark.step is None else drawing.trace.values[mark.step]
+        return not isinstance(value, Ratio) or about[0] not in SHEETS
+    return not isinstance(mark, Polyline) or first not in (*CURVES, *TEETH, "construction")
+
+
 def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
     """What a page draws otherwise than Python at a place of the driver."""
     (sheets, found), mechanism = page_of(name), named(name)
-    left = {cls for scene, cls in OTHERWISE if scene == name}
     here = defaultdict(list)
     drawn: dict[Any, int] = defaultdict(int)
     places = {mark_id: (mark, s, side) for mark_id, mark, s, side in fields(sheets)}
     for mark_id, mark, s, side in fields(sheets):
-        first = mark.cls.split()[0]
-        if isinstance(mark, Text) or first in ("label", "number", "leader"):
+        if not is_of_one_position(mark, sheets[s].drawing):
             continue
         drawn[s, side, *kind_of(mark)] += 1
         at = marks.get(mark_id, numbers(mark))
@@ -161,10 +165,10 @@ def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
         }
         for side, there in enumerate(redrawn_near(mechanism, found.driven, sheet, x, pins)):
             wanted = defaultdict(list)
-            for mark in there:
+            for mark in (each for each in there if is_of_one_position(each, sheet.drawing)):
                 wanted[s, side, *kind_of(mark)].append(numbers(mark))
             mine = {key: at for key, at in here.items() if key[:2] == (s, side)}
-            yield from differences(mine, wanted, drawn, x, left)
+            yield from differences(mine, wanted, drawn, x)
 
 
 def differences(
@@ -172,12 +176,9 @@ def differences(
     wanted: dict[Any, list[Any]],
     drawn: dict[Any, int],
     x: float,
-    left: set[str],
 ) -> Iterator[str]:
     """Marks of one that no mark of the other lies at; those that were not drawn cannot follow."""
     for key in {*mine, *wanted}:
-        if is_left(key) or key[3].removeprefix("arrowhead ") in left:
-            continue
         a, b = mine.get(key, []), wanted.get(key, [])
         off = off_by(*key[2:4])
         for at in (each for each in a if not is_nothing(each)):
@@ -189,16 +190,7 @@ def differences(
                     yield f"at {x:g} {key}: {at} is not on the page, which has {a}"
 
 
-def is_left(key: tuple[Any, ...]) -> bool:
-    """Curves of the whole motion; teeth, which mesh by a law of their own; auxiliary circles, which
-    may leave the page; the head of a ray to what is far, which lies off it."""
-    kind, cls, name = key[2:5]
-    far = cls.startswith("arrowhead") and name[:1] in "IJW" and not name.startswith("W_")
-    is_curve = kind == "Polyline" and cls.split()[0] in (*CURVES, "construction")
-    return is_curve or (kind == "Polyline" and cls in TEETH) or (bool(name) and far)
-
-
-@pytest.mark.parametrize("name", [name for name in WHICH if (name, "") not in OTHERWISE])
+@pytest.mark.parametrize("name", WHICH)
 def test_marks_follow_as_python_draws_them(name):
     """Every line, circle, arc and vector within 0.01 mm of a fresh drawing at the same scales."""
     _, found = page_of(name)

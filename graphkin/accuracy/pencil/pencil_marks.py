@@ -33,11 +33,6 @@ class PencilMark(Enum):
 
 COUNT = {PencilMark.POINT: 2, PencilMark.ARROW: 3}
 COUNT |= dict.fromkeys((PencilMark.LINE, PencilMark.ARC, PencilMark.WAY, PencilMark.CLOSING), 1)
-LAID = {
-    "beside",
-    "similar-point",
-}
-"""Actions that lay off a point from the one that is their first value."""
 
 
 def mark_of(step: Step, value: Any) -> PencilMark | None:
@@ -46,7 +41,7 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
         return PencilMark.CLOSING
     if step.plane is Plane.NUMBERS or isinstance(value, Vector):
         return None
-    key, kind = step.action.key if step.action is not None else "", construction(step)
+    kind = construction(step)
     if kind is not None and step.role in kind.unmarked:
         return None
     if isinstance(value, Line):
@@ -55,13 +50,12 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
         return PencilMark.ARC
     if isinstance(value, Ratio):
         return PencilMark.POINT
-    kind = construction(step)
-    if key == "axis" or (kind is not None and step.role in kind.directions):
+    if not isinstance(value, complex):
+        return None
+    if kind is not None and step.role in kind.directions:
         return PencilMark.WAY
-    is_laid = key in LAID or (kind is not None and step.role in kind.laid_off)
-    return (
-        (PencilMark.ARROW if is_laid else PencilMark.POINT) if isinstance(value, complex) else None
-    )
+    is_laid = kind is not None and step.role in kind.laid_off
+    return PencilMark.ARROW if is_laid else PencilMark.POINT
 
 
 class Paper(Struct, frozen=True):

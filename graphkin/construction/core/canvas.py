@@ -56,6 +56,9 @@ class Canvas(Protocol):
     def swing(self, centre: Any, end: Any) -> None:
         """The arc by which a point was carried about a centre."""
 
+    def opening(self, name: str, centre: Any, end: Any) -> None:
+        """As much of the arc about a centre as finds a point on it."""
+
     # --- plans -------------------------------------------------------------------------------
 
     def locus(self, name: str, text: str) -> None:

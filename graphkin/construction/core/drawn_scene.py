@@ -36,8 +36,9 @@ class Drawing(Struct, frozen=True, dict=True):
     ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``stand`` is
     where it stands on all sheets alike, None where this sheet alone decides. ``curves`` are those
     over the whole motion. ``computed`` says by the symbol why a quantity is computed, not measured.
-    ``driven`` are angles of drivers in degrees, where these are not the scene's. ``held``
-    is the drawing at whose position sides of symbols are chosen, where it is not this one.
+    ``driven`` are angles of drivers in degrees, where these are not the scene's.
+    ``chosen`` is the sheet whose choices of places hold for it too: where a mark has room, and what
+    is long enough for one, which may be otherwise where the same scene stands elsewhere.
     """
 
     kind: str
@@ -51,7 +52,12 @@ class Drawing(Struct, frozen=True, dict=True):
     curves: tuple[Curve, ...] = ()
     computed: Mapping[str, str] = field(default_factory=dict)
     driven: Mapping[str, Any] = field(default_factory=dict)
-    held: Drawing | None = None
+    chosen: Drawing | None = None
+
+    @property
+    def choosing(self) -> Drawing:
+        """The sheet at whose position places of marks are chosen."""
+        return self.chosen or self
 
     @property
     def plane(self) -> Plane:

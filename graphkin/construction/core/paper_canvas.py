@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from functools import wraps
+from itertools import count
 from math import degrees, hypot
-from typing import Any
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from msgspec import Struct
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.construction.core.curve_marks import clipped_path, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.layout import BEYOND, SWEEP
+from graphkin.construction.core.layout import BEYOND, SWEEP, arc_span
 from graphkin.construction.core.plan_marks import name_point, put_locus, put_point, put_pole
 from graphkin.construction.core.plot import Plot, above_foot, line_ends, line_part, middle
 from graphkin.construction.core.program import Step
@@ -23,12 +27,12 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import FIXED, SHORT, arrow, bearing, head, square_mark
 from graphkin.numbers.plane import Circle, Ratio
 
+P = ParamSpec("P")
+R = TypeVar("R")
 ASIDE = f"point {OWN_LINES}"
 """The class of a point of an auxiliary plan."""
 SIDE = 6.0
 """Shortest side of a triangle, in mm, at whose corner a right angle is marked."""
-LEG = "leg"
-"""The part of a step's marks that is a line between two points, not the step's own line."""
 SMALL, ARM = 1.3, 2.2
 """Radius of the circle of a centre, and how far its cross reaches, in mm."""
 RING = 1.9
@@ -47,10 +51,10 @@ BEYOND_TIPS = 4.0
 """How far the line through the tips of two vectors goes on beyond them, in mm."""
 
 
-def draw_part(plot: Plot, number: int, step: Step, kind: Construction) -> None:
+def draw_part(canvas: PaperCanvas, kind: Construction) -> None:
     """Draw the step of a construction, unless the construction is too small for it."""
-    if not kind.is_hidden(plot.drawing):
-        kind.marks(PaperCanvas(plot, number), step.role)
+    if not kind.is_hidden(canvas.drawing):
+        kind.marks(canvas, canvas.step.role)
 
 
 def raise_points_aside(plot: Plot) -> None:
@@ -66,11 +70,30 @@ def raise_points_aside(plot: Plot) -> None:
     plot.board.marks.sort(key=lambda mark: id(mark) in free)
 
 
+def stroke(
+    draw: Callable[Concatenate[PaperCanvas, P], R],
+) -> Callable[Concatenate[PaperCanvas, P], R]:
+    """What a construction draws at once: its marks and labels bear the number of the stroke."""
+
+    @wraps(draw)
+    def numbered(canvas: PaperCanvas, /, *args: P.args, **more: P.kwargs) -> R:
+        board, part = canvas.plot.board, next(canvas.strokes)
+        marks, labels = len(board.marks), len(board.labels)
+        found = draw(canvas, *args, **more)
+        if part:
+            board.marks[marks:] = [replace(mark, part=part) for mark in board.marks[marks:]]
+            board.labels[labels:] = [replace(each, part=part) for each in board.labels[labels:]]
+        return found
+
+    return numbered
+
+
 class PaperCanvas(Struct, frozen=True):
-    """The marks of one step on a field of a sheet."""
+    """The marks of one step on a field of a sheet, numbered by the strokes that draw them."""
 
     plot: Plot
     number: int
+    strokes: Iterator[int] = field(default_factory=count)
 
     @property
     def drawing(self) -> Drawing:
@@ -95,6 +118,7 @@ class PaperCanvas(Struct, frozen=True):
         """How long a way of the mechanism is drawn, in mm."""
         return abs(way) * self.plot.field.mm
 
+    @stroke
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
         """A vector set on the mechanism, with its symbol."""
         start, end = self.plot.field(tail), self.plot.field(tip)
@@ -105,6 +129,7 @@ class PaperCanvas(Struct, frozen=True):
             Label(symbol(name), look, subject, 2.5, name, self.number, led=short, spare=True)
         )
 
+    @stroke
     def point(self, name: str, at: Any) -> None:
         """A small named point."""
         place, own = self.plot.field(at), self.step.name
@@ -113,23 +138,24 @@ class PaperCanvas(Struct, frozen=True):
             Label(symbol(name), "construction", place, 2.5, own, self.number, radius=DOT)
         )
 
+    @stroke
     def segment(self, start: Any, end: Any) -> None:
         """A thin line between two points."""
-        self.thin(self.plot.field(start), self.plot.field(end), LEG)
+        self.thin(self.plot.field(start), self.plot.field(end))
 
+    @stroke
     def line(self) -> bool:
         """The step's own line as far as the layout says."""
-        ends = line_ends(self.plot, self.number, self.value(self.number))
-        if ends:
-            self.thin(*ends)
-        return ends is not None
+        return self.own("construction")
 
+    @stroke
     def line_beyond(self) -> None:
         """The same, where it leads farther than its own two points."""
         low, high = self.plot.layout.spans[self.number]
         if high - low >= 2 * BEYOND + TINY:
-            self.line()
+            self.own("construction")
 
+    @stroke
     def line_end(self, name: str) -> None:
         """The end of the step's own line, beyond what is drawn on it."""
         high = self.plot.layout.spans[self.number][1]
@@ -138,6 +164,7 @@ class PaperCanvas(Struct, frozen=True):
             line = LineMark(*part[0], *part[1], "construction", name, self.number)
             self.plot.board.marks.append(line)
 
+    @stroke
     def arc(self, name: str) -> None:
         """As much of the step's own circle as the layout says, where points were found on it."""
         span = self.plot.layout.spans.get(self.number)
@@ -147,11 +174,19 @@ class PaperCanvas(Struct, frozen=True):
             marks = self.plot.board.marks
             marks.append(Arc(*centre, radius, *span, "compass", name, self.number))
 
-    def thin(self, start: XY, end: XY, part: str = "") -> None:
-        """A construction line."""
-        marks = self.plot.board.marks
-        marks.append(LineMark(*start, *end, "construction", self.step.name, self.number, part))
+    def own(self, look: str, name: str | None = None) -> bool:
+        """The step's own line as far as the layout says; False where none of it is in the field."""
+        ends = line_ends(self.plot, self.number, self.value(self.number))
+        if ends:
+            self.thin(*ends, look, name)
+        return ends is not None
 
+    def thin(self, start: XY, end: XY, look: str = "construction", name: str | None = None) -> None:
+        """A thin line, which bears the step's name unless another is told."""
+        called = self.step.name if name is None else name
+        self.plot.board.marks.append(LineMark(*start, *end, look, called, self.number))
+
+    @stroke
     def right_angle(self, toward: Any) -> None:
         """The mark of a right angle where the step's line begins, if there is room for it."""
         line = self.value(self.number)
@@ -164,6 +199,7 @@ class PaperCanvas(Struct, frozen=True):
             second = (-u, -v) if -low > high else (u, v)
             self.plot.board.marks.append(square_mark(corner, first, second, self.number))
 
+    @stroke
     def swing(self, centre: Any, end: Any) -> None:
         """The arc by which a point was carried about a centre; none about a near one."""
         at, tip = self.plot.field(centre), self.plot.field(end)
@@ -175,6 +211,15 @@ class PaperCanvas(Struct, frozen=True):
             marks = self.plot.board.marks
             marks.append(Arc(*at, radius, *span, "compass", self.step.name, self.number))
 
+    @stroke
+    def opening(self, name: str, centre: Any, end: Any) -> None:
+        """As much of the arc about a centre as finds a point on it."""
+        circle = Circle(centre, abs(end - centre))
+        span, radius = arc_span(circle, [end], self.mm), circle.radius * self.mm
+        at = self.plot.field(centre)
+        arc = Arc(*at, radius, *span, "compass", name, self.number)
+        self.plot.board.marks.append(arc)
+
     # --- plans -------------------------------------------------------------------------------
 
     @property
@@ -184,22 +229,28 @@ class PaperCanvas(Struct, frozen=True):
 
     def locus(self, name: str, text: str) -> None:
         """The step's own line beyond the points on it, with what it is drawn by along it."""
+        parts = next(self.strokes), next(self.strokes)
         if not self.is_aside:
-            put_locus(self.plot, self.number, name, text)
+            put_locus(self.plot, self.number, name, text, parts)
 
+    @stroke
     def image(self) -> None:
         """The step's own point of the plan with its letter; none of a point without letter."""
         if not self.is_aside:
             put_point(self.plot, self.number, self.step, self.value(self.number))
 
+    @stroke
     def pole(self) -> None:
         """The step's own point as the pole of the plan."""
         put_pole(self.plot, self.number, self.step, self.value(self.number))
 
+    @stroke
     def side(self, start: Any, end: Any) -> None:
         """A side of the image of a link, where it is long enough to be drawn."""
-        self.leg(self.step.name, OWN_LINES if self.is_aside else "construction", start, end)
+        look = OWN_LINES if self.is_aside else "construction"
+        self.joining(self.step.name, look, start, end)
 
+    @stroke
     def image_aside(self) -> None:
         """The same of an auxiliary plan, whose points are smaller."""
         if self.step.name:
@@ -207,30 +258,32 @@ class PaperCanvas(Struct, frozen=True):
             self.circled(place, ASIDE, DOT)
             name_point(self.plot, self.number, self.step, place, DOT, OWN_LINES, 2.5)
 
+    @stroke
     def line_aside(self) -> None:
         """The step's own line in an auxiliary plan as far as the layout says."""
-        ends = line_ends(self.plot, self.number, self.value(self.number))
-        if ends:
-            line = LineMark(*ends[0], *ends[1], OWN_LINES, self.step.name, self.number)
-            self.plot.board.marks.append(line)
+        self.own(OWN_LINES)
 
+    @stroke
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
         """A thin line of a look between two points of a plan that stand apart."""
-        if self.size(end - start) > NEAR:
-            ends = *self.plot.field(start), *self.plot.field(end)
-            self.plot.board.marks.append(LineMark(*ends, look, name, self.number))
+        self.joining(name, look, start, end)
 
+    def joining(self, name: str, look: str, start: Any, end: Any) -> None:
+        """The same, as a part of a stroke."""
+        if self.size(end - start) > NEAR:
+            self.thin(self.plot.field(start), self.plot.field(end), look, name)
+
+    @stroke
     def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
         """A thin line of a look on a line through a point, from one distance to another."""
-        self.leg(name, look, at + along * low, at + along * high)
+        self.joining(name, look, at + along * low, at + along * high)
 
+    @stroke
     def chain(self) -> None:
         """The step's own line as far as the layout says, as a chain line."""
-        ends = line_ends(self.plot, self.number, self.value(self.number))
-        if ends:
-            line = LineMark(*ends[0], *ends[1], CHAIN_LINES, "", self.number)
-            self.plot.board.marks.append(line)
+        self.own(CHAIN_LINES, "")
 
+    @stroke
     def through(self, first: Any, second: Any, third: Any) -> None:
         """A chain line through two points that stand apart and a third, a little beyond them."""
         way = second - first
@@ -239,17 +292,17 @@ class PaperCanvas(Struct, frozen=True):
             along = [((p - first) * unit.conjugate()).real for p in (first, second, third)]
             beyond = BEYOND / 2 / self.mm
             low, high = min(along) - beyond, max(along) + beyond
-            ends = *self.plot.field(first + low * unit), *self.plot.field(first + high * unit)
-            self.plot.board.marks.append(LineMark(*ends, CHAIN_LINES, "", self.number))
+            ends = self.plot.field(first + low * unit), self.plot.field(first + high * unit)
+            self.thin(*ends, CHAIN_LINES, "")
 
     # --- centres -----------------------------------------------------------------------------
 
+    @stroke
     def ray(self, name: str) -> None:
         """The step's own line as far as the layout says, in the look of rays."""
-        ends = line_ends(self.plot, self.number, self.value(self.number))
-        if ends:
-            self.plot.board.marks.append(LineMark(*ends[0], *ends[1], "ray", name, self.number))
+        self.own("ray", name)
 
+    @stroke
     def centre(self, value: Ratio) -> bool:
         """The circle and cross of a centre with its letter; False where it is off the field."""
         point = self.drawing.place(value)
@@ -273,12 +326,14 @@ class PaperCanvas(Struct, frozen=True):
         """A circle that bears the step's name."""
         self.plot.board.marks.append(CircleMark(*at, radius, cls, self.step.name, self.number))
 
+    @stroke
     def ring(self, at: Any) -> None:
         """The ring around a pin that is a centre, with the centre's letter."""
         place = self.plot.field(at)
         self.circled(place, f"centre {self.plot.colour}", RING)
         name_point(self.plot, self.number, self.step, place, RING)
 
+    @stroke
     def spot(self, at: Any) -> None:
         """A small point with its letter, where the field holds it."""
         if self.plot.field.holds(at, WITHIN):
@@ -286,6 +341,7 @@ class PaperCanvas(Struct, frozen=True):
             self.circled(place, "point construction", DOT)
             name_point(self.plot, self.number, self.step, place, DOT)
 
+    @stroke
     def circle(self, circle: Circle, look: str) -> None:
         """As much of a circle as lies in the field."""
         mm = self.plot.field.mm
@@ -295,6 +351,7 @@ class PaperCanvas(Struct, frozen=True):
             parts = clipped_path(around, rect, cls, self.step.name, self.number)
             self.plot.board.marks.extend(parts)
 
+    @stroke
     def away(
         self, start: Any, way: Any, text: str, *, ray: bool = True, headed: bool = True
     ) -> None:
@@ -313,6 +370,7 @@ class PaperCanvas(Struct, frozen=True):
         label = Label(text, colour, subject, 2.5, name, self.number, priority=2)
         self.plot.board.labels.append(label)
 
+    @stroke
     def through_tips(self, one: tuple[Any, Any], other: tuple[Any, Any]) -> None:
         """The line through the tips of two vectors and a little beyond."""
         first, last = sum(one), sum(other)

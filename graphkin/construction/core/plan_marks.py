@@ -26,19 +26,22 @@ DOT = 0.7
 """Radius of a point of a plan in mm."""
 
 
-def put_locus(plot: Plot, number: int, name: str, text: str) -> None:
+def put_locus(plot: Plot, number: int, name: str, text: str, parts: tuple[int, int]) -> None:
     """A construction line as far as the layout says, with what it is drawn by along it.
 
-    Between its first point and the one that was found on it an arrow lies; it is drawn beyond.
+    Between its first point and the one that was found on it an arrow lies; it is drawn beyond, in
+    two ``parts``, the near one first.
     """
-    value = plot.drawing.trace.values[number]
-    ends = [part for part in beyond(plot, number, value) if part]
-    for part in ends:
-        plot.board.marks.append(LineMark(*part[0], *part[1], "construction", name, number))
-    if ends:
-        plot.board.labels.append(
-            Label(text, "construction", ends[-1], 2.5, name, number, priority=-1)
-        )
+    ends = beyond(plot, number, plot.drawing.trace.values[number])
+    drawn = [(end, part) for end, part in zip(ends, parts, strict=False) if end]
+    for end, part in drawn:
+        line = LineMark(*end[0], *end[1], "construction", name, number, part)
+        plot.board.marks.append(line)
+    if drawn:
+        end, part = drawn[-1]
+        own = name, number
+        label = Label(text, "construction", end, 2.5, *own, priority=-1, part=part)
+        plot.board.labels.append(label)
 
 
 def beyond(plot: Plot, number: int, value: Any) -> list[tuple[XY, XY] | None]:

@@ -204,7 +204,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     def is_shown_before(self, drawing: Drawing) -> bool:
         """Whether a right triangle, or an earlier triangle of its kind, has drawn that velocity."""
         assert self.velocity is not None
-        number, kind = next(self.same_velocity(drawing), (None, None))
+        number, kind = next(self.same_velocity(drawing.choosing), (None, None))
         if number is None:
             return False
         return number < self.velocity or not isinstance(kind, CoriolisComponent)

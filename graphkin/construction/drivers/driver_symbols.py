@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from math import degrees, pi
+from typing import NamedTuple
 
 from graphkin.construction.core.amounts import in_degrees, written
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
@@ -54,10 +55,16 @@ def draw_drivers(board: FieldContent, drawing: Drawing, field: Field) -> None:
                 nth = sum(1 for name, _ in used if name == start)
                 used.append((start, nth))
                 draw_crank(board, drawing, field, driver, ANGLE + WIDER * nth)
-        elif driver.kind == "slide":
-            draw_slide(board, drawing, field, driver)
         else:
-            draw_roll(board, drawing, field, driver)
+            sheets = drawing, drawing.choosing
+            ways = (driven_ways(each, same(driver, drawing, each)) for each in sheets)
+            for way, chosen in zip(*ways, strict=True):
+                draw_way(board, drawing, field, driver, way, dimensioned(drawing, field, chosen))
+
+
+def same(driver: Driver, drawing: Drawing, other: Drawing) -> Driver:
+    """The driver of another sheet of the same scene."""
+    return other.scene.drivers[drawing.scene.drivers.index(driver)]
 
 
 def draw_crank(
@@ -127,8 +134,11 @@ def draw_sense(
     if omega == 0:
         return
     sign = pick(omega > 0, 1, -1)
-    near, long = clear_of(drawing, field, driver, end, sign)
-    tip = end + sign * (near + long)
+    (near, far), turns = SENSE, dict(cuts(drawing, field, driver, end, sign))
+    chosen = drawing.choosing
+    stands = stands_beyond(chosen, field, same(driver, drawing, chosen))
+    start, long = turns[stands] + near if stands else near, far - near
+    tip = end + sign * (start + long)
     way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
     board.marks += turned_arrow(centre, radius, way, (tip, -sign * long), "sense")
     at = across(centre, half, radius, 0)
@@ -144,34 +154,41 @@ def speed_of(drawing: Drawing, driver: Driver) -> Real:
     return float(driver.speed.si(drawing.scene.values))
 
 
-def clear_of(
-    drawing: Drawing, field: Field, driver: Driver, end: Real, sign: Real
-) -> tuple[Real, float]:
-    """How far beyond its crank a turning arrow begins and how long it is, in degrees in its sense.
+def stands_beyond(drawing: Drawing, field: Field, driver: Driver) -> str:
+    """What a turning arrow stands beyond: nothing but its crank, or what else would cut it."""
+    (near, far), end = SENSE, crank_end(drawing, driver)
+    sign = 1 if speed_of(drawing, driver) > 0 else -1
+    found = list(cuts(drawing, field, driver, end, sign))
+    turns = [(0.0, ""), *sorted((turn, name) for name, turn in found)]
 
-    Further on where a bar, the ground of its pivot or the velocity set there would cut it.
+    def is_free(start: float) -> bool:
+        return not any(-AROUND < cut - start < far - near + AROUND for _, cut in found)
+
+    places = ((turn + near, name) for turn, name in turns)
+    return next((name for at, name in places if at + far < 360 and is_free(at)), "")
+
+
+def cuts(
+    drawing: Drawing, field: Field, driver: Driver, end: Real, sign: Real
+) -> Iterator[tuple[str, Real]]:
+    """How far beyond a crank, in degrees in its sense, what would cut an arrow stands at its pivot.
+
+    That are bars, the ground of the pivot, and the velocity of one that moves.
     """
-    (near, far), here = SENSE, pivot_of(drawing, driver)
-    velocity = drawing.trace.value("velocity", here)
-    ways: list[complex] = []
-    if velocity is not None and not abs(velocity) < NOISE * drawing.largest:
-        ways.append(velocity)
-    elif drawing.held is not None:
-        driver = drawing.held.scene.drivers[drawing.scene.drivers.index(driver)]
-        drawing = drawing.held
-        end, sign = crank_end(drawing, driver), pick(speed_of(drawing, driver) > 0, 1, -1)
-    ground = ground_ways(drawing, field.mm).get(here)
-    if ground is not None:
-        ways += [ground * turn_by(side * GROUND / DEGREE) for side in (-1, 0, 1)]
+    here = pivot_of(drawing, driver)
     links = (link for link in drawing.scene.links.values() if here in link.points)
     others = (point for link in links for point in link.points if link.name != driver.link)
-    ways += [drawing.positions[p] - drawing.positions[here] for p in others if p != here]
-    turns = (sign * (phase(way) * DEGREE - end) % 360 for way in ways if abs(way) > 0)
-    cuts = sorted(turns)
-    starts = [start for start in (near, *(cut + near for cut in cuts)) if start + far < 360]
-    length = far - near
-    free = (s for s in starts if not any(-AROUND < cut - s < length + AROUND for cut in cuts))
-    return next(free, near), length
+    ways = {point: drawing.positions[point] - drawing.positions[here] for point in others}
+    velocity = drawing.trace.value("velocity", here)
+    if velocity is not None and not abs(velocity) < NOISE * drawing.largest:
+        ways[f"v {here}"] = velocity
+    ground = ground_ways(drawing, field.mm).get(here)
+    if ground is not None:
+        for side in (-1, 0, 1):
+            ways[f"ground {side}"] = ground * turn_by(side * GROUND / DEGREE)
+    for name, way in ways.items():
+        if abs(way) > 0:
+            yield name, sign * (phase(way) * DEGREE - end) % 360
 
 
 def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
@@ -180,25 +197,43 @@ def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
     return next((slide for slide in slides if slide.on == driver.against), None)
 
 
-def draw_slide(board: FieldContent, drawing: Drawing, field: Field, driver: Driver) -> None:
-    """The way of a driven block from the zero of its guide, and the sense of its speed."""
-    slide = driven_slide(drawing, driver)
-    ways = [w for w in drawing.standing.guideways if w.block == driver.link and w.slide is slide]
-    for way in ways:
-        path = 1j * way.offset * way.along
-        lengths = (way.zero + path, way.at, way.along)
-        fixed = way.slide.on == FRAME
-        drawn = seat(drawing, way) if fixed else way.at
-        draw_way(board, drawing, field, driver, lengths, drawn, drawn)
+class DrivenWay(NamedTuple):
+    """A coordinate that is driven: its zero, its place, and its direction.
+
+    A coordinate too short for its dimension is written beside ``drawn``; the arrow of its rate of
+    change stands beside ``moved``, which has this speed.
+    """
+
+    zero: complex
+    here: complex
+    along: complex
+    drawn: complex
+    moved: complex
 
 
-def draw_roll(board: FieldContent, drawing: Drawing, field: Field, driver: Driver) -> None:
-    """The way of a driven wheel's contact from where its track counts, the sense at its centre."""
+def driven_ways(drawing: Drawing, driver: Driver) -> Iterator[DrivenWay]:
+    """The way of a driven block from the zero of its guide; that of a driven wheel's contact from
+    where its track counts, whose centre has the speed."""
+    if driver.kind == "slide":
+        slide = driven_slide(drawing, driver)
+        for way in drawing.standing.guideways:
+            if way.block == driver.link and way.slide is slide:
+                path = 1j * way.offset * way.along
+                drawn = seat(drawing, way) if way.slide.on == FRAME else way.at
+                yield DrivenWay(way.zero + path, way.at, way.along, drawn, drawn)
+        return
     for touch in drawing.standing.touches:
         mine = touch.disc.link == driver.link and touch.on == driver.against
         if mine and touch.zero is not None:
-            lengths = (touch.zero, touch.at, touch.along)
-            draw_way(board, drawing, field, driver, lengths, touch.at, touch.disc.centre)
+            yield DrivenWay(touch.zero, touch.at, touch.along, touch.at, touch.disc.centre)
+
+
+def dimensioned(drawing: Drawing, field: Field, way: DrivenWay) -> tuple[float, bool]:
+    """How far to the right of a driven way its dimension has room, and whether it is long enough
+    for one: chosen where places are chosen."""
+    long = abs(way.here - way.zero) * field.mm >= LEAST
+    aside = free_side(drawing.choosing, field, way.zero, way.here, way.along)
+    return aside, field.holds(way.zero, 1) and bool(long)
 
 
 def draw_way(
@@ -206,36 +241,29 @@ def draw_way(
     drawing: Drawing,
     field: Field,
     driver: Driver,
-    lengths: tuple[complex, complex, complex],
-    drawn: complex,
-    moved: complex,
+    driven: DrivenWay,
+    chosen: tuple[float, bool],
 ) -> None:
-    """A coordinate along a line, dimensioned beside it, and an arrow for its rate of change.
-
-    ``lengths`` are the zero, the place and the direction. A coordinate too short for its dimension
-    is written beside ``drawn``; the arrow stands beside ``moved``, which has this speed.
-    """
-    zero, here, along = lengths
-    way, aside = field.way(along), free_side(drawing, field, zero, here, along)
+    """A driven coordinate dimensioned beside its line, and an arrow for its rate of change."""
+    way, (aside, is_dimensioned) = field.way(driven.along), chosen
     side = 1 if aside > 0 else -1
-    start, end = field(zero), field(here)
+    start, end = field(driven.zero), field(driven.here)
     name = f"s {driver.link}"
     text = f"{angle_symbol(drawing.scene, driver)} = "
     text += written(drawing.scene, drawing.words, driver.position)
-    shown = field.holds(zero, 1) and abs(here - zero) * field.mm >= LEAST
-    if shown:
+    if is_dimensioned:
         low, high = across(start, way, 0, aside), across(end, way, 0, aside)
         thin = across(start, way, 0, aside + side * 1.5), across(end, way, 0, aside + side * 1.5)
         lines = ((start, thin[0]), (end, thin[1]), (low, high))
         board.marks += within(dimension(lines, name), field.rect)
         board.labels.append(Label(text, "", (low, high), 2.5, name))
     else:
-        at = across(field(drawn), way, 0, side * BLOCK[1] / 2)
+        at = across(field(driven.drawn), way, 0, side * BLOCK[1] / 2)
         board.labels.append(Label(text, "", at, 2.5, name, away=across((0.0, 0.0), way, 0, side)))
     speed = speed_of(drawing, driver)
     if speed != 0:
         ahead = pick(speed > 0, HALF, -HALF)
-        tail, tip = (across(field(moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
+        tail, tip = (across(field(driven.moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
         board.marks += arrow(tail, tip, "sense", f"speed {driver.link}")
         index = driver_index(driver)
         label = Label(f"*v*_{{{index}}}", "", (tail, tip), 2.5, f"speed {driver.link}")

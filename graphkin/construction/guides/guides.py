@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
+from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import across
@@ -27,6 +30,26 @@ from graphkin.scene.model import FRAME, GuideOrTrack, Slide
 from graphkin.structure.pairs import Sliding
 
 
+class CarriedDirection(Construction, frozen=True, kw_only=True):
+    """A direction of a ``link``'s own axes, in the plane."""
+
+    gives: ClassVar[tuple[str, ...]] = ("turn",)
+    directions: ClassVar[frozenset[str]] = frozenset({"turn"})
+
+    link: str
+    turn: int
+
+
+class CarriedPlace(Construction, frozen=True, kw_only=True):
+    """A place of a ``link``'s own axes that is none of its points, in the plane."""
+
+    gives: ClassVar[tuple[str, ...]] = ("place",)
+    laid_off: ClassVar[frozenset[str]] = frozenset({"place"})
+
+    link: str
+    place: int
+
+
 def axis(pen: Pen, shapes: LinkShapes, link: str) -> int:
     """The direction of a link's x axis: known from its group, or from two of its points."""
     if not pen.has("axis", link):
@@ -43,7 +66,8 @@ def direction_on(pen: Pen, shapes: LinkShapes, link: str, direction: int) -> int
     """A direction of a link's own axes, in the plane."""
     if link == FRAME:
         return direction
-    return pen.draw(turned, axis(pen, shapes, link), direction)
+    turn = pen.draw(turned, axis(pen, shapes, link), direction)
+    return pen.make(CarriedDirection(link=link, turn=turn)).turn
 
 
 def local_line(pen: Pen, shapes: LinkShapes, slide: GuideOrTrack, on: str) -> tuple[int, int]:
@@ -82,7 +106,8 @@ def point_on(pen: Pen, shapes: LinkShapes, link: str, local: int) -> int:
         return local
     start = pen.bases[link].start
     where = pen.the("position", start), axis(pen, shapes, link), shapes.local(link, start)
-    return pen.draw(placed, *where, local)
+    place = pen.draw(placed, *where, local)
+    return pen.make(CarriedPlace(link=link, place=place)).place
 
 
 def known_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, sought: str = "") -> int:

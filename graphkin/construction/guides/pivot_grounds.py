@@ -41,7 +41,7 @@ def ground_ways(drawing: Drawing, mm: float) -> dict[str, complex]:
 
     ``mm`` are the millimetres of paper that a metre takes up.
     """
-    still = drawing.held or drawing
+    still = drawing.choosing
     if mm not in still.grounds:
         still.grounds[mm] = chosen(still, mm)
     return still.grounds[mm]

@@ -6,22 +6,18 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from graphkin.construction.core.given_data import angle_symbol
-from graphkin.construction.core.kind import Construction, constructions
-from graphkin.construction.core.layout import arc_span
+from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.line_words import axis_of
 from graphkin.construction.core.naming import way_of
-from graphkin.drawing.marks import Arc
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
-from graphkin.numbers.plane import Circle
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.pairs import Pin, Sliding
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.drawing.field import Field
-    from graphkin.drawing.labels import FieldContent
 
 
 class ClosedGroup(Construction, frozen=True):
@@ -95,6 +91,15 @@ class ClosedGroup(Construction, frozen=True):
             return second, first
         return first if first in known else "", second
 
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Of the arc by which the locus is cut, the part that finds the pin."""
+        if role == "closing" and len(self.pins) > 1:
+            fixed, moving = self.ends_of_bar(canvas.drawing)
+            if fixed:
+                targets = canvas.drawing.trace.program.targets
+                ends = (canvas.value(targets["position", point]) for point in (fixed, moving))
+                canvas.opening("".join(self.pins), *ends)
+
     # --- in words --------------------------------------------------------------------------------
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
@@ -133,17 +138,3 @@ class ClosedGroup(Construction, frozen=True):
             number=str(self.number),
             axis=axis_of(drawing, drawing.scene.link(self.counted)),
         )
-
-
-def draw_closing_arcs(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Of the arc that a locus is cut by, where a group closes, the part that finds the pin."""
-    for kind in constructions(drawing.trace.program, ClosedGroup):
-        if kind.closing not in drawing.trace.values or len(kind.pins) < 2:
-            continue
-        fixed, moving = kind.ends_of_bar(drawing)
-        if fixed:
-            centre, pin = drawing.positions[fixed], drawing.positions[moving]
-            circle = Circle(centre, abs(pin - centre))
-            span, name = arc_span(circle, [pin], field.mm), "".join(kind.pins)
-            radius = circle.radius * field.mm
-            board.marks.append(Arc(*field(centre), radius, *span, "compass", name, kind.closing))

@@ -22,6 +22,7 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a ``link``, laid off from its point ``start`` as the link has turned."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
+    laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
 
     link: str
     start: str

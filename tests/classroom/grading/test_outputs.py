@@ -19,8 +19,9 @@ import pytest
 from click.testing import CliRunner
 from msgspec.structs import replace
 
-from graphkin.classroom.grading import gradebook_csv
+from graphkin.classroom.grading import class_report, gradebook_csv
 from graphkin.classroom.grading.class_marking import Class, graded_class
+from graphkin.classroom.grading.class_pictures import pictures
 from graphkin.classroom.grading.feedback import feedback_pages
 from graphkin.classroom.grading.gradebook import GradebookError, filled
 from graphkin.classroom.grading.gradebook_csv import read_gradebook
@@ -35,6 +36,26 @@ from tests.classroom.grading.students import book_of, given, key_answers, lab_of
 
 HOSTILE = '<script>alert("1")</script> O\'Neil, Jr. Ștefan _*^{} \u202eabc'
 MARKS = {"0001": Fraction(17, 2), "0002": Fraction(12), "X9": Fraction(1)}
+
+
+NO_PAGES = ("--format", "none")
+"""Marks alone, without feedback and report."""
+
+
+DRAWN: dict[str, dict[str, bytes]] = {}
+"""The pictures of the first report in each language."""
+
+
+@pytest.fixture(autouse=True)
+def pictures_drawn_once(monkeypatch):
+    """Pictures take most of the time of a report, and none of these tests looks into them."""
+
+    def drawn(graded, words, *more):
+        if words.language not in DRAWN:
+            DRAWN[words.language] = pictures(graded, words, *more)
+        return DRAWN[words.language]
+
+    monkeypatch.setattr(class_report, "pictures", drawn)
 
 
 @cache
@@ -53,7 +74,7 @@ def small_class(**changes: float) -> Class:
 def files(found: Class, language: str = "en", before: bytes = b"") -> dict[str, bytes]:
     """The files of a report."""
     told = ReportSettings(HOSTILE, words(language))
-    return report_files(found, lab_of("pump"), told, ("html", "pdf"), before)
+    return report_files(found, lab_of("pump"), told, ("html",), before)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -283,7 +304,7 @@ def test_cells_that_cannot_be_read_are_told_with_status_1(folder):
 def test_a_gradebook_waits_for_points_that_wait(folder):
     text = (folder / "answers.csv").read_text(encoding="utf-8")
     (folder / "answers.csv").write_text(blotted(text), encoding="utf-8")
-    found = run(folder, "--gradebook", str(folder / "canvas.csv"), "--lang", "en")
+    found = run(folder, "--gradebook", str(folder / "canvas.csv"), "--lang", "en", *NO_PAGES)
     assert "canvas.csv: 0001 has points that wait" in found.output
     assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == CANVAS
 
@@ -300,13 +321,13 @@ def test_a_held_mark_goes_into_no_gradebook_until_it_is_released(folder):
     cells = {f: f"{v:.5g}" for f, v in marker_of("pump", 8).standard.key.items()}
     table = [["id", *cells], ["0001", *cells.values()]]
     (folder / "answers.csv").write_text("\n".join(map(",".join, table)), encoding="utf-8")
-    book = ("--gradebook", str(folder / "canvas.csv"))
+    book = ("--gradebook", str(folder / "canvas.csv"), *NO_PAGES)
     found = run(folder, *book)
     assert found.exit_code == 0, found.output
     assert "the mark of 0001 is held" in found.output
     assert "O'Neil, Ana (0001)" in found.output and "--release ID" in found.output
     assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == CANVAS
-    assert run(folder, "--release", "0003").exit_code == 2
+    assert run(folder, "--release", "0003", *NO_PAGES).exit_code == 2
     given_back = run(folder, *book, "--force", "--release", "0001")
     assert given_back.exit_code == 0, given_back.output
     filled = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
@@ -325,13 +346,13 @@ def test_a_held_mark_goes_into_no_gradebook_until_it_is_released(folder):
 
 
 def test_whom_to_release_is_said_clearly(folder):
-    assert run(folder).exit_code == 0
+    assert run(folder, *NO_PAGES).exit_code == 0
     assert not (folder / "out" / "released.json").exists()
     assert run(folder, "--force", "--hold", "0003").exit_code == 2
     assert run(folder, "--force", "--hold", "0001", "--release", "0001").exit_code == 2
     for text in ("{", '{"0001": 1}', "[1]", "[" * 100_000):
         (folder / "out" / "released.json").write_text(text, encoding="utf-8")
-        refused = run(folder, "--force")
+        refused = run(folder, "--force", *NO_PAGES)
         assert refused.exit_code == 2 or "is no list of ids" in str(refused.exception)
 
 
@@ -386,7 +407,8 @@ app(sys.argv[1:])
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
-def test_kill_9_in_the_middle_leaves_whole_files_and_the_next_run_ends_it(folder):
+def test_kill_9_in_the_middle_leaves_whole_files_and_the_next_run_ends_it(folder, monkeypatch):
+    monkeypatch.setattr(class_report, "pictures", pictures)  # as another process draws them
     args = ["grade", str(folder / "class"), str(folder / "answers.csv"), "-o", str(folder / "cut")]
     surroundings = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[3])}
     command = [sys.executable, "-c", DIES, *args]
