@@ -22,7 +22,7 @@ SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm 
 UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may stay so
 DEAR = 7.4  # what a label may pay before places with a leader are looked for
 STRUCK = 20.0  # what a place costs at least whose leader crosses a strong line
-WIDE = Level(108, 24)  # how far a label looks that has such a place
+WIDE = Level(108, 12)  # how far a label looks that has such a place
 BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
 SHORT, LONG, LONGEST = 8, 16, 150  # how many labels are pushed about in a chase
@@ -113,7 +113,6 @@ def _widen(seats: Assignment) -> None:
     struck = dict.fromkeys((i for i, paid in enumerate(seats.paid) if paid > STRUCK), WIDE)
     if offers.widen(struck):
         seats.settle(i for i in seats.order() if i in struck)
-        seats.improve(seats.regretted(BAD), SHORT)
     before = [*seats.pick]
     seats.shift(seats.seeking())
     seats.improve(seats.seeking(), LONG)
