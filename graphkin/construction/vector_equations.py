@@ -12,6 +12,8 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vector_equation import chained
+from graphkin.construction.velocity.known_vector import stated
 
 
 def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
@@ -24,7 +26,22 @@ def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
         for relation in kind.equations(drawing, step.role) if kind else ():
             taken = kind.rate_taken(drawing, step.role) if kind and relation.symbols else ""
             found.setdefault(relation.left + relation.symbols, (taken, relation))
-    return list(found.values())
+    return joined(list(found.values()))
+
+
+def joined(found: list[tuple[str, Relation]]) -> list[tuple[str, Relation]]:
+    """The same with the equations for one vector chained, where the last of them stands."""
+    last = {r.equation.whole.symbol: i for i, (_, r) in enumerate(found) if r.equation}
+    chains = {
+        each.whole.symbol: each for each in chained([r.equation for _, r in found if r.equation])
+    }
+    rest: list[tuple[str, Relation]] = []
+    for i, (taken, relation) in enumerate(found):
+        if relation.equation is None:
+            rest.append((taken, relation))
+        elif last[name := relation.equation.whole.symbol] == i:
+            rest.append((taken, stated(chains[name])))
+    return rest
 
 
 def is_laid_off(drawing: Drawing, step: Step) -> bool:

@@ -9,6 +9,8 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.parameter_words import parameters
 from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vector_equation import VectorEquation
+from graphkin.documents.equation_marks import DEPTH, equation_lines, equation_marks
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
@@ -24,16 +26,24 @@ LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
 BLANK = ". " * 14
 """Room to write in, on the form that is to be filled in."""
+FIRST = "velocities"
+"""The section in whose head it is said how vector equations are marked."""
 NUMBER = 12.0
 """Width kept at the right for the relation's number, in mm."""
 
 
 class CalculationRow(Struct, frozen=True):
-    """A line of the page: a heading, or a relation with its number."""
+    """A line of the page: a heading, a legend, a relation with its number, or a vector equation.
+
+    ``depth`` is how much deeper than others it is, in mm.
+    """
 
     markup: str
     number: str = ""
     heading: bool = False
+    legend: bool = False
+    equation: VectorEquation | None = None
+    depth: float = 0.0
 
 
 NOTHING: Mapping[str, str] = {}
@@ -47,7 +57,7 @@ def calculation(
     ``computed`` says by the symbol why a quantity is computed, not measured.
     """
     rows = list(all_rows(drawings, computed, solved=view == "key"))
-    pages = list(paged(rows))
+    pages = balanced(rows)
     return tuple(
         page_of(drawings[0], page, view, f"{i}/{len(pages)}") for i, page in enumerate(pages, 1)
     )
@@ -61,12 +71,24 @@ def all_rows(
     for section, found in relations(drawings, solved=solved):
         if not found:
             continue
-        yield CalculationRow(drawings[0].words(f"calculation.{section}"), heading=True)
+        words = drawings[0].words
+        yield CalculationRow(words(f"calculation.{section}"), heading=True)
+        if solved and section == FIRST and any(relation.equation for relation in found):
+            yield CalculationRow(words("calculation.underlined"), legend=True)
         for relation in found:
+            if relation.equation and relation.equation.sums:
+                yield from of_equation(relation.equation, solved=solved)
+                continue
             number += bool(relation.result)
             tag = f"({number})" if relation.result else ""
             hint = computed.get(relation.left, "") if relation.result else ""
             yield from broken(relation, tag, drawings[0], hint, solved=solved)
+
+
+def of_equation(equation: VectorEquation, *, solved: bool) -> Iterator[CalculationRow]:
+    """A vector equation in as many lines as it needs."""
+    for line in equation_lines(equation, RIGHT - LEFT - 3, solved=solved):
+        yield CalculationRow(line.markup, equation=line, depth=DEPTH if solved else 0.0)
 
 
 def broken(
@@ -101,14 +123,27 @@ def broken(
         yield CalculationRow(line, tag if i == len(lines) - 1 else "")
 
 
-def paged(rows: Sequence[CalculationRow]) -> Iterator[list[tuple[float, CalculationRow]]]:
+def balanced(rows: Sequence[CalculationRow]) -> list[list[tuple[float, CalculationRow]]]:
+    """The lines on as few pages as hold them, and on each of these about as many."""
+    pages, low = list(paged(rows, BOTTOM)), TOP
+    high = BOTTOM
+    while len(pages) > 1 and high - low > LINE:
+        middle = (low + high) / 2
+        fewer = list(paged(rows, middle))
+        low, high = (low, middle) if len(fewer) == len(pages) else (middle, high)
+    return list(paged(rows, high))
+
+
+def paged(
+    rows: Sequence[CalculationRow], bottom: float
+) -> Iterator[list[tuple[float, CalculationRow]]]:
     """The lines with their places, page by page; no heading stands last on a page."""
     page: list[tuple[float, CalculationRow]] = []
     y = TOP
     for row in rows:
-        step = LINE + (GAP if row.heading and page else 0)
+        step = LINE + (GAP if row.heading and page else 0) + (page[-1][1].depth if page else 0)
         need = step + (LINE if row.heading else 0)
-        if page and y + need > BOTTOM:
+        if page and y + need + row.depth > bottom:
             yield page
             page, y, step = [], TOP, LINE
         y = y + step if page else y
@@ -132,7 +167,11 @@ def page_of(
         if row.heading:
             marks.append(Text(LEFT, y, row.markup, "caption", 3.5))
             continue
-        marks.append(Text(LEFT + 3, y, row.markup, "caption", LETTER))
+        if row.equation:
+            marks += equation_marks(row.equation, LEFT + 3, y, words, solved=view == "key")
+            continue
+        look = "caption equation" if row.legend else "caption"
+        marks.append(Text(LEFT + 3, y, row.markup, look, LETTER))
         if row.number:
             marks.append(Text(RIGHT, y, row.number, "caption", LETTER, "end"))
     page = Page(*A4_SIZE, tuple(marks), f"{title_of(drawing)} – {name}", words.language)

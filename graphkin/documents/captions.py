@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
-from graphkin.construction.core.naming import has_plan, scale_of
+from graphkin.construction.core.naming import has_plan, length_scale, scale_of
 from graphkin.construction.core.relation import figure
 from graphkin.construction.core.set_lengths import beside_plan
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
-from graphkin.drawing.scale import digits
 
 BLANK = ". . . . . . . . ."
 """Room to write in what a task does not give away."""
@@ -26,7 +25,7 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     words, scales = drawing.words, drawing.scales
     factor = scale_of(drawing, drawing.plane) / 1000
     k = BLANK if view == "task" and scales.of_crank else figure(drawing, factor)
-    kL = words.decimal(digits(scales.kL))
+    kL = f"{length_scale(drawing)} m/mm"
     beside = beside_plan(drawing, drawing.kind) if has_plan(drawing) else ""
     kL += f"; {beside}" if beside else ""
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)

@@ -26,7 +26,7 @@ TIMES = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15
 """How many times as large as on the mechanism plans are drawn."""
 ROUND = (5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02)
 """The same where no crank says how large: round scale factors stay round."""
-SHORTER = (0.5, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+SHORTER = (0.5, 0.25, *(digit * 10.0**-power for power in range(1, 15) for digit in (2, 1, 0.5)))
 """How many times as long as the crank vectors are set on a mechanism that they outgrow."""
 LONGER = (1.5, 2.0, 3.0, 4.0, 5.0)
 """The same where they are short."""

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.naming import drawn_in, scale_of, segment_of
+from graphkin.construction.core.naming import drawn_in, length_scale, scale_of, segment_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, length_of
@@ -23,7 +23,6 @@ from graphkin.construction.rate_relations import of_sum, of_turning
 from graphkin.construction.registry import COMPONENTS
 from graphkin.construction.rolling.contact_points import of_contacts
 from graphkin.construction.vector_equations import is_laid_off, of_equations
-from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Ratio, Vector
 
@@ -61,9 +60,9 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     return Relation(
         bar(p, q),
         "",
-        f"{drawing.words.decimal(digits(drawing.scales.kL))}·{drawn_length(drawing, mm)}",
-        answer(drawing, mm * drawing.scales.kL),
-        "mm",
+        f"{length_scale(drawing)}·{drawn_length(drawing, mm)}",
+        answer(drawing, mm * drawing.scales.kL / 1000),
+        "m",
         drawing.words("calculation.measured"),
     )
 

@@ -12,7 +12,6 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import figure
 from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
-from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, symbol
 
 
@@ -28,9 +27,8 @@ def rules(drawing: Drawing) -> Iterator[str]:
 
     A plan without the velocity of a pin of the crank has nothing that is as long as the crank.
     """
-    kL = drawing.words.decimal(digits(drawing.scales.kL))
     scales, first = drawing.scales, drawing.kind == "velocity"
-    kv, ka = plan_scales(drawing, kL)
+    kv, ka = plan_scales(drawing)
     rule = kv if first else ka
     m = figure(drawing, scales.of_bar(drawing.kind))
     if not scales.of_crank or (drawing.scene.sheet.ka and not first):

@@ -8,13 +8,13 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.naming import length_scale
 from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
 from graphkin.documents.members import members
 from graphkin.documents.sheet import asked
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.columns import Row
-from graphkin.drawing.scale import digits
 from graphkin.writers.html_markup import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
@@ -87,6 +87,6 @@ def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
 
 def wanted(drawing: Drawing) -> tuple[str, str, list[str]]:
     """At which scales a task is to be drawn, and what it asks for, piece by piece."""
-    words, kL = drawing.words, drawing.words.decimal(digits(drawing.scales.kL))
+    words, kL = drawing.words, f"{length_scale(drawing)} m/mm"
     scale = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
     return scale, plan_at(drawing), [*asked(drawing), members(drawing)]

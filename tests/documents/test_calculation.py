@@ -14,7 +14,6 @@ from tests.documents.sheet_tools import (
     OTHERS,
     VARIANTS,
     calculations,
-    kind_of,
     named,
     relation_lines,
     texts,
@@ -135,6 +134,6 @@ def test_a_task_has_no_figures_but_those_of_the_data_and_of_the_laws(pages):
 
 def test_no_line_breaks_between_a_number_and_its_unit(pages):
     for form in pages:
-        rows = [m.markup for m in texts(form) if kind_of(m) == "caption"]
+        rows = [m.markup for m in texts(form) if m.cls == "caption"]
         assert not [row for row in rows if re.match(r"(?:mm|cm|m|rev/min|rot/min|rad/s)\b", row)]
         assert not [row for row in rows if re.search(r"=$", row)]

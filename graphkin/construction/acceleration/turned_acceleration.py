@@ -134,13 +134,22 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         if role == "end":
             driven = self.is_of_driver(drawing, self.omega)
             if not (driven and self.is_steady):
-                yield self.euler(drawing, steady=self.is_steady)
+                omega = rate_symbol(drawing, self.omega)
+                spin = "" if self.epsilon is None else rate_symbol(drawing, self.epsilon, "ε")
+                yield self.euler(drawing, omega=omega, epsilon=spin, steady=self.is_steady)
             if not driven:
                 yield self.by_turning(drawing, self.omega, "ν")
             return
         assert self.epsilon is not None
         if self.image not in drawing.auxiliary and not self.is_of_driver(drawing, self.epsilon):
             yield self.by_turning(drawing, self.epsilon, "τ")
+
+    def known_by(self, drawing: Drawing) -> str:
+        """Along its bar where the rate of a driver is constant."""
+        if not (self.is_steady and self.is_of_driver(drawing, self.omega)):
+            return ""
+        inward = f"{symbol(self.q)}→{symbol(self.p)}"
+        return f"{inward}, {rate_symbol(drawing, self.omega)}^2·{self.bar}"
 
     def rate_taken(self, drawing: Drawing, role: str) -> str:
         """The angular acceleration."""

@@ -122,6 +122,10 @@ class Construction(Roles, frozen=True):
         """The vector equations of a plan that the step of a role follows, if they are its own."""
         yield from ()
 
+    def known_by(self, drawing: Drawing) -> str:
+        """Direction and size of the vector that it finds, where these are known before."""
+        return ""
+
     def rate_taken(self, drawing: Drawing, role: str) -> str:
         """The symbol of the rate of a sheet by which the vector of a role is computed."""
         return ""

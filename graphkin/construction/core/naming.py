@@ -9,6 +9,7 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.richtext import escape
+from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import Driver
 
@@ -68,6 +69,11 @@ def segment_of(drawing: Drawing, step: Step) -> str:
 def scale_of(drawing: Drawing, plane: Plane) -> float:
     """What a metre of paper stands for in a plan."""
     return drawing.scales.kv if plane is Plane.VELOCITIES else drawing.scales.ka
+
+
+def length_scale(drawing: Drawing) -> str:
+    """kL in metres for each millimetre of paper, as lengths and both other scales are told."""
+    return drawing.words.decimal(digits(drawing.scales.kL / 1000))
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:

@@ -6,6 +6,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.vector_equation import VectorEquation
 
 DIGITS = 5
 """Significant digits of figures put in, so that results of four digits follow from them."""
@@ -18,7 +19,7 @@ class Relation(Struct, frozen=True):
 
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
     of the length that it takes. ``blank``: what a form has for a result that is no single number,
-    and how it is counted.
+    and how it is counted. ``equation``: the vector equation that it is.
     """
 
     left: str
@@ -31,6 +32,7 @@ class Relation(Struct, frozen=True):
     equals: str = "="
     over: tuple[str, str] | None = None
     blank: tuple[str, ...] = ()
+    equation: VectorEquation | None = None
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""

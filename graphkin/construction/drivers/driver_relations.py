@@ -9,7 +9,7 @@ from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.naming import driver_of_rate
+from graphkin.construction.core.naming import driver_of_rate, length_scale
 from graphkin.construction.core.parameter_words import is_derived, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (
@@ -24,7 +24,6 @@ from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.result_tables import sense
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.richtext import escape
-from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.expression import CONSTANT
 from graphkin.scene.model import FRAME, Driver
@@ -169,34 +168,40 @@ def spelled(drawing: Drawing, text: str) -> str:
 def of_scales(drawing: Drawing) -> Iterator[Relation]:
     """kL, kv and ka, and the drawn length of the driven bar."""
     words, scales = drawing.words, drawing.scales
-    number = words.decimal(digits(scales.kL))
+    number = length_scale(drawing)
     yield Relation(
-        "*k*_L", "", "", number, "", words("calculation.scale", scale=words.decimal(scales.words))
+        "*k*_L",
+        "",
+        "",
+        number,
+        "m/mm",
+        words("calculation.scale", scale=words.decimal(scales.words)),
     )
     for name, length in drawn_bars(drawing):
         yield Relation(
             name,
             "",
-            f"{figure(drawing, 1000 * length)}/{number}",
+            f"{figure(drawing, length)}/{number}",
             figure(drawing, drawing.on_paper(rounded(length))),
             "mm",
             words("calculation.drawn"),
         )
-    yield from plan_scales(drawing, number)
+    yield from plan_scales(drawing)
 
 
-def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
+def plan_scales(drawing: Drawing) -> Iterator[Relation]:
     """kv and ka from the driving crank, or chosen.
 
     Where no crank says them ka keeps the right triangles: it is (m·kv)²/(m′·kL).
     """
     scales, chosen = drawing.scales, drawing.words("calculation.chosen")
+    number = length_scale(drawing)
     kv, ka = figure(drawing, scales.kv / 1000), figure(drawing, scales.ka / 1000)
     if not scales.of_crank:
         m, again = (figure(drawing, each) for each in (scales.larger, scales.larger_still))
-        by_ka = ("*k*_v^2/*k*_L", f"1000·{squared(kv)}/{number}")
+        by_ka = ("*k*_v^2/*k*_L", f"{squared(kv)}/{number}")
         if (m, again) != ("1", "1"):
-            numbers = f"1000·({m}·{kv})^2/({again}·{number})"
+            numbers = f"({m}·{kv})^2/({again}·{number})"
             by_ka = ("(*m*·*k*_v)^2/(*m*′·*k*_L)", numbers)
         yield Relation("*k*_v", "", "", kv, KV, chosen)
         yield Relation("*k*_a", *by_ka, ka, KA)
@@ -212,7 +217,7 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
             continue
         larger = scales.of_bar(kind)
         sign, less = (f"/{times}", f"/{figure(drawing, larger)}") if larger != 1 else ("", "")
-        numbers = f"{squared(w) if power else w}·{number}/1000{less}"
+        numbers = f"{squared(w) if power else w}·{number}{less}"
         yield Relation(name, f"*ω*{index}{power}·*k*_L{sign}", numbers, result, unit)
 
 

@@ -8,6 +8,8 @@ from graphkin.construction.core.component import index_before, laid_off
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import vector_of, way_of
 from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vector_equation import Term, VectorEquation
+from graphkin.construction.velocity.known_vector import known, stated
 from graphkin.drawing.symbol_markup import symbol
 
 if TYPE_CHECKING:
@@ -42,17 +44,16 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         letter = drawing.vector.letter
         if drawing.trace.program.steps[self.start].name == drawing.pole:
             name = symbol(f"{letter}_{beneath if '@' in sought else point}")
-            return Relation(drawing.words("calculation.along_guide", name=name, guide=guide))
-        fields = {
-            "whole": symbol(f"{letter}_{point}"),
-            "start": symbol(f"{letter}_{beneath}"),
-            "relative": symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r")),
-        }
-        laid, key = laid_off(drawing.trace.program, self.start), "sliding"
+            return stated(VectorEquation(Term(name, 1, f"∥ {guide}")))
+        terms = [known(drawing, beneath)]
+        laid = laid_off(drawing.trace.program, self.start)
         if laid is not None:
-            fields["component"] = symbol(f"a_{point}{beneath}^{laid.component.sign}")
-            key = "with_component"
-        return Relation(drawing.words(f"calculation.{key}", guide=guide, **fields))
+            component = laid.component
+            name = symbol(f"a_{point}{beneath}^{component.sign}")
+            terms.append(Term(name, 2, component.formula(drawing)))
+        relative = symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r"))
+        terms.append(Term(relative, 1, f"∥ {guide}"))
+        return stated(VectorEquation(Term(symbol(f"{letter}_{point}")), (tuple(terms),)))
 
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """The point that slides and the one beneath it on the guide, as the index of symbols."""

@@ -9,7 +9,9 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vector_equation import Term, VectorEquation
 from graphkin.construction.core.vocabulary import action
+from graphkin.construction.velocity.known_vector import known, stated
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 
@@ -50,8 +52,8 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Its vector is that of the other point."""
-        whole, start = (symbol(f"{drawing.vector.letter}_{each}") for each in (self.q, self.p))
-        yield Relation(drawing.words("calculation.alike", whole=whole, start=start))
+        whole = Term(symbol(f"{drawing.vector.letter}_{self.q}"))
+        yield stated(VectorEquation(whole, ((known(drawing, self.p),),)))
 
 
 def translated_image(pen: Pen, start: int, ends: tuple[str, str], name: str) -> int:

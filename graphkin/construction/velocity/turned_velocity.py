@@ -79,9 +79,15 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Euler's theorem, and its size; a driver's crank has relations of its own."""
         if not self.is_of_driver(drawing, self.omega):
-            yield self.euler(drawing)
+            yield self.euler(drawing, omega=rate_symbol(drawing, self.omega))
             if self.image not in drawing.auxiliary:
                 yield self.by_turning(drawing, self.omega, "")
+
+    def known_by(self, drawing: Drawing) -> str:
+        """Square to its bar, by the rate of a driver."""
+        rate = rate_symbol(drawing, self.omega)
+        driven = self.is_of_driver(drawing, self.omega)
+        return f"⊥ {self.bar}, {rate}·{self.bar}" if driven else ""
 
     def rate_taken(self, drawing: Drawing, role: str) -> str:
         """The angular velocity."""
