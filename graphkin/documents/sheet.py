@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from graphkin.construction import step_marks
 from graphkin.construction.core.curve_marks import draw_curves
@@ -27,8 +27,9 @@ from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
 from graphkin.documents.listing import listed
 from graphkin.documents.members import members
+from graphkin.documents.scheme import scheme
 from graphkin.documents.task_scale import plan_at
-from graphkin.drawing.areas import A3_AREA, AREA, BELOW, TABLES
+from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -54,7 +55,7 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
         detail += insets(drawing, layout.mechanism, [*left, *detail])
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
-        *heading(drawing),
+        *heading(drawing, view),
         *(*left, *detail, *right, *other),
         *panels(layout),
         *below(drawing, view),
@@ -108,7 +109,7 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     )
 
 
-def heading(drawing: Drawing) -> list[Mark]:
+def heading(drawing: Drawing, view: str) -> list[Mark]:
     """The sheet's title and the data, in as many lines as they need."""
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
@@ -118,12 +119,12 @@ def heading(drawing: Drawing) -> list[Mark]:
     marks += check_bar(AREA[2] - 106, top + 7, "")
     bar = words("page.check_bar")
     marks.append(Text(AREA[2] - 109, top + 7, bar, "check-bar", 1.8, "end"))
-    return [*marks, *data_lines(drawing, left, top + 15.2, AREA[2] - left - 3)]
+    return [*marks, *data_lines(drawing, view, left, top + 15.2, AREA[2] - left - 3)]
 
 
-def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]:
+def data_lines(drawing: Drawing, view: str, x: float, y: float, width: float) -> list[Mark]:
     """The data in two lines, or in three of smaller lettering."""
-    first, *pieces = given(drawing)
+    first, *pieces = given(drawing, solved=view != "task")
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
     for height, leading, room, above in ((2.5, 4.2, 2, 0.0), (1.8, 3.2, 3, 1.0)):
         lines = flowed(pieces, "; ", width, height)
@@ -206,22 +207,27 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
         marks.append(Text(left, top + 4.5, words("page.construction"), "caption", 3.5))
         marks += listed(drawing, left, top + 10.5, width, bottom)
     else:
-        marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
-        lines = flowed(asked(drawing), "; ", width - 5, 2.5)
-        for told in filter(None, (members(drawing), plan_at(drawing))):
-            lines += ["", *flowed(told.split(" "), " ", width - 5, 2.5)]
-        marks += [
-            Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5)
-            for i, line in enumerate(lines)
-            if line
-        ]
+        marks += wanted(drawing, left, top)
     marks += tables(drawing, TABLES, empty=view == "task")
+    if view == "task":
+        return marks
     worst = words.significant(drawing.verdict.largest_difference, 2)
     text = words("page.verified", difference=worst)
     marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
-    if view == "key":
-        marks += flattest_line(drawing, left + extent(text, 1.8)[0])
-    return marks
+    return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])]
+
+
+def wanted(drawing: Drawing, x: float, y: float) -> Iterator[Mark]:
+    """What a task asks, what the links are and how the plan is drawn, beside the scheme."""
+    width = SCHEME[0] - x - 8
+    yield Text(x, y + 4.5, drawing.words("page.asked"), "caption", 3.5)
+    lines = flowed(asked(drawing), "; ", width, 2.5)
+    for told in filter(None, (members(drawing), plan_at(drawing))):
+        lines += ["", *flowed(told.split(" "), " ", width, 2.5)]
+    for i, line in enumerate(lines):
+        if line:
+            yield Text(x + 5, y + 10.5 + i * LEADING, line, "caption", 2.5)
+    yield from scheme(drawing)
 
 
 def asked(drawing: Drawing) -> list[str]:

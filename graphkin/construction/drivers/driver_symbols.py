@@ -40,8 +40,13 @@ HALF = 5.5
 """Half the length of the arrow of a driver's speed, in mm."""
 
 
-def draw_drivers(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Every driver: its position with its value, and the sense of its motion."""
+def draw_drivers(
+    board: FieldContent, drawing: Drawing, field: Field, *, defined: bool = False
+) -> None:
+    """Every driver: its position with its value, and the sense of its motion.
+
+    Where it is only ``defined``, its position with the letter alone.
+    """
     used: list[tuple[str, int]] = []
     for driver in drawing.scene.drivers:
         if driver.kind == "turn":
@@ -49,15 +54,20 @@ def draw_drivers(board: FieldContent, drawing: Drawing, field: Field) -> None:
             if start in drawing.positions:
                 nth = sum(1 for name, _ in used if name == start)
                 used.append((start, nth))
-                draw_crank(board, drawing, field, driver, ANGLE + WIDER * nth)
+                draw_crank(board, drawing, field, driver, ANGLE + WIDER * nth, defined)
         elif driver.kind == "slide":
-            draw_slide(board, drawing, field, driver)
+            draw_slide(board, drawing, field, driver, defined)
         else:
-            draw_roll(board, drawing, field, driver)
+            draw_roll(board, drawing, field, driver, defined)
 
 
 def draw_crank(
-    board: FieldContent, drawing: Drawing, field: Field, driver: Driver, radius: float
+    board: FieldContent,
+    drawing: Drawing,
+    field: Field,
+    driver: Driver,
+    radius: float,
+    defined: bool,
 ) -> None:
     """The angle of a crank from the axis of the link it turns against, and its sense."""
     start = pivot_of(drawing, driver)
@@ -77,10 +87,20 @@ def draw_crank(
         board.marks.append(Arc(*centre, radius, zero, end, "angle", name))
     half = field.way(base * turn_by(swept / 2 / DEGREE))
     middle = across(centre, half, radius, 0)
-    given = drawing.scene, drawing.words, driver.position
-    text = f"{angle_symbol(drawing.scene, driver)} = {in_degrees(*given) or written(*given)}"
+    text = coordinate(drawing, driver, defined)
     board.labels.append(Label(text, "", middle, 2.5, name, away=half))
-    draw_sense(board, drawing, field, end, driver, radius - 3)
+    if not defined:
+        draw_sense(board, drawing, field, end, driver, radius - 3)
+
+
+def coordinate(drawing: Drawing, driver: Driver, defined: bool) -> str:
+    """The letter of a driver's position, with its value unless it is only defined."""
+    letter = angle_symbol(drawing.scene, driver)
+    if defined:
+        return letter
+    given = drawing.scene, drawing.words, driver.position
+    angle = in_degrees(*given) if driver.kind == "turn" else ""
+    return f"{letter} = {angle or written(*given)}"
 
 
 def pivot_of(drawing: Drawing, driver: Driver) -> str:
@@ -159,7 +179,9 @@ def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
     return next((slide for slide in slides if slide.on == driver.against), None)
 
 
-def draw_slide(board: FieldContent, drawing: Drawing, field: Field, driver: Driver) -> None:
+def draw_slide(
+    board: FieldContent, drawing: Drawing, field: Field, driver: Driver, defined: bool
+) -> None:
     """The way of a driven block from the zero of its guide, and the sense of its speed."""
     slide = driven_slide(drawing, driver)
     ways = [w for w in drawing.standing.guideways if w.block == driver.link and w.slide is slide]
@@ -168,16 +190,18 @@ def draw_slide(board: FieldContent, drawing: Drawing, field: Field, driver: Driv
         lengths = (way.zero + path, way.at, way.along)
         fixed = way.slide.on == FRAME
         drawn = seat(drawing, way) if fixed else way.at
-        draw_way(board, drawing, field, driver, lengths, drawn, drawn)
+        draw_way(board, drawing, field, driver, lengths, drawn, drawn, defined)
 
 
-def draw_roll(board: FieldContent, drawing: Drawing, field: Field, driver: Driver) -> None:
+def draw_roll(
+    board: FieldContent, drawing: Drawing, field: Field, driver: Driver, defined: bool
+) -> None:
     """The way of a driven wheel's contact from where its track counts, the sense at its centre."""
     for touch in drawing.standing.touches:
         mine = touch.disc.link == driver.link and touch.on == driver.against
         if mine and touch.zero is not None:
             lengths = (touch.zero, touch.at, touch.along)
-            draw_way(board, drawing, field, driver, lengths, touch.at, touch.disc.centre)
+            draw_way(board, drawing, field, driver, lengths, touch.at, touch.disc.centre, defined)
 
 
 def draw_way(
@@ -188,6 +212,7 @@ def draw_way(
     lengths: tuple[complex, complex, complex],
     drawn: complex,
     moved: complex,
+    defined: bool,
 ) -> None:
     """A coordinate along a line, dimensioned beside it, and an arrow for its rate of change.
 
@@ -199,8 +224,7 @@ def draw_way(
     side = 1 if aside > 0 else -1
     start, end = field(zero), field(here)
     name = f"s {driver.link}"
-    text = f"{angle_symbol(drawing.scene, driver)} = "
-    text += written(drawing.scene, drawing.words, driver.position)
+    text = coordinate(drawing, driver, defined)
     shown = field.holds(zero, 1) and abs(here - zero) * field.mm >= LEAST
     if shown:
         low, high = across(start, way, 0, aside), across(end, way, 0, aside)
@@ -212,7 +236,7 @@ def draw_way(
         at = across(field(drawn), way, 0, side * BLOCK[1] / 2)
         board.labels.append(Label(text, "", at, 2.5, name, away=across((0.0, 0.0), way, 0, side)))
     speed = speed_of(drawing, driver)
-    if speed != 0:
+    if speed != 0 and not defined:
         ahead = pick(speed > 0, HALF, -HALF)
         tail, tip = (across(field(moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
         board.marks += arrow(tail, tip, "sense", f"speed {driver.link}")
