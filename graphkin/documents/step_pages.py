@@ -49,7 +49,10 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     timed = [(max(stage, given), mark) for stage, mark in standing]
     timed += appearing(drawing, field, right, staged, said)
     last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
-    block, same = title_block(drawing, "steps", number), [*heading(drawing, "steps"), *panels(layout)]
+    block, same = (
+        title_block(drawing, "steps", number),
+        [*heading(drawing, "steps"), *panels(layout)],
+    )
     lines = [
         (stage_of_crossing(drawing, each, staged), each)
         for each in crossings_on(drawing)

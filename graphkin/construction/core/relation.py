@@ -18,7 +18,7 @@ class Relation(Struct, frozen=True):
 
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
     of the length that it takes. ``blank``: what a form has for a result that is no single number,
-    and how it is counted.
+    and how it is counted. ``given``: it is chosen, so that a form states it.
     """
 
     left: str
@@ -31,6 +31,7 @@ class Relation(Struct, frozen=True):
     equals: str = "="
     over: tuple[str, str] | None = None
     blank: tuple[str, ...] = ()
+    given: bool = False
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""
@@ -39,7 +40,7 @@ class Relation(Struct, frozen=True):
             pieces.append(f"= {self.symbols}")
         if not self.result:
             return pieces
-        if not solved:
+        if not solved and not self.given:
             return [*pieces, "="]
         if self.figures:
             pieces.append(f"= {self.figures}")

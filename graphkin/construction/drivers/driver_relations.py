@@ -199,9 +199,9 @@ def plan_scales(drawing: Drawing, number: str) -> Iterator[Relation]:
         if not less:
             by_ka = (f"*ω*{index}^2·*k*_L", f"{squared(w)}·{number}/1000")
     else:
-        yield Relation("*k*_v", "", "", kv, KV, chosen)
+        yield Relation("*k*_v", "", "", kv, KV, chosen, given=True)
     if scales.apart:
-        yield Relation("*k*_a", "", "", ka, KA, chosen)
+        yield Relation("*k*_a", "", "", ka, KA, chosen, given=True)
     else:
         yield Relation("*k*_a", *by_ka, ka, KA)
 
