@@ -117,13 +117,20 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     turn_head = Row((words("table.symbol"), turning, words("table.sense")))
     slide_head = Row((words("table.symbol"), unit, words("table.sense")))
     every = (
-        ColumnTable(VECTORS, head, tuple(vector_rows(drawing, empty=empty))),
-        ColumnTable(TURNS, turn_head, tuple(turning_rows(drawing, empty=empty)), beside=True),
-        ColumnTable(SLID, slide_head, tuple(slide_rows(drawing, empty=empty))),
+        ColumnTable(VECTORS, head, tuple(vector_rows(drawing, empty=empty)), numbers=(2, 3)),
+        ColumnTable(
+            TURNS,
+            turn_head,
+            tuple(turning_rows(drawing, empty=empty)),
+            beside=True,
+            numbers=(1,),
+        ),
+        ColumnTable(SLID, slide_head, tuple(slide_rows(drawing, empty=empty)), numbers=(1,)),
     )
     note = reasons(drawing, [row for table in every for row in table.rows], rect)
     low = rect[3] - LEADING * len(note)
-    return [*note, *laid_out([table for table in every if table.rows], (*rect[:3], low))]
+    some = [table for table in every if table.rows]
+    return [*note, *laid_out(some, (*rect[:3], low), by_hand=empty)]
 
 
 def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:

@@ -104,7 +104,7 @@ def broken(
     ]
     if relation.blank and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {relation.blank[0]}", *relation.blank[1:]]
-    elif relation.result and not solved:
+    elif relation.result and not (solved or relation.given):
         parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
         if relation.unit.startswith("rad/"):
             parts.append(f"({drawing.words('table.sense')}: {BLANK.rstrip()})")

@@ -13,39 +13,45 @@ from graphkin.drawing.richtext import extent, flowed, words_of
 
 BLANK = ". . . . . . . . ."
 """Room to write in what a task does not give away."""
-HEIGHTS, LEADING = (3.5, 2.5, 1.8), 3.2
-"""Heights of captions, and the distance of two lines of one, in mm."""
+HEIGHTS = (3.5, 2.5, 1.8)
+"""Heights of captions in mm; all but the least stand in two lines at most."""
+LEADING = 1.35
+"""Distance of the lines of a caption, in heights of its letters."""
 
 
 def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], list[Mark]]:
-    """The captions of both fields, small or in two lines where one has no room for large ones.
+    """The captions of both fields; a task leaves the scale factors to be computed.
 
     A field without a plan has none.
     """
     words, scales = drawing.words, drawing.scales
     factor = scale_of(drawing, drawing.plane) / 1000
-    k = BLANK if view == "task" and scales.of_crank else figure(drawing, factor)
-    kL = f"{length_scale(drawing)} m/mm"
+    task = view == "task"
+    k = BLANK if task else figure(drawing, factor)
+    kL = BLANK if task else f"{length_scale(drawing)} m/mm"
     beside = beside_plan(drawing, drawing.kind) if has_plan(drawing) else ""
     kL += f"; {beside}" if beside else ""
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     plan = words(f"page.{drawing.kind}_heading", k=k)
     left, right = layout.mechanism.rect, layout.plan.rect
-    both = [(mechanism, left), *([(plan, right)] if has_plan(drawing) else [])]
-    fits = (h for h in HEIGHTS if all(extent(s, h)[0] <= r[2] - r[0] - 5 for s, r in both))
-    height = next(fits, HEIGHTS[-1])
-    above, *right_of = (caption(said, rect, height) for said, rect in both)
-    return above, right_of[0] if right_of else []
+    above = caption(mechanism, left)
+    return above, caption(plan, right) if has_plan(drawing) else []
 
 
-def caption(said: str, rect: Rect, height: float) -> list[Mark]:
-    """A field's caption above it, what stands in brackets in a second line if need be."""
+def caption(said: str, rect: Rect) -> list[Mark]:
+    """A field's caption, what stands in brackets in a second line if need be.
+
+    The last line of more than one stands in the field, where the data above leave no room.
+    """
     room = rect[2] - rect[0] - 5
-    lines = [said] if extent(said, height)[0] <= room else said.split("  ")
-    if max(extent(line, height)[0] for line in lines) > room:
-        lines = flowed(words_of(" ".join(lines)), " ", room, height)
-    low = rect[1] - (2.5 if len(lines) == 1 else 1.5)
+    for height in HEIGHTS:
+        lines = [said] if extent(said, height)[0] <= room else said.split("  ")
+        if max(extent(line, height)[0] for line in lines) > room:
+            lines = flowed(words_of(" ".join(lines)), " ", room, height)
+        if len(lines) <= 2:
+            break
+    first = rect[1] - (2.5 if len(lines) == 1 else 3.4)
     return [
-        Text(rect[0] + 3, low - LEADING * (len(lines) - 1 - i), line, "caption", height)
+        Text(rect[0] + 3, first + LEADING * height * i, line, "caption", height)
         for i, line in enumerate(lines)
     ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from graphkin.construction import step_marks
 from graphkin.construction.core.curve_marks import draw_curves
@@ -27,19 +27,22 @@ from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
 from graphkin.documents.listing import listed
 from graphkin.documents.members import members
+from graphkin.documents.scheme import scheme
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.task_scale import plan_at
-from graphkin.drawing.areas import A3_AREA, AREA, BELOW, TABLES
-from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame
+from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
+from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import escape, extent, flowed
+from graphkin.drawing.richtext import are_clear, escape, extent, flowed
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.errors import PageError, Problem
 
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
+DATA = ((2.5, 4.2, 2), (2.5, 3.6, 3), (1.8, 3.0, 3))
+"""How the data may look: height of letters and distance of lines in mm, lines at most."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
@@ -59,7 +62,7 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
         other += plan_signs(drawing, layout.plan, [*right, *other])
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
-        *heading(drawing),
+        *heading(drawing, view),
         *(*left, *detail, *right, *other),
         *panels(layout),
         *below(drawing, view),
@@ -98,6 +101,9 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         "scale",
         "revision",
     )
+    labels = {name: words(f"block.{name}") for name in fields}
+    if view == "task":
+        labels["creator"] = words("task.person")
     return TitleBlock(
         legal_owner=sheet.owner,
         title=title_of(drawing),
@@ -109,32 +115,39 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         sheet=number,
         language=words.language,
         scale=words.decimal(drawing.scales.words),
-        labels={name: words(f"block.{name}") for name in fields},
+        labels=labels,
     )
 
 
-def heading(drawing: Drawing) -> list[Mark]:
+def heading(drawing: Drawing, view: str) -> list[Mark]:
     """The sheet's title and the data, in as many lines as they need."""
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
     name = f"{words('sheet.' + called(drawing))} – {title_of(drawing)}"
-    height = next((h for h in (5, 3.5) if extent(escape(name), h)[0] <= TITLE), 2.5)
-    marks: list[Mark] = [Text(left, top + 10, escape(name), "title", height, name="title")]
+    lines, height = [escape(name)], 5.0
+    if extent(lines[0], height)[0] > TITLE:
+        height = next((h for h in (3.5, 2.5) if len(wrapped(name, TITLE, h)) <= 2), 1.8)
+        lines = wrapped(name, TITLE, height)
+    low = top + (8.2 if len(lines) == 1 else 9.6)
+    marks: list[Mark] = [
+        Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
+        for i, line in enumerate(lines)
+    ]
     marks += check_bar(AREA[2] - 106, top + 7, "")
     bar = words("page.check_bar")
     marks.append(Text(AREA[2] - 109, top + 7, bar, "check-bar", 1.8, "end"))
-    return [*marks, *data_lines(drawing, left, top + 15.2, AREA[2] - left - 3)]
+    return [*marks, *data_lines(drawing, view, left, top + 13.4, AREA[2] - left - 3)]
 
 
-def data_lines(drawing: Drawing, x: float, y: float, width: float) -> list[Mark]:
-    """The data in two lines, or in three of smaller lettering."""
-    first, *pieces = given(drawing)
+def data_lines(drawing: Drawing, view: str, x: float, y: float, width: float) -> list[Mark]:
+    """The data in two lines, or in three, of smaller lettering only where signs would touch."""
+    first, *pieces = given(drawing, solved=view != "task")
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
-    for height, leading, room, above in ((2.5, 4.2, 2, 0.0), (1.8, 3.2, 3, 1.0)):
+    for height, leading, room in DATA:
         lines = flowed(pieces, "; ", width, height)
-        if len(lines) <= room:
+        if len(lines) <= room and are_clear(lines, height, leading):
             return [
-                Text(x, y - above + i * leading, line, "caption", height, name="data")
+                Text(x, y + i * leading, line, "caption", height, name="data")
                 for i, line in enumerate(lines)
             ]
     raise PageError(
@@ -222,22 +235,27 @@ def below(drawing: Drawing, view: str) -> list[Mark]:
         marks.append(Text(left, top + 4.5, words("page.construction"), "caption", 3.5))
         marks += listed(drawing, left, top + 10.5, width, bottom)
     else:
-        marks.append(Text(left, top + 4.5, words("page.asked"), "caption", 3.5))
-        lines = flowed(asked(drawing), "; ", width - 5, 2.5)
-        for told in filter(None, (members(drawing), plan_at(drawing))):
-            lines += ["", *flowed(told.split(" "), " ", width - 5, 2.5)]
-        marks += [
-            Text(left + 5, top + 10.5 + i * LEADING, line, "caption", 2.5)
-            for i, line in enumerate(lines)
-            if line
-        ]
+        marks += wanted(drawing, left, top)
     marks += tables(drawing, TABLES, empty=view == "task")
+    if view == "task":
+        return marks
     worst = words.significant(drawing.verdict.largest_difference, 2)
     text = words("page.verified", difference=worst)
     marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
-    if view == "key":
-        marks += flattest_line(drawing, left + extent(text, 1.8)[0])
-    return marks
+    return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])]
+
+
+def wanted(drawing: Drawing, x: float, y: float) -> Iterator[Mark]:
+    """What a task asks, what the links are and how the plan is drawn, beside the scheme."""
+    width = SCHEME[0] - x - 8
+    yield Text(x, y + 4.5, drawing.words("page.asked"), "caption", 3.5)
+    lines = flowed(asked(drawing), "; ", width, 2.5)
+    for told in filter(None, (members(drawing), plan_at(drawing))):
+        lines += ["", *flowed(told.split(" "), " ", width, 2.5)]
+    for i, line in enumerate(lines):
+        if line:
+            yield Text(x + 5, y + 10.5 + i * LEADING, line, "caption", 2.5)
+    yield from scheme(drawing)
 
 
 def asked(drawing: Drawing) -> list[str]:

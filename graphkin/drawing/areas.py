@@ -31,6 +31,8 @@ WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
 """The room for both drawings together, without their margins."""
 BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
 """The part for steps, tables and check bar."""
+SCHEME: Rect = (150.0, 210.0, 226.0, 281.0)
+"""The kinematic scheme of a task, right of what is asked and above the centring mark."""
 MARKED = (207.0, 276.0)
 """Left of this, or above it, words stay clear of the centring mark at the sheet's lower edge."""
 TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from msgspec import Struct
@@ -38,6 +39,10 @@ TALL = Look(5.0, 3.55, 1.0)
 """How tables with signs above letters look where there is room for it."""
 LOOKS = (Look(4.7, 3.4, 1.0), *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)))
 """How tables look where there is room, and where there is less and less."""
+BY_HAND = tuple(Look(row, row / 2 + 1.15, 1.0) for row in (7.0, 6.5, 6.0, 5.5, 5.0))
+"""How tables that a hand fills in look where there is room."""
+NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
+"""A number in a cell: what stands before its decimal mark, and the rest."""
 
 
 class Row(Struct, frozen=True):
@@ -52,6 +57,7 @@ class ColumnTable(Struct, frozen=True):
 
     ``among`` are all rows of a table that stands in blocks, which look alike. ``beside``: it stands
     beside a table in one block, and below one of more blocks where a whole row stays free.
+    ``numbers`` are the columns of numbers, which stand with their decimal marks below one another.
     """
 
     widths: tuple[float, ...]
@@ -59,6 +65,7 @@ class ColumnTable(Struct, frozen=True):
     rows: tuple[Row, ...]
     among: tuple[Row, ...] = ()
     beside: bool = False
+    numbers: tuple[int, ...] = ()
 
     @property
     def lines(self) -> int:
@@ -85,17 +92,32 @@ class ColumnTable(Struct, frozen=True):
     def needs(self, height: float) -> list[float]:
         """The widest text of each column in mm."""
         return [
-            max(extent(name, SMALL)[0], *(extent(row.cells[i], height)[0] for row in self.among))
+            max(extent(name, SMALL)[0], self.breadth(i, height))
             for i, name in enumerate(self.head.cells)
         ]
 
+    def breadth(self, column: int, height: float) -> float:
+        """The width of all texts of a column in mm; of numbers with their marks aligned."""
+        texts = [row.cells[column] for row in self.among]
+        if column not in self.numbers:
+            return max((extent(text, height)[0] for text in texts), default=0.0)
+        sides = [around_mark(text, height) for text in texts]
+        return max((a for a, _ in sides), default=0.0) + max((b for _, b in sides), default=0.0)
+
+    def marked(self, column: int, height: float) -> float:
+        """How far left of the middle of its column, in mm, decimal marks stand."""
+        sides = [around_mark(row.cells[column], height) for row in self.among]
+        return (max(b for _, b in sides) - max(a for a, _ in sides)) / 2
+
     def letters(self, look: Look, widths: Sequence[float]) -> float:
         """The lettering in which every cell fits its column and its row."""
-        for row in self.among if look.letters[0] == HEIGHT else ():
-            for width, markup in zip(widths, row.cells, strict=True):
-                across, _, below = extent(markup, HEIGHT)
-                if across > width - PAD + 1e-9 or below > look.row - look.base - 0.1:
-                    return SMALL
+        if look.letters[0] != HEIGHT:
+            return look.letters[0]
+        for i, width in enumerate(widths):
+            below = max(extent(row.cells[i], HEIGHT)[2] for row in self.among)
+            wide = self.breadth(i, HEIGHT) > width - PAD + 1e-9
+            if wide or below > look.row - look.base - 0.1:
+                return SMALL
         return look.letters[0]
 
     def marks(self, x: float, y: float, look: Look) -> list[Mark]:
@@ -109,30 +131,53 @@ class ColumnTable(Struct, frozen=True):
         for width in (*widths, 0.0):
             marks.append(LineMark(left, y, left, y + height, "panel"))
             left += width
-        marks += cells(x, y + look.base, widths, self.head, SMALL)
+        marks += heads(x, y + look.base, widths, self.head)
         letters = self.letters(look, widths)
         for i, each in enumerate(self.rows, 1):
-            marks += cells(x, y + i * row + look.base, widths, each, letters)
+            marks += self.cells(x, y + i * row + look.base, widths, each, letters)
         return marks
 
+    def cells(
+        self, x: float, baseline: float, widths: Sequence[float], row: Row, height: float
+    ) -> Iterator[Mark]:
+        """The texts of one row: numbers by their decimal marks, others amid their columns."""
+        for i, (width, markup) in enumerate(zip(widths, row.cells, strict=True)):
+            middle = x + width / 2
+            x += width
+            if markup and i in self.numbers:
+                at = middle - self.marked(i, height) - around_mark(markup, height)[0]
+                yield Text(at, baseline, markup, "table", height, "start", row.name)
+            elif markup:
+                yield Text(middle, baseline, markup, "table", height, "middle", row.name)
 
-def cells(
-    x: float, baseline: float, widths: Sequence[float], row: Row, height: float
-) -> list[Mark]:
-    """The texts of one row, each in the middle of its column."""
-    marks: list[Mark] = []
+
+def around_mark(markup: str, height: float) -> tuple[float, float]:
+    """The widths in mm of a number left of its decimal mark, and of the rest."""
+    found = NUMBER.match(markup)
+    if found is None:
+        return 0.0, extent(markup, height)[0]
+    whole = extent(markup, height)[0]
+    left = extent(found[1], height)[0]
+    return left, whole - left
+
+
+def heads(x: float, baseline: float, widths: Sequence[float], row: Row) -> Iterator[Mark]:
+    """The small texts of a head, each in the middle of its column."""
     for width, markup in zip(widths, row.cells, strict=True):
         if markup:
-            marks.append(Text(x + width / 2, baseline, markup, "table", height, "middle", row.name))
+            yield Text(x + width / 2, baseline, markup, "table", SMALL, "middle", row.name)
         x += width
-    return marks
 
 
-def laid_out(tables: Sequence[ColumnTable], rect: Rect) -> list[Mark]:
-    """Tables in a rectangle, as large as they fit it. Raises PageError where none do."""
+def laid_out(tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False) -> list[Mark]:
+    """Tables in a rectangle, as large as they fit it; ``by_hand``: with room to write.
+
+    Raises PageError where none do.
+    """
     left, top, right, low = rect
     raised = any("^" in row.cells[0] for table in tables for row in table.rows)
-    for look in (TALL, *LOOKS) if raised else LOOKS:
+    looks = (*(BY_HAND if by_hand else ()), *((TALL,) if raised else ()), *LOOKS)
+    for look in looks:
         columns = in_columns(tables, (low - top) / look.row)
         wide = [max(sum(table.columns(look)) for table in column) for column in columns]
         if sum(wide) + BETWEEN * (len(wide) - 1) > right - left + 1e-9:

@@ -19,6 +19,7 @@ FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's widt
 LETTERS = "ABCDEFGHJKLM"  # I and O are left out
 LEADING = 1.7  # distance of lines in heights of capitals
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
+LABEL, UNDER = 2.9, 2.0  # baseline of a cell's label below its top, of its value above its bottom
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 
 
@@ -45,17 +46,17 @@ class TitleBlock(Struct, frozen=True):
 
 # name of the field, its cell (left, top, right, bottom) in the block, the value's largest height
 CELLS: tuple[tuple[str, Rect, float], ...] = (
-    ("legal_owner", (0, 0, 50, 24), 3.5),
-    ("document_type", (50, 0, 130, 12), 3.5),
-    ("title", (50, 12, 130, 24), 3.5),
-    ("creator", (130, 0, 180, 12), 3.5),
-    ("approved_by", (130, 12, 180, 24), 3.5),
-    ("scale", (0, 24, 50, 36), 3.5),
-    ("identification", (50, 24, 101, 36), 3.5),
-    ("revision", (101, 24, 115, 36), 3.5),
-    ("date_of_issue", (115, 24, 148, 36), 3.5),
-    ("language", (148, 24, 162, 36), 3.5),
-    ("sheet", (162, 24, 180, 36), 3.5),
+    ("title", (0, 0, 120, 15.3), 5.0),
+    ("creator", (120, 0, 180, 15.3), 3.5),
+    ("legal_owner", (0, 15.3, 74, 26), 3.5),
+    ("document_type", (74, 15.3, 134, 26), 3.5),
+    ("approved_by", (134, 15.3, 180, 26), 3.5),
+    ("scale", (0, 26, 50, 36), 3.5),
+    ("identification", (50, 26, 101, 36), 3.5),
+    ("revision", (101, 26, 115, 36), 3.5),
+    ("date_of_issue", (115, 26, 148, 36), 3.5),
+    ("language", (148, 26, 162, 36), 3.5),
+    ("sheet", (162, 26, 180, 36), 3.5),
 )
 
 
@@ -152,6 +153,12 @@ def fitting(
     )
 
 
+def room_in(rect: Rect) -> tuple[float, float]:
+    """Width and height, in mm, of what a cell of the title block has room for below its label."""
+    left, top, right, bottom = rect
+    return right - left - 3, bottom - top - LABEL - UNDER - 0.9
+
+
 def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mark]:
     """Write the label of one cell at its top and the value's lines at its bottom."""
     left, top, right, bottom = rect
@@ -159,10 +166,10 @@ def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mar
     marks: list[Mark] = []
     if label:
         (line,), height = fitting(f"label of {name}", label, room, 1.8, 1.8)
-        marks.append(Text(x, top + 3.2, line, "title", height))
+        marks.append(Text(x, top + LABEL, line, "title", height))
     if value.strip():
-        lines, height = fitting(name, value, room, bottom - top - 7, most)
-        low = bottom - 2.6
+        lines, height = fitting(name, value, *room_in(rect), most)
+        low = bottom - UNDER
         for i, line in enumerate(lines):
             y = low - (len(lines) - 1 - i) * LEADING * height
             marks.append(Text(x, y, line, "title", height, name=name))
@@ -172,21 +179,12 @@ def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mar
 def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]:
     """Draw the title block with its top-left corner at (x, y)."""
     marks: list[Mark] = [box(x, y, TITLE_WIDTH, TITLE_HEIGHT, "frame title-block")]
-    marks += (
-        LineMark(x + a, y + b, x + c, y + d, "border title-block")
-        for a, b, c, d in (
-            (50, 12, 180, 12),
-            (0, 24, 180, 24),
-            (50, 0, 50, 36),
-            (130, 0, 130, 24),
-            (101, 24, 101, 36),
-            (115, 24, 115, 36),
-            (148, 24, 148, 36),
-            (162, 24, 162, 36),
-        )
-    )
     for name, (left, top, right, bottom), most in CELLS:
         rect = (x + left, y + top, x + right, y + bottom)
+        if left:
+            marks.append(LineMark(rect[0], rect[1], rect[0], rect[3], "border title-block"))
+        elif top:
+            marks.append(LineMark(x, rect[1], x + TITLE_WIDTH, rect[1], "border title-block"))
         marks += cell(name, rect, most, block.labels.get(name, ""), getattr(block, name))
     return tuple(marks)
 

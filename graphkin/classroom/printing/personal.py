@@ -13,14 +13,12 @@ from graphkin.classroom.printing.qr_code import stamped
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.overlay import FOOT
 from graphkin.drawing.areas import A3_AREA
-from graphkin.drawing.frame import fitting
+from graphkin.drawing.frame import CELLS, fitting, room_in
 from graphkin.drawing.glyphs import known, measures
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import escape
 from graphkin.text.errors import PageError
 
-NAME_CELL = (47.0, 5.0, 3.5)
-"""Room for a name in the title block: width, depth and largest lettering, in mm."""
 UNKNOWN = "?"
 """What stands for a sign that the sheet's font does not have."""
 OVERLAY_FOOT = (A3_AREA[0] + 12, A3_AREA[3] - FOOT + 4.6)
@@ -74,7 +72,8 @@ def shortened(text: str) -> str:
 def fits(text: str) -> bool:
     """Whether a name fits the title block in the smallest lettering."""
     try:
-        fitting("creator", text, *NAME_CELL)
+        _, rect, most = next(cell for cell in CELLS if cell[0] == "creator")
+        fitting("creator", text, *room_in(rect), most)
     except PageError:
         return False
     return True

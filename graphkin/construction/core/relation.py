@@ -19,7 +19,8 @@ class Relation(Struct, frozen=True):
 
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
     of the length that it takes. ``blank``: what a form has for a result that is no single number,
-    and how it is counted. ``equation``: the vector equation that it is.
+    and how it is counted. ``equation``: the vector equation that it is. ``given``: it is chosen, so
+    that a form states it.
     """
 
     left: str
@@ -33,6 +34,7 @@ class Relation(Struct, frozen=True):
     over: tuple[str, str] | None = None
     blank: tuple[str, ...] = ()
     equation: VectorEquation | None = None
+    given: bool = False
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""
@@ -41,7 +43,7 @@ class Relation(Struct, frozen=True):
             pieces.append(f"= {self.symbols}")
         if not self.result:
             return pieces
-        if not solved:
+        if not solved and not self.given:
             return [*pieces, "="]
         if self.figures:
             pieces.append(f"= {self.figures}")

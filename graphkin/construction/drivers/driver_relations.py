@@ -203,7 +203,7 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
         if (m, again) != ("1", "1"):
             numbers = f"({m}·{kv})^2/({again}·{number})"
             by_ka = ("(*m*·*k*_v)^2/(*m*′·*k*_L)", numbers)
-        yield Relation("*k*_v", "", "", kv, KV, chosen)
+        yield Relation("*k*_v", "", "", kv, KV, chosen, given=True)
         yield Relation("*k*_a", *by_ka, ka, KA)
         return
     turning = float(drawing.scene.drivers[0].speed.si(drawing.scene.values))
@@ -213,7 +213,7 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
         ("*k*_a", "^2", "acceleration", "*m*′", ka, KA),
     ):
         if kind == "acceleration" and drawing.scene.sheet.ka is not None:
-            yield Relation(name, "", "", result, unit, chosen)
+            yield Relation(name, "", "", result, unit, chosen, given=True)
             continue
         larger = scales.of_bar(kind)
         sign, less = (f"/{times}", f"/{figure(drawing, larger)}") if larger != 1 else ("", "")

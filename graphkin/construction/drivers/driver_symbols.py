@@ -45,8 +45,13 @@ HALF = 5.5
 """Half the length of the arrow of a driver's speed, in mm."""
 
 
-def draw_drivers(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Every driver: its position with its value, and the sense of its motion."""
+def draw_drivers(
+    board: FieldContent, drawing: Drawing, field: Field, *, defined: bool = False
+) -> None:
+    """Every driver: its position with its value, and the sense of its motion.
+
+    Where it is only ``defined``, its position with the letter alone.
+    """
     used: list[tuple[str, int]] = []
     for driver in drawing.scene.drivers:
         if driver.kind == "turn":
@@ -54,12 +59,13 @@ def draw_drivers(board: FieldContent, drawing: Drawing, field: Field) -> None:
             if start in drawing.positions:
                 nth = sum(1 for name, _ in used if name == start)
                 used.append((start, nth))
-                draw_crank(board, drawing, field, driver, ANGLE + WIDER * nth)
+                draw_crank(board, drawing, field, driver, ANGLE + WIDER * nth, defined)
         else:
             sheets = drawing, drawing.choosing
             ways = (driven_ways(each, same(driver, drawing, each)) for each in sheets)
             for way, chosen in zip(*ways, strict=True):
-                draw_way(board, drawing, field, driver, way, dimensioned(drawing, field, chosen))
+                room = dimensioned(drawing, field, chosen)
+                draw_way(board, drawing, field, driver, way, room, defined)
 
 
 def same(driver: Driver, drawing: Drawing, other: Drawing) -> Driver:
@@ -68,7 +74,12 @@ def same(driver: Driver, drawing: Drawing, other: Drawing) -> Driver:
 
 
 def draw_crank(
-    board: FieldContent, drawing: Drawing, field: Field, driver: Driver, radius: float
+    board: FieldContent,
+    drawing: Drawing,
+    field: Field,
+    driver: Driver,
+    radius: float,
+    defined: bool,
 ) -> None:
     """The angle of a crank from the axis of the link it turns against, and its sense."""
     start = pivot_of(drawing, driver)
@@ -88,10 +99,20 @@ def draw_crank(
         board.marks.append(Arc(*centre, radius, zero, end, "angle", name))
     half = field.way(base * turn_by(swept / 2 / DEGREE))
     middle = across(centre, half, radius, 0)
-    given = drawing.scene, drawing.words, driver.position
-    text = f"{angle_symbol(drawing.scene, driver)} = {in_degrees(*given) or written(*given)}"
+    text = coordinate(drawing, driver, defined)
     board.labels.append(Label(text, "", middle, 2.5, name, away=half))
-    draw_sense(board, drawing, field, end, driver, radius - 3)
+    if not defined:
+        draw_sense(board, drawing, field, end, driver, radius - 3)
+
+
+def coordinate(drawing: Drawing, driver: Driver, defined: bool) -> str:
+    """The letter of a driver's position, with its value unless it is only defined."""
+    letter = angle_symbol(drawing.scene, driver)
+    if defined:
+        return letter
+    given = drawing.scene, drawing.words, driver.position
+    angle = in_degrees(*given) if driver.kind == "turn" else ""
+    return f"{letter} = {angle or written(*given)}"
 
 
 def crank_end(drawing: Drawing, driver: Driver) -> Real:
@@ -243,14 +264,14 @@ def draw_way(
     driver: Driver,
     driven: DrivenWay,
     chosen: tuple[float, bool],
+    defined: bool,
 ) -> None:
     """A driven coordinate dimensioned beside its line, and an arrow for its rate of change."""
     way, (aside, is_dimensioned) = field.way(driven.along), chosen
     side = 1 if aside > 0 else -1
     start, end = field(driven.zero), field(driven.here)
     name = f"s {driver.link}"
-    text = f"{angle_symbol(drawing.scene, driver)} = "
-    text += written(drawing.scene, drawing.words, driver.position)
+    text = coordinate(drawing, driver, defined)
     if is_dimensioned:
         low, high = across(start, way, 0, aside), across(end, way, 0, aside)
         thin = across(start, way, 0, aside + side * 1.5), across(end, way, 0, aside + side * 1.5)
@@ -261,7 +282,7 @@ def draw_way(
         at = across(field(driven.drawn), way, 0, side * BLOCK[1] / 2)
         board.labels.append(Label(text, "", at, 2.5, name, away=across((0.0, 0.0), way, 0, side)))
     speed = speed_of(drawing, driver)
-    if speed != 0:
+    if speed != 0 and not defined:
         ahead = pick(speed > 0, HALF, -HALF)
         tail, tip = (across(field(driven.moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
         board.marks += arrow(tail, tip, "sense", f"speed {driver.link}")

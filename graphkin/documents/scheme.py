@@ -1,0 +1,132 @@
+"""The kinematic scheme of a task: its links, letters and drivers' coordinates, not to scale.
+
+The mechanism stands in another position than the student's, so that nothing can be traced.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from math import degrees, radians
+from typing import Any
+
+from msgspec.structs import replace
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import centre
+from graphkin.construction.core.program import Part
+from graphkin.construction.core.run import StepFailed, run
+from graphkin.construction.drivers.driver_symbols import draw_drivers
+from graphkin.construction.links.mechanism_symbols import (
+    draw_bars,
+    draw_ground,
+    draw_pins,
+    draw_plates,
+)
+from graphkin.drawing.areas import SCHEME
+from graphkin.drawing.field import Field
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import Mark, Text
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.text.errors import PageError
+
+SIZE = (58.0, 45.0)
+"""Width and height of the mechanism in its scheme at most, in mm."""
+TURNS = (35.0, -35.0, 25.0, -25.0, 15.0, -15.0)
+"""By how much drivers are turned from the student's position, in degrees, in the order tried."""
+WAY = 1 / 200
+"""How far one that slides or rolls is moved instead of a degree, in breadths of the mechanism."""
+CLEAR, CROSSING = 0.07, 0.25
+"""The least distance of pins, in breadths of the mechanism, and sine of a crossing, that are read
+well."""
+
+
+def scheme(drawing: Drawing) -> list[Mark]:
+    """The scheme with its title; without numbers of links where letters find no room, or none."""
+    moved = elsewhere(drawing)
+    left, top = SCHEME[:2]
+    title = Text(left, top - 2.0, drawing.words("task.scheme"), "caption", 2.5, name="scheme")
+    for numbered in (True, False):
+        board = drawn(moved, numbered=numbered)
+        try:
+            return [title, *board.finish()]
+        except PageError:
+            continue
+    return []
+
+
+def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
+    """The mechanism with its symbols in the scheme's field, its drivers told by their letters."""
+    box = drawing.mechanism_extent()
+    sides = [room / side for room, side in zip(SIZE, (box.width, box.height), strict=True) if side]
+    field = Field(SCHEME, min(sides, default=1.0), box.middle, centre(SCHEME))
+    board = FieldContent(SCHEME)
+    draw_plates(board, drawing, field)
+    draw_ground(board, drawing, field)
+    draw_bars(board, drawing, field)
+    draw_drivers(board, drawing, field, defined=True)
+    draw_pins(board, drawing, field)
+    if not numbered:
+        board.labels = [label for label in board.labels if not label.ring]
+    return board
+
+
+def elsewhere(drawing: Drawing) -> Drawing:
+    """The mechanism in another position: the first that is read well, else the widest apart of
+    those that close, else its own."""
+    own = replace(drawing, curves=())
+    best, widest = own, 0.0
+    for turn in TURNS:
+        moved = moved_by(own, turn)
+        if moved is None:
+            continue
+        clear = clearance(moved)
+        if clear >= 1:
+            return moved
+        if clear > widest:
+            best, widest = moved, clear
+    return best
+
+
+def clearance(drawing: Drawing) -> float:
+    """How well a position is read, 1 where all pins stand apart and no two loci meet flatly."""
+    places = [*drawing.positions.values()]
+    near = min((abs(p - q) for p, q in combinations(places, 2) if p != q), default=drawing.reach)
+    sine = min(drawing.trace.margins.values(), default=1.0)
+    return min(near / (CLEAR * drawing.reach), float(sine) / CROSSING)
+
+
+def moved_by(drawing: Drawing, turn: float) -> Drawing | None:
+    """The positions with every driver moved so many degrees, or as much of the mechanism's breadth.
+
+    None where the mechanism does not close there.
+    """
+    program = drawing.trace.program
+    placed = [n for n in drawing.trace.values if program.steps[n].part is Part.POSITION]
+    needed = program.behind(n for n in placed if not program.steps[n].hand)
+    driven, overrides = dict(moved_drivers(drawing, turn)), dict(moved_steps(drawing, turn))
+    try:
+        trace = run(program, needed, drawing.scene.values, FLOAT, overrides=overrides)
+    except StepFailed:
+        return None
+    return replace(drawing, trace=trace, driven=driven)
+
+
+def moved_drivers(drawing: Drawing, turn: float) -> Iterator[tuple[str, float]]:
+    """The angles of the drivers that turn, in degrees."""
+    for driver in drawing.scene.drivers:
+        if driver.kind == "turn":
+            yield driver.link, degrees(float(driver.position.si(drawing.scene.values))) + turn
+
+
+def moved_steps(drawing: Drawing, turn: float) -> Iterator[tuple[int, Any]]:
+    """The values of the steps that hold the drivers' positions."""
+    values = drawing.scene.values
+    for driver, drive in zip(drawing.scene.drivers, drawing.trace.program.drives, strict=True):
+        place = float(driver.position.si(values))
+        if driver.kind != "turn":
+            yield drive.position, place + WAY * turn * drawing.reach
+            continue
+        yield drive.position, FLOAT.direction(degrees(place) + turn)
+        if drive.angle is not None:
+            yield drive.angle, place + radians(turn)
