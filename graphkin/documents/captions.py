@@ -28,7 +28,7 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     factor = scale_of(drawing, drawing.plane) / 1000
     task = view == "task"
     k = BLANK if task else figure(drawing, factor)
-    kL = BLANK if task else f"{length_scale(drawing)} m/mm"
+    kL = f"{BLANK if task else length_scale(drawing)} m/mm"
     beside = beside_plan(drawing, drawing.kind) if has_plan(drawing) else ""
     kL += f"; {beside}" if beside else ""
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)

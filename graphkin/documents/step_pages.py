@@ -52,7 +52,10 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     detail += insets(drawing, layout.mechanism, [*left, *detail])
     detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
     last = [*detail, *other, *plan_signs(drawing, layout.plan, [*right, *other])]
-    block, same = title_block(drawing, "steps", number), [*heading(drawing, "steps"), *panels(layout)]
+    block, same = (
+        title_block(drawing, "steps", number),
+        [*heading(drawing, "steps"), *panels(layout)],
+    )
     lines = [
         (stage_of_crossing(drawing, each, staged), each)
         for each in crossings_on(drawing)

@@ -34,7 +34,7 @@ def rules(drawing: Drawing) -> Iterator[str]:
     if not scales.of_crank or (drawing.scene.sheet.ka and not first):
         yield f"{rule.left} = {rule.result} {rule.unit}"
         return
-    yield f"{rule.left} = {rule.symbols.replace('*m*′', m).replace('*m*', m)}"
+    yield f"{rule.left} = {rule.symbols}"
     if first:
         for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
             times = "" if m == "1" else f"{m}·"

@@ -192,7 +192,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
 def plan_scales(drawing: Drawing) -> Iterator[Relation]:
     """kv and ka from the driving crank, or chosen.
 
-    Where no crank says them ka keeps the right triangles: it is (m·kv)²/(m′·kL).
+    Where no crank says them ka keeps the right triangles: it is (m·kv)²/(m′·kL), where the plans are m and m′ times as large as vectors on the mechanism.
     """
     scales, chosen = drawing.scales, drawing.words("calculation.chosen")
     number = length_scale(drawing)
@@ -201,24 +201,23 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
         m, again = (figure(drawing, each) for each in (scales.larger, scales.larger_still))
         by_ka = ("*k*_v^2/*k*_L", f"{squared(kv)}/{number}")
         if (m, again) != ("1", "1"):
-            numbers = f"({m}·{kv})^2/({again}·{number})"
-            by_ka = ("(*m*·*k*_v)^2/(*m*′·*k*_L)", numbers)
+            by_ka = (f"({m}·*k*_v)^2/({again}·*k*_L)", f"({m}·{kv})^2/({again}·{number})")
         yield Relation("*k*_v", "", "", kv, KV, chosen, given=True)
         yield Relation("*k*_a", *by_ka, ka, KA)
         return
     turning = float(drawing.scene.drivers[0].speed.si(drawing.scene.values))
     w, index = figure(drawing, abs(turning), OMEGA), f"_{{{escape(drawing.scene.drivers[0].link)}}}"
-    for name, power, kind, times, result, unit in (
-        ("*k*_v", "", "velocity", "*m*", kv, KV),
-        ("*k*_a", "^2", "acceleration", "*m*′", ka, KA),
+    for name, power, kind, result, unit in (
+        ("*k*_v", "", "velocity", kv, KV),
+        ("*k*_a", "^2", "acceleration", ka, KA),
     ):
         if kind == "acceleration" and drawing.scene.sheet.ka is not None:
             yield Relation(name, "", "", result, unit, chosen, given=True)
             continue
-        larger = scales.of_bar(kind)
-        sign, less = (f"/{times}", f"/{figure(drawing, larger)}") if larger != 1 else ("", "")
+        times = scales.of_bar(kind)
+        less = f"/{figure(drawing, times)}" if times != 1 else ""
         numbers = f"{squared(w) if power else w}·{number}{less}"
-        yield Relation(name, f"*ω*{index}{power}·*k*_L{sign}", numbers, result, unit)
+        yield Relation(name, f"*ω*{index}{power}·*k*_L{less}", numbers, result, unit)
 
 
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
