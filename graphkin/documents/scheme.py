@@ -17,6 +17,7 @@ from graphkin.construction.core.layout import centre
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.drivers.driver_symbols import draw_drivers
+from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.mechanism_symbols import (
     draw_bars,
     draw_ground,
@@ -26,7 +27,7 @@ from graphkin.construction.links.mechanism_symbols import (
 from graphkin.drawing.areas import SCHEME
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.marks import Mark, Text, reach
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.text.errors import PageError
 
@@ -56,18 +57,33 @@ def scheme(drawing: Drawing) -> list[Mark]:
 
 
 def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
-    """The mechanism with its symbols in the scheme's field, its drivers told by their letters."""
+    """The mechanism with its symbols amid the scheme's field, its drivers told by their letters."""
     box = drawing.mechanism_extent()
     sides = [room / side for room, side in zip(SIZE, (box.width, box.height), strict=True) if side]
     field = Field(SCHEME, min(sides, default=1.0), box.middle, centre(SCHEME))
+    solid = [reach(m) for m in symbols(drawing, field).marks if m.cls != "centre-line"]
+    lefts, tops, rights, lows = zip(*solid, strict=True)
+    shift = [
+        middle - (low + high) / 2
+        for middle, low, high in zip(
+            field.at, (min(lefts), min(tops)), (max(rights), max(lows)), strict=True
+        )
+    ]
+    board = symbols(drawing, replace(field, at=(field.at[0] + shift[0], field.at[1] + shift[1])))
+    board.marks = [*within(board.marks, SCHEME)]
+    if not numbered:
+        board.labels = [label for label in board.labels if not label.ring]
+    return board
+
+
+def symbols(drawing: Drawing, field: Field) -> FieldContent:
+    """The symbols of links, guides, pins and drivers, with the letters that they wish for."""
     board = FieldContent(SCHEME)
     draw_plates(board, drawing, field)
     draw_ground(board, drawing, field)
     draw_bars(board, drawing, field)
     draw_drivers(board, drawing, field, defined=True)
     draw_pins(board, drawing, field)
-    if not numbered:
-        board.labels = [label for label in board.labels if not label.ring]
     return board
 
 

@@ -51,7 +51,7 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     last = [*detail, *other, *insets(drawing, layout.mechanism, [*left, *detail])]
     block, same = (
         title_block(drawing, "steps", number),
-        [*heading(drawing, "steps"), *panels(layout)],
+        [*heading(drawing), *panels(layout)],
     )
     lines = [
         (stage_of_crossing(drawing, each, staged), each)
