@@ -22,10 +22,13 @@ from graphkin.text.errors import PageError, Problem
 LETTER = 2.5
 LINE, GAP = 6.0, 3.0
 """Distance of lines, and what a heading adds above it, in mm."""
+BY_HAND = (7.5, 7.0, 6.5)
+"""Distances of lines to be filled in, where these take no more pages for it."""
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
-BLANK = ". " * 14
-"""Room to write in, on the form that is to be filled in."""
+DOT = ". "
+BLANK = DOT * 13 + DOT[0]
+"""The least room to write in, on the form that is to be filled in."""
 FIRST = "velocities"
 """The section in whose head it is said how vector equations are marked."""
 NUMBER = 12.0
@@ -57,7 +60,7 @@ def calculation(
     ``computed`` says by the symbol why a quantity is computed, not measured.
     """
     rows = list(all_rows(drawings, computed, solved=view == "key"))
-    pages = balanced(rows)
+    pages = laid_out(rows, solved=view == "key")
     return tuple(
         page_of(drawings[0], page, view, f"{i}/{len(pages)}") for i, page in enumerate(pages, 1)
     )
@@ -105,9 +108,9 @@ def broken(
     if relation.blank and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {relation.blank[0]}", *relation.blank[1:]]
     elif relation.result and not (solved or relation.given):
-        parts = [*parts[:-1], f"{parts[-1]} {BLANK}{relation.unit}".rstrip()]
+        parts = [*parts[:-1], f"{parts[-1]} {BLANK} {relation.unit}".rstrip()]
         if relation.unit.startswith("rad/"):
-            parts.append(f"({drawing.words('table.sense')}: {BLANK.rstrip()})")
+            parts.append(f"({drawing.words('table.sense')}: {BLANK})")
     parts += [f"({hint})"] if hint else []
     lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):
@@ -120,32 +123,46 @@ def broken(
                     "shorten the names of the points",
                 )
             )
-        yield CalculationRow(line, tag if i == len(lines) - 1 else "")
+        written = line if solved else dotted(line, room)
+        yield CalculationRow(written, tag if i == len(lines) - 1 else "")
 
 
-def balanced(rows: Sequence[CalculationRow]) -> list[list[tuple[float, CalculationRow]]]:
-    """The lines on as few pages as hold them, and on each of these about as many."""
-    pages, low = list(paged(rows, BOTTOM)), TOP
-    high = BOTTOM
-    while len(pages) > 1 and high - low > LINE:
+def dotted(line: str, room: float) -> str:
+    """A line with its first blank as long as there is room."""
+    more = int((room - extent(line, LETTER)[0]) / extent(DOT + DOT, LETTER)[0] * 2)
+    return line.replace(BLANK, DOT * max(more, 0) + BLANK, 1)
+
+
+def laid_out(
+    rows: Sequence[CalculationRow], *, solved: bool
+) -> list[list[tuple[float, CalculationRow]]]:
+    """The lines on as few pages as hold them, and on each of these about as many.
+
+    Those to be filled in stand as far apart as takes no more pages.
+    """
+    count = len(list(paged(rows, LINE, BOTTOM)))
+    wider = (line for line in BY_HAND if len(list(paged(rows, line, BOTTOM))) == count)
+    line = LINE if solved else next(wider, LINE)
+    low, high = TOP, BOTTOM
+    while count > 1 and high - low > LINE:
         middle = (low + high) / 2
-        fewer = list(paged(rows, middle))
-        low, high = (low, middle) if len(fewer) == len(pages) else (middle, high)
-    return list(paged(rows, high))
+        fits = len(list(paged(rows, line, middle))) == count
+        low, high = (low, middle) if fits else (middle, high)
+    return list(paged(rows, line, high))
 
 
 def paged(
-    rows: Sequence[CalculationRow], bottom: float
+    rows: Sequence[CalculationRow], line: float, bottom: float
 ) -> Iterator[list[tuple[float, CalculationRow]]]:
     """The lines with their places, page by page; no heading stands last on a page."""
     page: list[tuple[float, CalculationRow]] = []
     y = TOP
     for row in rows:
-        step = LINE + (GAP if row.heading and page else 0) + (page[-1][1].depth if page else 0)
-        need = step + (LINE if row.heading else 0)
+        step = line + (GAP if row.heading and page else 0) + (page[-1][1].depth if page else 0)
+        need = step + (line if row.heading else 0)
         if page and y + need + row.depth > bottom:
             yield page
-            page, y, step = [], TOP, LINE
+            page, y, step = [], TOP, line
         y = y + step if page else y
         page.append((y, row))
     if page:

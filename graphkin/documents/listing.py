@@ -11,7 +11,7 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
 from graphkin.text.errors import PageError, Problem
 
-LOOKS = ((2.5, 5.6, 4.0), (2.2, 4.9, 3.6), (1.8, 4.0, 3.4))
+LOOKS = ((2.5, 5.6, 3.6), (2.2, 4.9, 3.4), (1.8, 4.0, 3.4))
 """Heights of lettering, each with the largest and the least distance of its lines, in mm."""
 FINE = 0.05
 """By how much, in mm, lines are set closer until they fit."""

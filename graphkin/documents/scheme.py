@@ -17,6 +17,7 @@ from graphkin.construction.core.layout import centre
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.drivers.driver_symbols import draw_drivers
+from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.mechanism_symbols import (
     draw_bars,
     draw_ground,
@@ -26,10 +27,12 @@ from graphkin.construction.links.mechanism_symbols import (
 from graphkin.drawing.areas import SCHEME
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.marks import Mark, Text, reach
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.text.errors import PageError
 
+SCHEMATIC = "scheme"
+"""The class that tells marks of the scheme from those that are drawn to scale."""
 SIZE = (58.0, 45.0)
 """Width and height of the mechanism in its scheme at most, in mm."""
 TURNS = (35.0, -35.0, 25.0, -25.0, 15.0, -15.0)
@@ -49,25 +52,40 @@ def scheme(drawing: Drawing) -> list[Mark]:
     for numbered in (True, False):
         board = drawn(moved, numbered=numbered)
         try:
-            return [title, *board.finish()]
+            return [title, *(replace(mark, cls=f"{mark.cls} {SCHEMATIC}") for mark in board.finish())]
         except PageError:
             continue
     return []
 
 
 def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
-    """The mechanism with its symbols in the scheme's field, its drivers told by their letters."""
+    """The mechanism with its symbols amid the scheme's field, its drivers told by their letters."""
     box = drawing.mechanism_extent()
     sides = [room / side for room, side in zip(SIZE, (box.width, box.height), strict=True) if side]
     field = Field(SCHEME, min(sides, default=1.0), box.middle, centre(SCHEME))
+    solid = [reach(m) for m in symbols(drawing, field).marks if m.cls != "centre-line"]
+    lefts, tops, rights, lows = zip(*solid, strict=True)
+    shift = [
+        middle - (low + high) / 2
+        for middle, low, high in zip(
+            field.at, (min(lefts), min(tops)), (max(rights), max(lows)), strict=True
+        )
+    ]
+    board = symbols(drawing, replace(field, at=(field.at[0] + shift[0], field.at[1] + shift[1])))
+    board.marks = [*within(board.marks, SCHEME)]
+    if not numbered:
+        board.labels = [label for label in board.labels if not label.ring]
+    return board
+
+
+def symbols(drawing: Drawing, field: Field) -> FieldContent:
+    """The symbols of links, guides, pins and drivers, with the letters that they wish for."""
     board = FieldContent(SCHEME)
     draw_plates(board, drawing, field)
     draw_ground(board, drawing, field)
     draw_bars(board, drawing, field)
     draw_drivers(board, drawing, field, defined=True)
     draw_pins(board, drawing, field)
-    if not numbered:
-        board.labels = [label for label in board.labels if not label.ring]
     return board
 
 

@@ -41,8 +41,9 @@ from graphkin.text.errors import PageError, Problem
 
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
-DATA = ((2.5, 4.2, 2), (2.5, 3.6, 3), (1.8, 3.0, 3))
-"""How the data may look: height of letters and distance of lines in mm, lines at most."""
+DATA = ((2.5, 4.2, 2, False), (2.5, 3.8, 3, True), (1.8, 3.2, 3, False))
+"""How the data may look: height of letters and distance of lines in mm, lines at most, and whether
+these are so near that signs may touch."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
@@ -119,7 +120,7 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     )
 
 
-def heading(drawing: Drawing, view: str) -> list[Mark]:
+def heading(drawing: Drawing, view: str = "key") -> list[Mark]:
     """The sheet's title and the data, in as many lines as they need."""
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
@@ -128,24 +129,24 @@ def heading(drawing: Drawing, view: str) -> list[Mark]:
     if extent(lines[0], height)[0] > TITLE:
         height = next((h for h in (3.5, 2.5) if len(wrapped(name, TITLE, h)) <= 2), 1.8)
         lines = wrapped(name, TITLE, height)
-    low = top + (8.2 if len(lines) == 1 else 9.6)
+    low, data = (top + 7.6, top + 12.4) if len(lines) == 1 else (top + 9.4, top + 13.4)
     marks: list[Mark] = [
         Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
         for i, line in enumerate(lines)
     ]
-    marks += check_bar(AREA[2] - 106, top + 7, "")
+    marks += check_bar(AREA[2] - 106, top + 5.5, "")
     bar = words("page.check_bar")
-    marks.append(Text(AREA[2] - 109, top + 7, bar, "check-bar", 1.8, "end"))
-    return [*marks, *data_lines(drawing, view, left, top + 13.4, AREA[2] - left - 3)]
+    marks.append(Text(AREA[2] - 109, top + 5.5, bar, "check-bar", 1.8, "end"))
+    return [*marks, *data_lines(drawing, view, left, data, AREA[2] - left - 3)]
 
 
 def data_lines(drawing: Drawing, view: str, x: float, y: float, width: float) -> list[Mark]:
     """The data in two lines, or in three, of smaller lettering only where signs would touch."""
     first, *pieces = given(drawing, solved=view != "task")
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
-    for height, leading, room in DATA:
+    for height, leading, room, near in DATA:
         lines = flowed(pieces, "; ", width, height)
-        if len(lines) <= room and are_clear(lines, height, leading):
+        if len(lines) <= room and not (near and not are_clear(lines, height, leading)):
             return [
                 Text(x, y + i * leading, line, "caption", height, name="data")
                 for i, line in enumerate(lines)

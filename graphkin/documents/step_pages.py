@@ -54,7 +54,7 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     last = [*detail, *other, *plan_signs(drawing, layout.plan, [*right, *other])]
     block, same = (
         title_block(drawing, "steps", number),
-        [*heading(drawing, "steps"), *panels(layout)],
+        [*heading(drawing), *panels(layout)],
     )
     lines = [
         (stage_of_crossing(drawing, each, staged), each)

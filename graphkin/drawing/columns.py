@@ -23,23 +23,34 @@ BETWEEN, APART = 3, 0.6
 
 
 class Look(NamedTuple):
-    """Height of a row, how far below its upper line letters stand (mm), the part of the widths."""
+    """Height of a row, how far below its upper line letters stand (mm), the part of the widths.
+
+    ``large``: with large letters or not at all.
+    """
 
     row: float
     base: float
     part: float
+    large: bool = False
 
     @property
     def letters(self) -> tuple[float, ...]:
         """The heights of letters that are tried."""
-        return (HEIGHT, SMALL) if self.part == 1 else (SMALL,)
+        return (HEIGHT, SMALL) if self.part >= 1 else (SMALL,)
 
 
-TALL = Look(5.0, 3.55, 1.0)
+WIDENED = ((1.0, True), (1.15, True), (1.3, True), (1.0, False))
+"""Parts of the widths that are tried for large letters, before small ones."""
+HIGH = tuple(Look(5.0, 3.55, *how) for how in WIDENED)
 """How tables with signs above letters look where there is room for it."""
-LOOKS = (Look(4.7, 3.4, 1.0), *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)))
+LOOKS = (
+    *(Look(4.7, 3.2, *how) for how in WIDENED),
+    *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)),
+)
 """How tables look where there is room, and where there is less and less."""
-BY_HAND = tuple(Look(row, row / 2 + 1.15, 1.0) for row in (7.0, 6.5, 6.0, 5.5, 5.0))
+BY_HAND = tuple(
+    Look(row, row / 2 + 1.0, *how) for row in (7.0, 6.5, 6.0, 5.5, 5.0) for how in WIDENED
+)
 """How tables that a hand fills in look where there is room."""
 NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
 """A number in a cell: what stands before its decimal mark, and the rest."""
@@ -109,6 +120,10 @@ class ColumnTable(Struct, frozen=True):
         sides = [around_mark(row.cells[column], height) for row in self.among]
         return (max(b for _, b in sides) - max(a for a, _ in sides)) / 2
 
+    def lettering(self, look: Look) -> float:
+        """The lettering of its rows."""
+        return self.letters(look, self.columns(look))
+
     def letters(self, look: Look, widths: Sequence[float]) -> float:
         """The lettering in which every cell fits its column and its row."""
         if look.letters[0] != HEIGHT:
@@ -176,11 +191,13 @@ def laid_out(tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False
     """
     left, top, right, low = rect
     raised = any("^" in row.cells[0] for table in tables for row in table.rows)
-    looks = (*(BY_HAND if by_hand else ()), *((TALL,) if raised else ()), *LOOKS)
+    looks = (*(BY_HAND if by_hand else ()), *(HIGH if raised else ()), *LOOKS)
     for look in looks:
         columns = in_columns(tables, (low - top) / look.row)
         wide = [max(sum(table.columns(look)) for table in column) for column in columns]
         if sum(wide) + BETWEEN * (len(wide) - 1) > right - left + 1e-9:
+            continue
+        if look.large and any(table.lettering(look) == SMALL for c in columns for table in c):
             continue
         marks: list[Mark] = []
         for nth, column in enumerate(columns):

@@ -2,7 +2,8 @@ r"""A tiny markup for formulas and labels, laid out into runs at absolute places
 
 ``*v*`` is italic, ``_{BA}`` or ``_2`` a subscript, ``^{ν}`` or ``^2`` a superscript; a subscript
 and a superscript directly after one another start at the same place, but an exponent stands after
-an index of more than two signs. A backslash takes the next sign as it is.
+an index of more than two signs; an index after a prime stands below it. A backslash takes the next
+sign as it is.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ OVERHANG = {"f": 0.14}
 """How far, in em, slanted letters reach over an upright sign or an exponent after them."""
 CLEAR = 0.1
 """The least room, in mm, between signs of lines above one another."""
+PRIMES = "′″‴"
+"""Signs after a letter below which its index stands."""
 STACKED = 2
 """Signs of the longest index above which an exponent may stand."""
 SPECIAL = "\\*_^{}"
@@ -118,13 +121,14 @@ def laid(markup: str, height: float) -> tuple[tuple[TextRun, ...], float]:
         if level:
             index = text if level < 0 else index
             after = level > 0 and text.isdigit() and len(index) > STACKED
-            begin = max(start + (lean if level > 0 else 0.0), ends[-1 if after else level])
+            begin = max(start + lean, ends[-1 if after else 1]) if level > 0 else ends[-1]
             ends[level] = begin + advance(text, italic) * size
             x = max(x, ends[level])
         else:
             begin = x if italic else x + lean
             x = start = begin + advance(text, italic) * size
-            ends, index = {-1: start, 1: start}, ""
+            primes = text[len(text.rstrip(PRIMES)) :]
+            ends, index = {-1: start - advance(primes, italic) * size, 1: start}, ""
             lean = OVERHANG.get(text[-1], 0.0) * size if italic else 0.0
         found.append(TextRun(text, begin, shift[level], size, italic))
     return tuple(found), x

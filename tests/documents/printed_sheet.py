@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 NAME = r"[A-Za-z][′″‴]*(?:_\{[^}]*\})?(?:\^\{IV\})?"
 """The name of a point as it is printed."""
 NUMBER = r"−?\d+(?:\.\d+)?"
-MARKED, ENLARGED = {"pin", "point", "pole", "centre"}, {"inset", "detail"}
+MARKED, ENLARGED = {"pin", "point", "pole", "centre"}, {"inset", "detail", "scheme"}
 """The kinds of circles that mark a point, and those of them that stand in a lens."""
 
 

@@ -23,6 +23,18 @@ def test_a_subscript_and_a_superscript_stack():
     assert low.size == high.size == pytest.approx(0.7 * base.size)
 
 
+@pytest.mark.parametrize("prime", ["′", "″", "‴"])
+def test_an_index_stands_below_the_prime_of_its_letter(prime):
+    letter, above, low = runs(f"*b*{prime}_{{3}}", 3.5)
+    assert low.x == above.x == pytest.approx(letter.x + extent("*b*", 3.5)[0])
+    assert extent(f"*b*{prime}_{{3}}x", 3.5)[0] >= extent(f"*b*{prime}x", 3.5)[0]
+    top_of_index, foot_of_prime = (
+        low.y + extent("3", 3.5)[1] * 0.7,
+        extent(prime, 3.5)[2],
+    )
+    assert foot_of_prime < top_of_index
+
+
 def test_what_follows_stacked_scripts_starts_after_the_longer_one():
     _, low, _, after = runs("a_{BA}^{ν}x", 3.5)
     wide = extent("BA", 3.5)[0] * 0.7

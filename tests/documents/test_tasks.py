@@ -1,0 +1,98 @@
+"""What a task tells and what it leaves to be found, and its kinematic scheme."""
+
+import cmath
+import re
+from itertools import pairwise
+
+import pytest
+
+from graphkin.construction.core.layout import lay_out
+from graphkin.documents.relations import relations
+from graphkin.documents.scheme import elsewhere, scheme
+from graphkin.documents.sheet import sheet
+from graphkin.drawing.areas import SCHEME, TABLES
+from graphkin.drawing.marks import Arc, LineMark, Text, reach
+from graphkin.drawing.richtext import plain
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.text import LANGUAGES, words
+from tests.documents.sheet_tools import collisions, drawings
+from tests.mechanisms import SHIPPED
+
+SCENES = ("watt-1", "crank-slot", "gears-planet", "rapid-return", "stephenson-2-binary")
+SOME = (*((lab, 7) for lab in SHIPPED), *((scene, None) for scene in SCENES))
+
+
+def task(drawing):
+    return sheet(drawing, "task", "1/2", lay_out(drawing))
+
+
+def told(page):
+    """The words of a page, in one line."""
+    return " ".join(plain(mark.markup) for mark in page.marks if isinstance(mark, Text))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", SOME, ids=str)
+def test_no_sheet_of_a_task_tells_what_its_calculation_asks(name, language):
+    both = drawings(*name, language)
+    printed = " ".join(told(task(drawing)) for drawing in both)
+    for _, found in relations(both, solved=False):
+        for each in found:
+            if each.result and not each.given:
+                answer = f"{plain(each.left)} = {plain(each.result)}"
+                assert not re.search(re.escape(answer) + r"(?![\d.,])", printed), answer
+
+
+@pytest.mark.parametrize("name", SOME, ids=str)
+def test_a_task_has_room_for_a_name_and_no_verdict(name):
+    for drawing in drawings(*name):
+        marks = task(drawing).marks
+        person = words("en")("task.person")
+        assert [m for m in marks if isinstance(m, Text) and m.markup == person]
+        assert not [m for m in marks if isinstance(m, Text) and m.name == "witness"]
+
+
+@pytest.mark.parametrize("name", SOME, ids=str)
+def test_the_scheme_shows_every_point_in_its_place_and_in_another_position(name):
+    for drawing in drawings(*name):
+        marks = scheme(drawing)
+        letters = {mark.markup for mark in marks if isinstance(mark, Text)}
+        assert {symbol(point) for point in drawing.positions} <= letters
+        for mark in marks:
+            left, top, right, low = reach(mark)
+            assert left >= SCHEME[0] - 0.1 and right <= SCHEME[2] + 0.1, mark
+            assert top >= SCHEME[1] - 6 and low <= SCHEME[3] + 0.1, mark
+        assert not collisions([mark for mark in marks if mark.name != "scheme"])
+        moved = elsewhere(drawing)
+        far = max(abs(moved.positions[p] - at) for p, at in drawing.positions.items())
+        assert far > 0.02 * drawing.reach
+
+
+def test_the_scheme_keeps_lengths_and_defines_the_angle_of_the_crank():
+    (drawing, *_) = drawings("pump", 7)
+    moved = elsewhere(drawing)
+    for p, q in (("O1", "A"), ("A", "B"), ("B", "C"), ("C", "D"), ("O2", "B")):
+        before = abs(drawing.positions[p] - drawing.positions[q])
+        assert abs(moved.positions[p] - moved.positions[q]) == pytest.approx(before)
+    turn = (moved.positions["A"] - moved.positions["O1"]) / (
+        drawing.positions["A"] - drawing.positions["O1"]
+    )
+    assert abs(abs(cmath.phase(turn)) - cmath.pi * 35 / 180) < 1e-9
+    marks = scheme(drawing)
+    assert [mark for mark in marks if isinstance(mark, Arc) and mark.name == "phi"]
+    assert [mark for mark in marks if isinstance(mark, Text) and mark.markup == "*φ*"]
+
+
+def test_rows_of_a_task_are_high_enough_for_a_hand():
+    (drawing, *_) = drawings("pump", 7)
+    ruled: dict[float, list[float]] = {}
+    for mark in task(drawing).marks:
+        if (
+            isinstance(mark, LineMark)
+            and mark.cls == "panel"
+            and mark.y1 == mark.y2 > TABLES[1] - 1
+        ):
+            ruled.setdefault(mark.x1, []).append(mark.y1)
+    assert ruled
+    for rows in ruled.values():
+        assert min(b - a for a, b in pairwise(sorted(rows))) >= 6.5
