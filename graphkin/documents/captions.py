@@ -13,6 +13,8 @@ from graphkin.drawing.richtext import extent, flowed, words_of
 
 BLANK = ". . . . . . . . ."
 """Room to write in what a task does not give away."""
+HEADING = "heading"
+"""The name of the lines of captions."""
 HEIGHTS = (3.5, 2.5, 1.8)
 """Heights of captions in mm; all but the least stand in two lines at most."""
 LEADING = 1.35
@@ -52,6 +54,6 @@ def caption(said: str, rect: Rect) -> list[Mark]:
             break
     first = rect[1] - (2.5 if len(lines) == 1 else 3.4)
     return [
-        Text(rect[0] + 3, first + LEADING * height * i, line, "caption", height)
+        Text(rect[0] + 3, first + LEADING * height * i, line, "caption", height, name=HEADING)
         for i, line in enumerate(lines)
     ]

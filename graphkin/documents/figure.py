@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, centre, spans, with_poles
+from graphkin.documents.captions import HEADING
 from graphkin.documents.detail import with_detail
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.drawing.areas import ABOVE, Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Mark, reach
+from graphkin.drawing.marks import Mark
 from graphkin.drawing.scale import Extent
 from graphkin.text.errors import PageError, Problem
 
@@ -39,7 +40,7 @@ def for_axes(
     layout = Layout(left, right, {})
     layout = Layout(left, right, spans(drawing, layout))
     board = (left_board if mechanism else right_board)(drawing, layout, "key")
-    marks = [mark for mark in lettered(board, width, height) if reach(mark)[3] > EDGE]  # no caption
+    marks = [mark for mark in lettered(board, width, height) if mark.name != HEADING]
     return (marks, left, larger[0]) if mechanism else (marks, right, larger[1])
 
 

@@ -52,7 +52,10 @@ def scheme(drawing: Drawing) -> list[Mark]:
     for numbered in (True, False):
         board = drawn(moved, numbered=numbered)
         try:
-            return [title, *(replace(mark, cls=f"{mark.cls} {SCHEMATIC}") for mark in board.finish())]
+            return [
+                title,
+                *(replace(mark, cls=f"{mark.cls} {SCHEMATIC}") for mark in board.finish()),
+            ]
         except PageError:
             continue
     return []

@@ -31,11 +31,8 @@ def rules(drawing: Drawing) -> Iterator[str]:
     kv, ka = plan_scales(drawing)
     rule = kv if first else ka
     m = figure(drawing, scales.of_bar(drawing.kind))
-    if not scales.of_crank or (drawing.scene.sheet.ka and not first):
-        yield f"{rule.left} = {rule.result} {rule.unit}"
-        return
-    yield f"{rule.left} = {rule.symbols}"
-    if first:
+    yield f"{rule.left} = {rule.symbols or f'{rule.result} {rule.unit}'}"
+    if first and scales.of_crank:
         for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
             times = "" if m == "1" else f"{m}·"
             yield f"{segment(drawing, q)} = {times}{bar(p, q)}/*k*_L"

@@ -68,6 +68,6 @@ def with_sheet(tmp_path: Path, line: str) -> Path:
     return path
 
 
-@pytest.mark.parametrize("line", ["scale = 10", "ka = 20", "enlarge = 2"])
+@pytest.mark.parametrize("line", ["scale = 10", "ka = 0.5", "enlarge = 2"])
 def test_what_the_scene_states_holds_for_a_batch(tmp_path, line):
     held(with_sheet(tmp_path, line), "n", range(1, 31, 7))
