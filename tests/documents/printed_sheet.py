@@ -91,7 +91,8 @@ def canonical(name: str) -> str:
     match = re.fullmatch(r"([A-Za-z])([′″‴]*)_?\{?([^}^]*)\}?(\^\{IV\})?", name)
     assert match, name
     letter, primes, index, fourth = match.groups()
-    index = index if letter.isupper() else f"_{index}" if index else ""
+    whole = letter.isupper() and not (primes or fourth)
+    index = index if whole or not index else f"_{index}"
     return letter + ("⁗" if fourth else primes) + index
 
 

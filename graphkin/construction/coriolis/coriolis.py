@@ -402,7 +402,7 @@ def similar_triangles(
     images = pen.the("velocity", base.start), pen.the("velocity", base.end)
     seconds = pen.seconds()
     first, second = (f"{corner}_{index}" for corner in corners(pen.scene))
-    tip_name = f"{letter(point).lower()}{PRIME}_c{index}"
+    tip_name = f"{letter(point)}{PRIME}_c{index}"
     with pen.hands_way():
         with pen.on(Part.NORMAL, Plane.MECHANISM):
             velocity = pen.draw(set_velocity, pin, *images, seconds, name=tip_name)

@@ -235,10 +235,10 @@ def klein_component(
     (slide,) = (pair for pair, _ in sides if isinstance(pair, Sliding))
     places = pen.the("position", pivot), pen.the("position", pin)
     centre, omega = pen.the("position", crank.start), pen.the(OMEGA, crank.link)
-    guide, small = known_guide(pen, shapes, slide), bare(letter(pin))
+    guide, point = known_guide(pen, shapes, slide), bare(letter(pin))
 
     def drawn(index: str) -> dict[str, int]:
-        names = [f"{small}{primes}_{index}" for primes in ("″", "‴", "⁗")]
+        names = [f"{point}{primes}_{index}" for primes in ("″", "‴", "⁗")]
         with pen.hands_way():
             across = pen.draw(square_to_guide, centre, guide)
             line = pen.draw(bar_line, *places)

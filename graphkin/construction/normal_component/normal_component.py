@@ -139,7 +139,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
             "p": symbol(self.p),
             "q": symbol(self.q),
             "bar": bar(self.p, self.q),
-            "letter": symbol(self.q.lower()),
+            "letter": symbol(bare(self.q)),
         }
 
     @classmethod
@@ -299,21 +299,21 @@ def right_triangle(
     """Velocity at the pin, perpendicular at its tip, cut with the bar, turned over (figure 4)."""
     seconds = pen.seconds()
     pivot, pin = places
-    small = bare(point)
+    own = bare(point)
     with pen.hands_way():
-        tip = pen.draw(set_velocity, pin, *images, seconds, name=f"{small}″_{index}")
+        tip = pen.draw(set_velocity, pin, *images, seconds, name=f"{own}″_{index}")
         edge = pen.draw(square_at, tip, pivot)
         line = pen.draw(bar_line, pivot, pin)
-        cut = pen.draw(meet, edge, line, name=f"{small}‴_{index}")
-        end = pen.draw(turn_over, cut, pin, name=f"{small}⁗_{index}")
+        cut = pen.draw(meet, edge, line, name=f"{own}‴_{index}")
+        end = pen.draw(turn_over, cut, pin, name=f"{own}⁗_{index}")
         with pen.on(Part.NORMAL, Plane.NUMBERS):
             read = pen.draw(normal_by_hand, pin, end, seconds)
     return {"tip": tip, "edge": edge, "line": line, "cut": cut, "end": end, "read": read}
 
 
 def bare(point: str) -> str:
-    """The small letter of a point without its index: b for B, B2 and B_left."""
-    return point.partition(",")[0].partition("_")[0].rstrip(digits).lower()
+    """The letter of a point without its index: B for B, B2 and B_left."""
+    return point.partition(",")[0].partition("_")[0].rstrip(digits)
 
 
 def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
