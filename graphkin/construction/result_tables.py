@@ -19,8 +19,8 @@ from graphkin.text import Words
 
 VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
-UNSEEN = 0.01
-"""Length of a vector in mm below which nobody sees it."""
+UNSEEN = 0.1
+"""Length of a vector in mm below which nobody reads it."""
 LEADING = 2.9
 """Distance of the lines that say what is computed, in mm."""
 
@@ -55,8 +55,7 @@ def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
 
 def value_of(words: Words, size: float, length: OnPaper) -> str:
     """The value of a vector that is so many mm long; in two digits where it is next to nothing."""
-    value = words.significant(size)
-    return words.significant(size, 2) if length < UNSEEN and "·" in value else value
+    return words.significant(size, 2 if length < UNSEEN else 4)
 
 
 def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:

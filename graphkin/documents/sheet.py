@@ -41,7 +41,7 @@ from graphkin.text.errors import PageError, Problem
 
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
-DATA = ((2.5, 4.2, 2, False), (2.5, 3.8, 3, True), (1.8, 3.2, 3, False))
+DATA = ((2.5, 4.2, 2, False), (2.5, 3.8, 3, True), (1.8, 3.2, 3, False), (1.8, 2.9, 4, False))
 """How the data may look: height of letters and distance of lines in mm, lines at most, and whether
 these are so near that signs may touch."""
 LEADING = 4.6
@@ -155,7 +155,7 @@ def data_lines(drawing: Drawing, view: str, x: float, y: float, width: float) ->
         Problem(
             "data",
             f"does not fit: {len(lines)} lines of small lettering",
-            "three lines above the drawing",
+            "four lines above the drawing",
             "shorten names and notes, or split the scene",
         )
     )

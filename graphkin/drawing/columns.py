@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 from msgspec import Struct
@@ -48,9 +49,7 @@ LOOKS = (
     *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)),
 )
 """How tables look where there is room, and where there is less and less."""
-BY_HAND = tuple(
-    Look(row, row / 2 + 1.0, *how) for row in (7.0, 6.5, 6.0, 5.5, 5.0) for how in WIDENED
-)
+BY_HAND = tuple(Look(row, row / 2 + 1.0, *how) for row in (7.0, 6.0, 5.0) for how in WIDENED)
 """How tables that a hand fills in look where there is room."""
 NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
 """A number in a cell: what stands before its decimal mark, and the rest."""
@@ -109,11 +108,8 @@ class ColumnTable(Struct, frozen=True):
 
     def breadth(self, column: int, height: float) -> float:
         """The width of all texts of a column in mm; of numbers with their marks aligned."""
-        texts = [row.cells[column] for row in self.among]
-        if column not in self.numbers:
-            return max((extent(text, height)[0] for text in texts), default=0.0)
-        sides = [around_mark(text, height) for text in texts]
-        return max((a for a, _ in sides), default=0.0) + max((b for _, b in sides), default=0.0)
+        texts = tuple(row.cells[column] for row in self.among)
+        return breadth_of(texts, height, aligned=column in self.numbers)
 
     def marked(self, column: int, height: float) -> float:
         """How far left of the middle of its column, in mm, decimal marks stand."""
@@ -164,6 +160,15 @@ class ColumnTable(Struct, frozen=True):
                 yield Text(at, baseline, markup, "table", height, "start", row.name)
             elif markup:
                 yield Text(middle, baseline, markup, "table", height, "middle", row.name)
+
+
+@lru_cache(maxsize=256)
+def breadth_of(texts: tuple[str, ...], height: float, *, aligned: bool) -> float:
+    """The width of texts below one another in mm, amid their column or with marks aligned."""
+    if not aligned:
+        return max((extent(text, height)[0] for text in texts), default=0.0)
+    sides = [around_mark(text, height) for text in texts]
+    return max((a for a, _ in sides), default=0.0) + max((b for _, b in sides), default=0.0)
 
 
 def around_mark(markup: str, height: float) -> tuple[float, float]:

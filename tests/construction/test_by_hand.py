@@ -113,7 +113,7 @@ def test_the_right_triangle_is_figure_4_of_the_lab():
     trace = mechanism.trace(by_hand=True)
     value = {mechanism.program.steps[n].name: v for n, v in trace.values.items()}
     a, b = value["A"], value["B"]
-    tip, cut, end = value["b″_BA"], value["b‴_BA"], value["b⁗_BA"]
+    tip, cut, end = value["B″_BA"], value["B‴_BA"], value["B⁗_BA"]
     assert abs(((tip - b) / (b - a)).real) < 1e-14
     assert abs(((cut - tip) / (tip - a)).real) < 1e-14
     assert abs(((cut - b) / (b - a)).imag) < 1e-14

@@ -9,6 +9,8 @@ from xml.etree import ElementTree
 
 NAME = r"[A-Za-z][′″‴]*(?:_\{[^}]*\})?(?:\^\{IV\})?"
 """The name of a point as it is printed."""
+FOOT = 201.0
+"""Where the drawings of an A3 sheet end, in mm from its upper edge."""
 NUMBER = r"−?\d+(?:\.\d+)?"
 MARKED, ENLARGED = {"pin", "point", "pole", "centre"}, {"inset", "detail", "scheme"}
 """The kinds of circles that mark a point, and those of them that stand in a lens."""
@@ -66,7 +68,9 @@ def printed(path: Path) -> Printed:
         if item.tag.endswith("}text") and kind == {"caption"}:
             lines.append(marked_up(item))
         elif item.tag.endswith("}circle") and name and kind & MARKED and not kind & ENLARGED:
-            marks[name] = complex(float(item.get("cx", 0)), -float(item.get("cy", 0)))
+            x, y = float(item.get("cx", 0)), float(item.get("cy", 0))
+            if y < FOOT:  # below stands the scheme, which is not to scale
+                marks[name] = complex(x, -y)
     return Printed(lines, marks)
 
 

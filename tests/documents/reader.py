@@ -837,7 +837,7 @@ class Reader:
 
     @says("(?:in the same way )?⟨a:vector⟩ at ⟨q⟩ on ⟨m⟩⟨n⟩ from ⟨v:vector⟩")
     def normal_again(self, a: str, q: str, m: str, n: str, v: str) -> None:
-        self.triangle(a, v, n if m == q else m, q, q[0].lower())
+        self.triangle(a, v, n if m == q else m, q, q[0])
 
     @says(
         r"⟨a:vector⟩ = ⟨v:vector⟩\^\{2\}/⟨m⟩⟨n⟩ at ⟨q⟩ on ⟨p⟩⟨r⟩, towards ⟨c⟩, computed: "

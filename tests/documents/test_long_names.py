@@ -37,11 +37,11 @@ def test_a_name_too_long_to_be_drawn_is_told_in_one_line():
 
 
 def test_the_letters_of_a_triangle_leave_the_index_of_a_point_to_their_own():
-    """Beside Q with the index left stand q″, q‴ and the fourth with its numeral, as beside B2."""
+    """Beside Q with the index left stand Q″, Q‴ and the fourth with its numeral, as beside B2."""
     _, drawing = drawings_from(INDEXED)
     page = sheet(drawing, "key", "1/2")
     labels = {m.markup for m in page.marks if isinstance(m, Text) and m.cls.startswith("label")}
-    assert {symbol(f"q{prime}_Q_left") for prime in "″‴⁗"} <= labels
-    assert {symbol(f"q{prime}_Q_leftB12") for prime in "″‴⁗"} <= labels
-    assert symbol("q⁗_Q_left") == r"*q*_{Q\_left}^{IV}"
+    assert {symbol(f"Q{prime}_Q_left") for prime in "″‴⁗"} <= labels
+    assert {symbol(f"Q{prime}_Q_leftB12") for prime in "″‴⁗"} <= labels
+    assert symbol("Q⁗_Q_left") == r"*Q*_{Q\_left}^{IV}"
     assert all("⁗" not in m.markup for m in page.marks if isinstance(m, Text))

@@ -200,7 +200,7 @@ def test_what_is_told_of_right_triangles_has_the_names_of_the_drawing(name):
         told = " ".join(
             plain(text) for one in said for text in (one.markup, *one.why, *one.letters)
         )
-        found = re.findall(r"(?<![a-z])[a-z][″‴](?:[A-Z\d][A-Z\d,]*)?", told)
+        found = re.findall(r"(?<![A-Za-z])[A-Z][″‴](?:[A-Z\d][A-Z\d,]*)?", told)
         assert {name.rstrip(",") for name in found} <= labels
 
 
@@ -212,7 +212,7 @@ def test_a_triangle_that_is_left_out_has_no_letters_no_reason_and_no_crossing(na
     (said,) = (one for one in told_of(name).said if "is left out" in one.markup)
     assert {plain(letter) for letter in said.letters} <= labels
     reasons = " ".join(plain(why) for why in said.why)
-    heights = re.findall(r"([A-Z]\d?[a-z]\d?‴\w*) = v2/(\w+)", reasons)
+    heights = re.findall(r"([A-Z]\d?[A-Z]\d?‴\w*) = v2/(\w+)", reasons)
     assert len(heights) == len({letter for letter, _ in heights}) == len(said.letters)
     left_out = re.findall(r"v\w+2/(\w+) \(", plain(said.markup))
     assert left_out and not {of for _, of in heights} & {*left_out}
