@@ -25,7 +25,7 @@ from graphkin.text.errors import PageError, Problem
 TIMES = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
 """How many times as large as on the mechanism plans are drawn."""
 ROUND = (5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02)
-"""The same where no crank says how large: round scale factors stay round."""
+"""The same of velocity plans where no crank says how large: a round kv stays round."""
 SHORTER = (0.5, 0.25, *(digit * 10.0**-power for power in range(1, 15) for digit in (2, 1, 0.5)))
 """How many times as long as the crank vectors are set on a mechanism that they outgrow."""
 LONGER = (1.5, 2.0, 3.0, 4.0, 5.0)
@@ -187,7 +187,7 @@ def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
 def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Best:
     """Vectors on the mechanism at a round kv, at which the longest is at most 90 mm long."""
     first = yield Scales(1.0, natural, triangles=triangles)
-    ladders = times_of(stated, ROUND, 1.0)
+    ladders = {**times_of(stated, TIMES, 1.0), "velocity": ROUND}
     best: Attempt | None = None
     for kL in islice(lengths(first, stated), LADDER):
         own: Attempt | None = None

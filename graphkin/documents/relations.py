@@ -169,7 +169,7 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
 def blank_place(drawing: Drawing) -> tuple[str, str]:
     """Room for a place, and from where it is counted."""
     words, pivots = drawing.words, drawing.scene.frame.points
-    pair = f"({ROOM}; {ROOM})"
+    pair = words.place(ROOM, ROOM)
     if not pivots:
         return f"{pair} {drawing.scene.units['length']}", f"({words('calculation.axes')})"
     return f"{pair} mm", f"({words('calculation.from_pivot', pivot=symbol(pivots[0]))})"
@@ -181,9 +181,11 @@ def of_place(drawing: Drawing, name: str, point: complex) -> Relation:
     x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
     pivots = drawing.scene.frame.points
     if not pivots:
-        return Relation(name, result=f"({x}; {y})", unit=unit, remark=words("calculation.axes"))
+        return Relation(name, result=words.place(x, y), unit=unit, remark=words("calculation.axes"))
     away = point - drawing.standing.spot(pivots[0])
     parts = (drawing.on_paper(part) for part in (away.real, away.imag))
-    measured = "({}; {})".format(*(words.fixed(part, 2) for part in parts))
-    remark = words("calculation.on_paper", pivot=symbol(pivots[0]), place=f"({x}; {y}) {unit}")
+    measured = words.place(*(words.fixed(part, 2) for part in parts))
+    remark = words(
+        "calculation.on_paper", pivot=symbol(pivots[0]), place=f"{words.place(x, y)} {unit}"
+    )
     return Relation(name, result=measured, unit="mm", remark=remark)

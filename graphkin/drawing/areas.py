@@ -18,7 +18,7 @@ MARGIN = 15.0
 """Room left and right of a drawing for symbols, ends of lines and labels, in mm."""
 ABOVE = 8.5
 """Room above and below a drawing, in mm."""
-LEAST_FIELD = 100.0
+LEAST_FIELD = 80.0
 """Width that every field has, in mm, so that its caption stands above it in two lines."""
 HEADER = 28.0
 """Height of the title, the data and the fields' captions below the frame's upper edge, in mm."""

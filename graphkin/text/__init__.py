@@ -44,6 +44,10 @@ class Words:
         """A number written with a point, as this language writes it, with a true minus sign."""
         return text.replace("-", MINUS).replace(".", self.sentences["decimal_mark"])
 
+    def place(self, x: str, y: str) -> str:
+        """Both coordinates of a place, in brackets."""
+        return f"({x}{self('place_mark')}{y})"
+
     def fixed(self, number: float, places: int) -> str:
         """A number with so many places after the mark; never minus nought."""
         return self.decimal(f"{round(number, places) + 0.0:.{places}f}")

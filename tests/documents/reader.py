@@ -139,7 +139,7 @@ class Reader:
     def __post_init__(self) -> None:
         self.items = re.split(r"; (?![^(]*\))", self.data)
         for item in self.items:
-            if match := re.fullmatch(rf"({NAME}) \(({NUMBER}); ({NUMBER})\) (mm|cm|m)", item):
+            if match := re.fullmatch(rf"({NAME}) \(({NUMBER})[;,] ({NUMBER})\) (mm|cm|m)", item):
                 unit = MILLIMETRES[match[4]]
                 where = complex(number(match[2]), number(match[3])) * unit
                 self.frame[canonical(match[1])] = where
@@ -177,10 +177,10 @@ class Reader:
                 continue
             return number(value) * MILLIMETRES[unit] / self.scale
         for item in self.items:
-            own = dict(re.findall(rf"({NAME}) \(({NUMBER}; {NUMBER})\)", item))
+            own = dict(re.findall(rf"({NAME}) \(({NUMBER}[;,] {NUMBER})\)", item))
             if "in the axes of link" in item and p in own and q in own:
                 unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
-                ends = (complex(*map(number, own[end].split("; "))) for end in (p, q))
+                ends = (complex(*map(number, re.split("[;,] ", own[end]))) for end in (p, q))
                 one, two = ends
                 return abs(two - one) * unit / self.scale
         return abs(self.at(q) - self.at(p))
@@ -267,7 +267,8 @@ class Reader:
         if match := re.match(rf"the line of link \w+ through the point .*? at ({NUMBER}°)", words):
             return Line.of(self.at(point), cmath.rect(1, self.angle(match[1])))
         match = re.match(
-            rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER}); ({NUMBER})\) (mm|cm|m)) "
+            rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER})[;,] ({NUMBER})\) "
+            r"(mm|cm|m)) "
             rf"at ({NUMBER}°) to (?:the x axis|({NAME})({NAME}))",
             words,
         )
@@ -560,7 +561,7 @@ class Reader:
         unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
         own = {
             one: turned * complex(number(x), number(y)) * unit / self.scale
-            for one, x, y in re.findall(rf"({NAME}) \(({NUMBER}); ({NUMBER})\)", item)
+            for one, x, y in re.findall(rf"({NAME}) \(({NUMBER})[;,] ({NUMBER})\)", item)
         }
         for name in names.split(", "):
             self.put(name, self.at(p) + own[name] - own[p])

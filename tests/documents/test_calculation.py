@@ -92,7 +92,7 @@ def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages
         if is_chosen(solved):
             assert solved == blank, "what nobody can compute is given"
             continue
-        place = re.fullmatch(r"(.*) = \((?:\. )*\.; (?:\. )*\.\) (?:mm|cm|m) \([^)]*\)", blank)
+        place = re.fullmatch(r"(.*) = \((?:\. )*\.[;,] (?:\. )*\.\) (?:mm|cm|m) \([^)]*\)", blank)
         if place:
             assert solved.startswith((f"{place[1]} = ", f"{place[1]} at infinity"))
             continue

@@ -197,9 +197,7 @@ def test_what_is_told_of_right_triangles_has_the_names_of_the_drawing(name):
     for sheet in sheets_of(name):
         labels = {mark.markup for mark in sheet.left if isinstance(mark, Text)}
         said = [one for one in told_of(name).said if one.sheet == sheets_of(name).index(sheet)]
-        told = " ".join(
-            text for one in said for text in (one.markup, *one.why, *one.letters)
-        )
+        told = " ".join(text for one in said for text in (one.markup, *one.why, *one.letters))
         found = re.findall(r"\*[A-Z]\*[″‴](?:_\{[^}]*\})?", told)
         assert {*found} <= labels
 

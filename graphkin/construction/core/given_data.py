@@ -158,7 +158,7 @@ def plates(drawing: Drawing) -> Iterator[str]:
 def coordinates(scene: Scene, words: Words, placing: At) -> str:
     """A point with its coordinates."""
     x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
-    return f"{symbol(placing.point)} ({x}; {y})"
+    return f"{symbol(placing.point)} {words.place(x, y)}"
 
 
 def sides(scene: Scene, words: Words) -> Iterator[str]:

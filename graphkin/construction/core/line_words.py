@@ -59,8 +59,8 @@ def place(
     else:
         x, y = (words.decimal(each.written(drawing.scene.values)) for each in through)
     if not pin:
-        return f"({x}; {y}) {unit}"
-    return words("page.away", x=x, y=y, unit=unit, point=symbol(pin))
+        return f"{drawing.words.place(x, y)} {unit}"
+    return words("page.away", place=words.place(x, y), unit=unit, point=symbol(pin))
 
 
 def metres(drawing: Drawing, pair: tuple[Quantity, Quantity]) -> complex:
