@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import has_plan, length_scale, scale_of
@@ -57,3 +59,9 @@ def caption(said: str, rect: Rect) -> list[Mark]:
         Text(rect[0] + 3, first + LEADING * height * i, line, "caption", height, name=HEADING)
         for i, line in enumerate(lines)
     ]
+
+
+def apart(marks: Sequence[Mark]) -> tuple[str, list[Mark]]:
+    """The markup of a field's caption, nothing where it has none, and the marks in the field."""
+    lines = [mark.markup for mark in marks if isinstance(mark, Text) and mark.name == HEADING]
+    return " ".join(lines), [mark for mark in marks if mark.name != HEADING]

@@ -15,13 +15,14 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out, spans
+from graphkin.documents.captions import apart
 from graphkin.documents.detail import with_detail
 from graphkin.documents.inset import insets
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.drawing.areas import ABOVE, MARGIN, Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Mark, Text, reach
+from graphkin.drawing.marks import Mark, reach
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.drawing.style import in_variables
 from graphkin.studio.follow_labels import FollowLabels, riding, seats_of
@@ -126,7 +127,7 @@ def panels(
     for name, drawing in ((MECHANISM, on_mechanism), *((d.kind, d) for d in drawings)):
         own = (name, drawing.kind)
         board = board_of(name, drawing, places[drawing.kind])
-        head, board.marks = board.marks[0], board.marks[1:]
+        said, board.marks = apart(board.marks)
         labels, marks = list(board.labels), None
         problems: tuple[Problem, ...] = ()
         try:
@@ -144,8 +145,7 @@ def panels(
         else:
             memory.frames[own] = memory.edges[own] = edges_of(marks)
         svg = picture(name, marks, memory.edges[own], drawing)
-        caption = marked_up(head.markup) if isinstance(head, Text) else ""
-        yield Panel(name, caption, svg, tuple(marks)), problems
+        yield Panel(name, marked_up(said), svg, tuple(marks)), problems
 
 
 def board_of(name: str, drawing: Drawing, layout: Layout) -> FieldContent:

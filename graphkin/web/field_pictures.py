@@ -67,15 +67,3 @@ def themed(rule: str) -> str:
         lambda found: f"stroke-width:calc({max(float(found[1]), THINNEST):g}px*var(--w))",
         in_variables(rule),
     )
-
-
-def headline(marks: Sequence[Mark]) -> tuple[str, Sequence[Mark]]:
-    """The markup of a field's caption, which stands above it, and the marks in the field.
-
-    The field of a plan of which nothing is asked has neither.
-    """
-    if not marks:
-        return "", marks
-    first = marks[0]
-    assert isinstance(first, Text)
-    return first.markup, marks[1:]

@@ -13,13 +13,14 @@ from msgspec import Struct
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import called, scale_of
 from graphkin.construction.core.program import Part
+from graphkin.documents.captions import HEADING, apart
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.web import facts
-from graphkin.web.field_pictures import BAR, bar_rules, field_picture, headline, ink_sheet
+from graphkin.web.field_pictures import BAR, bar_rules, field_picture, ink_sheet
 from graphkin.web.legend import meanings
 from graphkin.web.offline_page import data_block, offline_page, part
 from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
@@ -229,9 +230,10 @@ def fields(
     )
     pictures = []
     for side, (own, marks, rect) in enumerate(sides):
-        shown = [*own[1:], *(("", mark) for mark in more[side])]
+        drawn = [each for each in own if each[1].mark.name != HEADING]
+        shown = [*drawn, *(("", mark) for mark in more[side])]
         label = f"caption-{place}-{side}"
-        pictures.append((label, headline(marks)[0], field_picture(shown, rect, label)))
+        pictures.append((label, apart(marks)[0], field_picture(shown, rect, label)))
     return SheetFields(place, sheet.drawing.kind, sheet_name(sheet), pictures)
 
 
