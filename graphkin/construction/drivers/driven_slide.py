@@ -81,8 +81,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         if has_no_length(drawing, self.image):
             key, rate = self.fallen(drawing, fields["s"])
             return drawing.words(key, rate=rate, **fields)
-        key = "driven-slide" if fields["s"] else "driven-slide-end"
-        return drawing.words(f"step.{key}", **fields)
+        return drawing.words("step.driven-slide", **fields)
 
     def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
         """The key of the sentence where nothing is laid off, and the rate that is told in it."""
