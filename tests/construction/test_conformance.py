@@ -48,12 +48,10 @@ PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
 UNREACHED = {
     "AccelerationPole.mark_far",
-    "CoriolisComponent.is_drawn",
-    "KleinComponent.is_computed",
+    "InflectionPoint.places",
     "KleinComponent.room",
     "LaidOff.said_before",
     "RelativeCentre.needs_ray",
-    "RollingNormal.is_computed",
     "TurnedAcceleration.index_at",
     "TurnedVelocity.said_before",
     "VelocityNormal.places",

@@ -169,7 +169,7 @@ def worst_words(found: Forecast, worst: Crossing) -> str:
     who = f"{lines} cross" if lines else "the lines cross"
     return (
         f"worst    {where}: {who} at {degrees(worst.angle):.1f}°, "
-        f"a 1 mm drawing error grows to up to {worst.factor:.1f} mm"
+        f"a 1 mm drawing error grows to as much as {worst.factor:.1f} mm"
     )
 
 

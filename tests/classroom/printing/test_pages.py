@@ -145,10 +145,10 @@ def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     sheets = Sheets(order(edition, language), edition.variants[0])
     found = standard(sheets.mechanism, items(sheets.mechanism, edition.lab), edition.lab.rubric)
     decimal = words(language).fixed
-    place = "; ".join(decimal(found.key[f"I_2_{axis}_mm"], 2) for axis in "xy")
+    place = words(language).place(*(decimal(found.key[f"I_2_{axis}_mm"], 2) for axis in "xy"))
     key = [line for page in pages(sheets, "key") for line in texts(page)]
     (line,) = [line for line in key if line.startswith("I2 = ")]
-    assert line.startswith(f"I2 = ({place}) mm (")
+    assert line.startswith(f"I2 = {place} mm (")
     (page,) = sheets.answers()
     assert plain(words(language)("form.places", pivot="*O*")) in texts(page)
 
