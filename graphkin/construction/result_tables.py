@@ -7,8 +7,9 @@ from typing import Any
 
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import drawn_in, segment_of, way_of
+from graphkin.construction.core.naming import drawn_in, way_of
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out
 from graphkin.drawing.marks import Mark, Text

@@ -11,6 +11,7 @@ from graphkin.construction.core.plan_marks import put_arrow
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.plot import Plot
 from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.segments import is_foot_drawn
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 
 
@@ -48,5 +49,8 @@ def put_step(plot: Plot, number: int, step: Step, value: Any) -> None:
         draw_part(canvas, kind)
     if plan is not None:
         plan.marks(canvas, number)
-    elif plan_vector(step):
+    elif vector := plan_vector(step):
         put_arrow(plot, number, step, value)
+        next(canvas.strokes)
+        if vector.foot and is_foot_drawn(plot.drawing.choosing, number):
+            canvas.foot(vector.foot, value.tail if vector.back else value.tip)

@@ -12,10 +12,11 @@ from msgspec.structs import replace
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.naming import drawn_in, length_scale, scale_of, segment_of
+from graphkin.construction.core.naming import drawn_in, length_scale, scale_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, length_of
+from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.two_trials import of_trials
@@ -130,8 +131,6 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
         size = drawing.settled(abs(value.tip - value.tail))
         name = vector.symbol
         segment = segment_of(drawing, step)
-        if not segment:
-            segment = drawing.words("calculation.segment", name=symbol(name))
         length = drawn_length(drawing, drawn_in(drawing, drawing.plane, size))
         figures = f"{figure(drawing, scale / 1000)}·{length}"
         yield Relation(symbol(name), f"{k}·{segment}", figures, answer(drawing, size), unit)

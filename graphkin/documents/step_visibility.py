@@ -59,6 +59,8 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
             vector = plan_vector(step)
             name = symbol(vector.symbol if vector else step.name)
             found.setdefault(name, staged[number])
+            if vector and vector.foot:
+                found.setdefault(vector.foot, staged[number])
             if step.plane is drawing.plane or step.part in (Part.CENTRE, Part.POLE):
                 found[step.name] = staged[number]
     return found

@@ -7,6 +7,7 @@ from msgspec import Struct, field
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.drawing.marks import Mark
 from graphkin.numbers.plane import Vector
 from graphkin.web.field_binder import Binding, FieldBinder, only_at_start
@@ -34,6 +35,8 @@ class StepStrokes(Struct, frozen=True):
                     plan.marks(canvas, number)
                 elif isinstance(value, Vector):
                     canvas.vector(canvas.step.name, "", value.tail, value.tip)
+                    if vector := plan_vector(canvas.step):
+                        canvas.point("", value.tail if vector.back else value.tip)
         return self.drawn[number]
 
     def stroke(self, mark: Mark) -> Stroke | None:

@@ -756,50 +756,62 @@ class Reader:
         self.put(name, self.at(s) + inward / abs(inward) * size)
 
     @says(
-        r"from ⟨s⟩ lay off ⟨a:vector⟩(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩)? ∥ ⟨p⟩⟨q⟩, from ⟨from_⟩ "
-        r"towards ⟨to⟩(?:, ⟨drawn:number⟩ mm)?"
+        r"from ⟨s⟩ lay off (?:⟨s2⟩⟨foot⟩ = )?⟨a:vector⟩(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩)? ∥ ⟨p⟩⟨q⟩, "
+        r"from ⟨from_⟩ towards ⟨to⟩(?:, ⟨drawn:number⟩ mm)?"
     )
-    def lay_off(self, s: str, a: str, from_: str, to: str, drawn: str | None, **_: str) -> None:
+    def lay_off(
+        self, s: str, foot: str | None, a: str, from_: str, to: str, drawn: str | None, **_: str
+    ) -> None:
         inward = self.at(to) - self.at(from_)
         if drawn is None and a not in self.lengths:
             raise DefectError(f"{a} has no length")
         size = number(drawn) if drawn else self.lengths[a]
         self.end = self.at(s) + inward / abs(inward) * size
+        if foot:
+            self.put(foot, self.end)
 
     @says(
-        "from its end lay off the tangential component ⟨a:vector⟩ ⊥ ⟨p⟩⟨q⟩, ⟨drawn:number⟩ "
-        "mm, in the sense of ⟨w:turning⟩: ⟨name⟩"
+        "from (?:its end|⟨s⟩) lay off the tangential component ⟨a:vector⟩ ⊥ ⟨p⟩⟨q⟩, "
+        "⟨drawn:number⟩ mm, in the sense of ⟨w:turning⟩: ⟨name⟩"
     )
-    def driven_tangential(self, a: str, p: str, q: str, drawn: str, w: str, name: str) -> None:
-        bar = self.at(q) - self.at(p)
-        self.put(name, self.its_end() + bar / abs(bar) * 1j * self.sense(w) * number(drawn))
+    def driven_tangential(
+        self, s: str | None, a: str, p: str, q: str, drawn: str, w: str, name: str
+    ) -> None:
+        bar, start = self.at(q) - self.at(p), self.at(s) if s else self.its_end()
+        self.put(name, start + bar / abs(bar) * 1j * self.sense(w) * number(drawn))
 
     def its_end(self) -> complex:
         if self.end is None:
             raise DefectError("nothing was laid off whose end is meant")
         return self.end
 
-    @says("through its end ⊥ ⟨p⟩⟨q⟩, the direction of ⟨a:vector⟩")
-    def square_to_end(self, p: str, q: str, a: str) -> None:
-        self.loci.append(Line.of(self.its_end(), (self.at(q) - self.at(p)) * 1j))
+    @says("through (?:its end|⟨s⟩) ⊥ ⟨p⟩⟨q⟩, the direction of ⟨a:vector⟩")
+    def square_to_end(self, s: str | None, p: str, q: str, a: str) -> None:
+        start = self.at(s) if s else self.its_end()
+        self.loci.append(Line.of(start, (self.at(q) - self.at(p)) * 1j))
 
     @says(
-        "through its end ∥ (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩), the direction of ⟨a:vector⟩"
+        "through (?:its end|⟨s⟩) ∥ (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩), the direction of "
+        "⟨a:vector⟩"
     )
-    def parallel_to_end(self, of: str, **_: str) -> None:
-        self.loci.append(Line.of(self.its_end(), self.direction(of)))
+    def parallel_to_end(self, s: str | None, of: str, **_: str) -> None:
+        self.loci.append(Line.of(self.at(s) if s else self.its_end(), self.direction(of)))
 
-    @says("set ⟨a:vector⟩ with its tip at ⟨s⟩")
-    def lay_back(self, a: str, s: str) -> None:
+    @says("set (?:⟨foot⟩⟨s2⟩ = )?⟨a:vector⟩ with its tip at ⟨s⟩")
+    def lay_back(self, foot: str | None, a: str, s: str, **_: str) -> None:
         if a not in self.vectors:
             raise DefectError(f"{a} has no direction")
         self.tail = self.at(s) - self.vectors[a]
+        if foot:
+            self.put(foot, self.tail)
 
-    @says("from ⟨s⟩ lay off ⟨a:vector⟩")
-    def lay_off_vector(self, s: str, a: str) -> None:
+    @says("from ⟨s⟩ lay off (?:⟨s2⟩⟨foot⟩ = )?⟨a:vector⟩")
+    def lay_off_vector(self, s: str, foot: str | None, a: str, **_: str) -> None:
         if a not in self.vectors:
             raise DefectError(f"{a} has no direction")
         self.end = self.at(s) + self.vectors[a]
+        if foot:
+            self.put(foot, self.end)
 
     @says(
         "through its tail ∥ (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩), the direction of ⟨a:vector⟩"
@@ -956,7 +968,7 @@ def moved_key(key: Printed, task: Printed, pole: str) -> dict[str, complex]:
     pins = [name for name in task.marks if name in key.marks and name[0].isupper()]
     shift = task.marks[pins[0]] - key.marks[pins[0]] if pins else 0
     of_plan = task.marks[pole] - key.marks[pole]
-    plan = re.compile(r"[a-z]′?(_.*)?" if pole == "o" else r"[a-z]′(_.*)?")
+    plan = re.compile(r"[a-z]′?(_.*)?" if pole == "o" else r"[a-z]′(_.*)?|[nk]_.*")
     return {
         name: where + (of_plan if plan.fullmatch(name) else shift)
         for name, where in key.marks.items()

@@ -9,6 +9,7 @@ from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen, about, letter, owned
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.segments import letter_at
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
@@ -32,7 +33,8 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
         if laid is not None and laid.is_short(drawing):
             start = symbol(drawing.trace.program.steps[laid.start].name)
             return drawing.words("step.square-to", s=start, **fields)
-        return drawing.words("step.square-to-end", **fields)
+        foot = symbol(letter_at(drawing, self.start))
+        return drawing.words(f"step.square-to-{'foot' if foot else 'end'}", s=foot, **fields)
 
 
 def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:

@@ -14,6 +14,7 @@ from graphkin.construction.core.pen import Pen, about, letter, owned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action, difference, sum_of
 from graphkin.construction.rolling.wheel_actions import speed_rolled
 from graphkin.construction.velocity.laid_off_by_rate import (
@@ -106,7 +107,10 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         if role == "image" or self.is_steady:
             return ""
         key = "none" if has_no_length(drawing, self.end) else "computed"
-        return drawing.words(f"step.lay-off-{key}", **self.fields(drawing, role))
+        fields = self.fields(drawing, role)
+        if foot := symbol(letter_at(drawing, self.end)) if key == "computed" else "":
+            fields["vector"] = f"{fields['s']}{foot} = {fields['vector']}"
+        return drawing.words(f"step.lay-off-{key}", **fields)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How the component that ends in the pin's image is laid off."""
@@ -117,10 +121,12 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
             return drawing.words(f"step.centripetal{by_bar(drawing, self.omega, fields)}", **fields)
         assert self.image is not None
         alone = has_no_length(drawing, self.end)
+        if not alone:
+            fields["s"] = symbol(letter_at(drawing, self.end))
         if has_no_length(drawing, self.image):
-            key = "falls" if alone and fields["s"] else "falls-end"
+            key = "falls" if fields["s"] else "falls-end"
         else:
-            key = "driven-tangential-only" if alone else "driven-tangential"
+            key = "driven-tangential-only" if alone or fields["s"] else "driven-tangential"
         return drawing.words(f"step.{key}", **fields)
 
     # --- marks and relations ---------------------------------------------------------------------

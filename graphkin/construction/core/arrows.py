@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import PRIME, Pen, about, letter, named, owned, second_image
-from graphkin.construction.core.plan_vector import PlanVector
+from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join
 from graphkin.scene.model import FRAME
@@ -49,8 +49,10 @@ def acceleration_arrow(pen: Pen, pin: str) -> None:
 
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
     """The arrow of a normal (ν) or tangential (τ) component."""
-    symbol = f"a_{about(pen, pin, pivot)}^{kind}"
-    pen.vector(join, tail, tip, of=PlanVector(symbol, owned(pin), owned(pivot), kind))
+    index = about(pen, pin, pivot)
+    foot = "" if pen.steps[tip].name else foot_of(kind, index)
+    vector = PlanVector(f"a_{index}^{kind}", owned(pin), owned(pivot), kind, foot=foot)
+    pen.vector(join, tail, tip, of=vector)
 
 
 def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:

@@ -15,6 +15,7 @@ from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.core.run import Trace
+from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.too_short import TINY, is_short
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
@@ -244,8 +245,16 @@ class LaidOff(Construction, frozen=True, kw_only=True):
             start = drawing.trace.program.steps[before.start]
         key = self.component.laid_off_key
         key = f"lay-back-{key}" if self.back else f"lay-off-{key}" if key else "lay-off"
-        fields = {**self.symbols(), "vector": self.component.symbol, "s": symbol(start.name)}
-        return drawing.words(f"step.{key}", **fields)
+        fields = {**self.symbols(), "s": symbol(start.name)}
+        return drawing.words(f"step.{key}", vector=self.segment(drawing, fields["s"]), **fields)
+
+    def segment(self, drawing: Drawing, start: str) -> str:
+        """Its component, after the segment from a point if its end has a letter of its own."""
+        foot = symbol(letter_at(drawing, self.corner))
+        if foot in ("", start):
+            return self.component.symbol
+        ends = (foot, start) if self.back else (start, foot)
+        return f"{''.join(ends)} = {self.component.symbol}"
 
     def sentence(self, drawing: Drawing) -> str:
         """What is said where it leads to a point that is known: what is left lies along a guide.
@@ -261,7 +270,9 @@ class LaidOff(Construction, frozen=True, kw_only=True):
             return ""
         end = symbol(steps[left[0].args[1]].name)
         fields = {"s": symbol(steps[self.start].name), "r": symbol(left[0].name)}
-        return self.component.laid_alone(drawing, q=end, **fields)
+        foot = symbol(letter_at(drawing, self.corner)) or fields["s"]
+        vector = self.segment(drawing, fields["s"])
+        return self.component.laid_alone(drawing, q=end, k=foot, c=vector, **fields)
 
     def is_short(self, drawing: Drawing) -> bool:
         """Whether it is laid off from a point with a name, and too short to be drawn."""

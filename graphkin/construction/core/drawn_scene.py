@@ -11,6 +11,7 @@ from msgspec import Struct, field
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.curve_extent import shown
 from graphkin.construction.core.link_poses import LinkPoses
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, PlanAside, Plane, Step
 from graphkin.construction.core.quantities import MOTION, PLANES, RATE, SLIDING, MotionQuantity
 from graphkin.construction.core.run import Trace
@@ -201,6 +202,16 @@ class Drawing(Struct, frozen=True, dict=True):
             for step in self.trace.program.steps
             if step.arrow and step.action is join
         }
+
+    @cached_property
+    def feet(self) -> Mapping[int, int]:
+        """The arrows of the components that end, or begin, in points of the plan without a name."""
+        found: dict[int, int] = {}
+        for number, step, _ in self.steps(self.plane):
+            vector = plan_vector(step)
+            if vector is not None and vector.foot and step.action is join:
+                found.setdefault(step.args[0 if vector.back else 1], number)
+        return found
 
     @cached_property
     def auxiliary(self) -> Mapping[int, PlanAside]:

@@ -7,7 +7,6 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
-from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import symbol
@@ -56,14 +55,6 @@ def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
     arrow = arrow_of(drawing, tail, tip)
     found = plan_vector(arrow) if arrow else None
     return symbol(found.symbol) if found else default
-
-
-def segment_of(drawing: Drawing, step: Step) -> str:
-    """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
-    ends = [drawing.trace.program.steps[arg].name for arg in step.args]
-    if step.action is not join:
-        return ""  # a component, whose corner has no letter
-    return "".join(symbol(end) for end in ends) if all(ends) else ""
 
 
 def scale_of(drawing: Drawing, plane: Plane) -> float:

@@ -139,6 +139,14 @@ class PaperCanvas(Struct, frozen=True):
         )
 
     @stroke
+    def foot(self, name: str, at: Any) -> None:
+        """A small point of a plan with its letter."""
+        place = self.plot.field(at)
+        mark = CircleMark(*place, DOT, f"point {self.plot.colour}", name, self.number)
+        self.plot.board.marks.append(mark)
+        name_point(self.plot, self.number, name, place, DOT, self.plot.colour, 2.5)
+
+    @stroke
     def segment(self, start: Any, end: Any) -> None:
         """A thin line between two points."""
         self.thin(self.plot.field(start), self.plot.field(end))
@@ -256,7 +264,7 @@ class PaperCanvas(Struct, frozen=True):
         if self.step.name:
             place = self.plot.field(self.value(self.number))
             self.circled(place, ASIDE, DOT)
-            name_point(self.plot, self.number, self.step, place, DOT, OWN_LINES, 2.5)
+            name_point(self.plot, self.number, self.step.name, place, DOT, OWN_LINES, 2.5)
 
     @stroke
     def line_aside(self) -> None:
@@ -314,7 +322,7 @@ class PaperCanvas(Struct, frozen=True):
             LineMark(x - ARM, y, x + ARM, y, cls, name, self.number),
             LineMark(x, y - ARM, x, y + ARM, cls, name, self.number),
         )
-        name_point(self.plot, self.number, self.step, (x, y), ARM)
+        name_point(self.plot, self.number, self.step.name, (x, y), ARM)
         return True
 
     def is_under_pin(self, point: complex) -> bool:
@@ -331,7 +339,7 @@ class PaperCanvas(Struct, frozen=True):
         """The ring around a pin that is a centre, with the centre's letter."""
         place = self.plot.field(at)
         self.circled(place, f"centre {self.plot.colour}", RING)
-        name_point(self.plot, self.number, self.step, place, RING)
+        name_point(self.plot, self.number, self.step.name, place, RING)
 
     @stroke
     def spot(self, at: Any) -> None:
@@ -339,7 +347,7 @@ class PaperCanvas(Struct, frozen=True):
         if self.plot.field.holds(at, WITHIN):
             place = self.plot.field(at)
             self.circled(place, "point construction", DOT)
-            name_point(self.plot, self.number, self.step, place, DOT)
+            name_point(self.plot, self.number, self.step.name, place, DOT)
 
     @stroke
     def circle(self, circle: Circle, look: str) -> None:

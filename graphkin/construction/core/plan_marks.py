@@ -59,18 +59,18 @@ def put_point(plot: Plot, number: int, step: Step, value: Any) -> None:
     if step.name:
         at = plot.field(value)
         plot.board.marks.append(CircleMark(*at, DOT, f"point {plot.colour}", step.name, number))
-        name_point(plot, number, step, at, DOT)
+        name_point(plot, number, step.name, at, DOT)
 
 
 def put_pole(plot: Plot, number: int, step: Step, value: Any) -> None:
     """The pole of a plan."""
     at = plot.field(value)
     plot.board.marks.append(CircleMark(*at, PIN, f"pole {plot.colour}", step.name, number))
-    name_point(plot, number, step, at, PIN)
+    name_point(plot, number, step.name, at, PIN)
 
 
 def name_point(
-    plot: Plot, number: int, step: Step, at: XY, radius: float, look: str = "", height: float = 3.5
+    plot: Plot, number: int, name: str, at: XY, radius: float, look: str = "", height: float = 3.5
 ) -> None:
     """The letter of a point; points that fall together share one label, o ≡ a or, nearly, o ≈ a."""
     board, look = plot.board, look or plot.colour
@@ -78,14 +78,12 @@ def name_point(
         apart = hypot(x - at[0], y - at[1])
         if apart < TINY:
             label, joint = board.labels[i], "≡" if apart < SAME else "≈"
-            together = f"{label.markup} {joint} {symbol(step.name)}"
-            board.labels[i] = replace(label, markup=together, name=f"{label.name} {step.name}")
+            together = f"{label.markup} {joint} {symbol(name)}"
+            board.labels[i] = replace(label, markup=together, name=f"{label.name} {name}")
             return
     board.lettered[len(board.labels)] = at
-    letter = symbol(step.name)
-    board.labels.append(
-        Label(letter, look, at, height, step.name, number, priority=2, radius=radius)
-    )
+    letter = symbol(name)
+    board.labels.append(Label(letter, look, at, height, name, number, priority=2, radius=radius))
 
 
 def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:

@@ -11,6 +11,8 @@ class PlanVector(Roles, frozen=True):
     """A vector under its ``symbol``, of point ``q``, about ``p`` if that is named.
 
     ``sign`` tells the components of an acceleration: ν, τ, c, r; nothing for a whole vector.
+    ``foot`` is the letter of the point where a component that is laid off ends, or where it begins
+    if it is laid ``back``. ``ends`` are the letters of both ends where no steps bear these.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("arrow",)
@@ -19,7 +21,19 @@ class PlanVector(Roles, frozen=True):
     q: str = ""
     p: str = ""
     sign: str = ""
+    foot: str = ""
+    back: bool = False
+    ends: tuple[str, str] = ("", "")
     arrow: int | None = None
+
+
+FEET = {"ν": "n", "c": "k"}
+"""The letters of the feet of components, by their signs."""
+
+
+def foot_of(sign: str, index: str) -> str:
+    """The letter of the foot of a component that is laid off; nothing for one that closes a way."""
+    return f"{FEET[sign]}_{index}" if sign in FEET else ""
 
 
 def plan_vector(step: Step) -> PlanVector | None:

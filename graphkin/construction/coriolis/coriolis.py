@@ -22,7 +22,7 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
-from graphkin.construction.core.plan_vector import PlanVector
+from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
@@ -45,7 +45,7 @@ from graphkin.structure.pairs import turns
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
-CORNERS = ("ef", "gh", "mn", "rs", "xy")
+CORNERS = ("ef", "gh", "rs", "xy")
 """Letters for the corners of the triangle that is similar to the guide's."""
 
 # --- its value, and the steps of the hand's way --------------------------------------------------
@@ -250,7 +250,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
         """What is left from its end is the acceleration along the guide."""
         guide = way_of(drawing, self.block)
-        return drawing.words("step.coriolis-laid", c=self.symbol, guide=guide, **fields)
+        return drawing.words("step.coriolis-laid", guide=guide, **fields)
 
     def leaning_line(self, drawing: Drawing, fields: Mapping[str, str]) -> str:
         """The line that cuts f off: to the tip on the guide itself, where every 2v lies on it."""
@@ -445,5 +445,7 @@ def end_of(pen: Pen, laying: Action, start: int, vector: int) -> int:
     corner = pen.shared[key]
     name, ends = component.name, (corner, start) if back else (start, corner)
     if name not in pen.arrows:
-        pen.vector(join, *ends, of=PlanVector(name, component.point, sign=component.sign))
+        sign, foot = component.sign, foot_of(component.sign, component.index)
+        arrow = PlanVector(name, component.point, sign=sign, foot=foot, back=back)
+        pen.vector(join, *ends, of=arrow)
     return corner

@@ -12,6 +12,7 @@ from graphkin.construction.core.naming import driver_of_rate, has_no_length, vec
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
+from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.along_guide import AlongGuide
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate, falls, length_drawn
@@ -67,7 +68,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         steps = drawing.trace.program.steps
         return {
             **self.symbols(),
-            "s": symbol(steps[self.told_from].name),
+            "s": symbol(letter_at(drawing, self.told_from)),
             "name": symbol(steps[self.image].name),
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image),
@@ -80,8 +81,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         if has_no_length(drawing, self.image):
             key, rate = self.fallen(drawing, fields["s"])
             return drawing.words(key, rate=rate, **fields)
-        key = "driven-slide" if fields["s"] else "driven-slide-end"
-        return drawing.words(f"step.{key}", **fields)
+        return drawing.words("step.driven-slide", **fields)
 
     def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
         """The key of the sentence where nothing is laid off, and the rate that is told in it."""

@@ -6,7 +6,7 @@ from graphkin.construction.acceleration.turned_acceleration import TurnedAcceler
 from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, about, letter
-from graphkin.construction.core.plan_vector import PlanVector
+from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.sliding import slid
@@ -128,10 +128,15 @@ def legs(
     ``names`` are the index of the whole, the point that moves, and that about which it does.
     """
     index, of, about_which = names
-    for leg, sign in zip((first, last), kinds, strict=True):
+    foot = next(filter(None, (foot_of(sign, index) for sign in kinds)))
+    start, end = (pen.steps[number].name for number in args[:2])
+    for leg, sign, ends in zip((first, last), kinds, ((start, foot), (foot, end)), strict=True):
         symbol = f"a_{index}^{sign}"
         if symbol not in pen.arrows:
-            pen.vector(leg, *args, of=PlanVector(symbol, of, about_which, sign))
+            own = foot_of(sign, index)
+            back = bool(own) and leg is last
+            vector = PlanVector(symbol, of, about_which, sign, own, back, ends)
+            pen.vector(leg, *args, of=vector)
 
 
 def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:

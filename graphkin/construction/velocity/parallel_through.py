@@ -11,6 +11,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.along_guide import AlongGuide
 from graphkin.drawing.richtext import escape
@@ -58,14 +59,16 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         """Through which point it is drawn, or which end of the component laid off before."""
         steps = drawing.trace.program.steps
         laid = laid_off(drawing.trace.program, self.start)
-        start, key = self.start, "parallel-to"
+        letter, key = letter_at(drawing, self.start), "parallel-to"
         if laid is not None and laid.is_short(drawing):
-            start = laid.start
-        elif not steps[start].name:
+            letter = steps[laid.start].name
+        elif letter and not steps[self.start].name:
+            key = "parallel-to-foot"
+        elif not letter:
             back = laid is not None and laid.back
             key = "parallel-to-tail" if back else "parallel-to-end"
         fields = {"guide": self.way(drawing), "vector": self.vector_along(drawing, self.line)}
-        return drawing.words(f"step.{key}", s=symbol(steps[start].name), **fields)
+        return drawing.words(f"step.{key}", s=symbol(letter), **fields)
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The line, with the guide to which it is parallel."""
