@@ -13,6 +13,7 @@ import pytest
 
 from graphkin.construction.core.program import Part
 from graphkin.construction.result_tables import turning_rows, vector_rows
+from graphkin.documents.captions import HEADING
 from graphkin.documents.sentences import sentences
 from graphkin.documents.step_numbers import behind
 from graphkin.drawing.marks import CircleMark, LineMark, Text, reach
@@ -259,7 +260,12 @@ def test_every_mark_has_its_own_id_in_the_field_where_it_lies(name):
     ids = re.findall(r' id="([^"]+)"', page)
     assert len(ids) == len(set(ids))
     own = {found for found in ids if re.fullmatch(r"m\d+-\d+", found)}
-    captions = {f"m{s}-{k}" for s, sheet in enumerate(sheets) for k in (0, len(sheet.left))}
+    captions = {
+        f"m{s}-{k}"
+        for s, sheet in enumerate(sheets)
+        for k, mark in enumerate((*sheet.left, *sheet.right))
+        if mark.name == HEADING
+    }
     every = {
         f"m{s}-{k}"
         for s, sheet in enumerate(sheets)
