@@ -24,6 +24,7 @@ from graphkin.construction.rate_relations import of_sum, of_turning
 from graphkin.construction.registry import COMPONENTS
 from graphkin.construction.rolling.contact_points import of_contacts
 from graphkin.construction.vector_equations import is_laid_off, of_equations
+from graphkin.documents.structure_relations import of_structure
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Ratio, Vector
 
@@ -40,15 +41,14 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     first = drawings[0]
     sections: list[Section] = [
         ("data", [data_line(first, solved=solved)]),
+        ("structure", list(of_structure(first)) if solved else []),
         ("driver", [r for d in first.scene.drivers for r in of_driver(first, d)]),
         ("scales", list(of_scales(first))),
     ]
-    for drawing in drawings:
-        sections += sections_of(drawing)
-    used = dict.fromkeys(each.over for _, found in sections for each in found if each.over)
+    own = [section for drawing in drawings for section in sections_of(drawing)]
+    used = dict.fromkeys(each.over for _, found in own for each in found if each.over)
     measured = [r for p, q in used if (r := of_length(first, p, q)) is not None]
-    sections.insert(3, ("lengths", measured))
-    return sections
+    return [*sections, ("lengths", measured), *own]
 
 
 def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
