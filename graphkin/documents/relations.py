@@ -9,13 +9,22 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
+from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.naming import drawn_in, length_scale, scale_of
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Part
-from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, length_of
+from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.relation import (
+    Relation,
+    answer,
+    figure,
+    length_of,
+    reading,
+    rounded,
+)
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
@@ -61,8 +70,7 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     return Relation(
         bar(p, q),
         "",
-        f"{length_scale(drawing)}·{drawn_length(drawing, mm)}",
-        answer(drawing, mm * drawing.scales.kL / 1000),
+        *reading(mm).times(drawing, drawing.scales.kL / 1000),
         "m",
         drawing.words("calculation.measured"),
     )
@@ -94,6 +102,7 @@ def of_plan(drawing: Drawing) -> list[Relation]:
     if drawing.kind == "acceleration":
         for driver in drawing.scene.drivers:
             found += of_sum(drawing, driver)
+    found += of_laid_off(drawing)
     for rate, relation in of_equations(drawing):
         found += before_use(drawing, rate)
         found.append(relation)
@@ -128,12 +137,37 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
         vector = plan_vector(step)
         if vector is None or not isinstance(value, Vector) or is_laid_off(drawing, step):
             continue
+        if is_laid_off_known(drawing, step):
+            continue
         size = drawing.settled(abs(value.tip - value.tail))
-        name = vector.symbol
-        segment = segment_of(drawing, step)
-        length = drawn_length(drawing, drawn_in(drawing, drawing.plane, size))
-        figures = f"{figure(drawing, scale / 1000)}·{length}"
-        yield Relation(symbol(name), f"{k}·{segment}", figures, answer(drawing, size), unit)
+        read = reading(drawn_in(drawing, drawing.plane, size))
+        symbols = f"{k}·{segment_of(drawing, step)}"
+        yield Relation(symbol(vector.symbol), symbols, *read.times(drawing, scale / 1000), unit)
+
+
+def of_laid_off(drawing: Drawing) -> Iterator[Relation]:
+    """How long the vectors are drawn that are known before: their sizes over the scale factor."""
+    scale = scale_of(drawing, drawing.plane) / 1000
+    for _, step, value in drawing.steps(drawing.plane):
+        vector = plan_vector(step)
+        if vector is None or not isinstance(value, Vector) or not is_laid_off_known(drawing, step):
+            continue
+        size = drawing.settled(abs(value.tip - value.tail))
+        yield Relation(
+            segment_of(drawing, step),
+            f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
+            f"{figure(drawing, size)}/{figure(drawing, scale)}",
+            reading(OnPaper(rounded(size) / rounded(scale))).figures(drawing),
+            "mm",
+            drawing.words("calculation.drawn"),
+        )
+
+
+def is_laid_off_known(drawing: Drawing, step: Step) -> bool:
+    """True for the whole vector of a point that a driver gives with its direction and size."""
+    tail, tip = (drawing.trace.program.steps[number] for number in step.args[:2])
+    kind = construction(tip)
+    return tail.name == drawing.pole and bool(kind and tip.name and kind.known_by(drawing))
 
 
 def of_components(drawing: Drawing) -> list[Section]:
