@@ -9,13 +9,14 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
+from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import drawn_in, scale_of
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.relation import (
     Relation,
@@ -26,6 +27,7 @@ from graphkin.construction.core.relation import (
     rounded,
 )
 from graphkin.construction.core.segments import segment_of
+from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.two_trials import of_trials
@@ -33,6 +35,7 @@ from graphkin.construction.rate_relations import of_sum, of_turning
 from graphkin.construction.registry import COMPONENTS
 from graphkin.construction.rolling.contact_points import of_contacts
 from graphkin.construction.vector_equations import is_laid_off, of_equations
+from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.documents.structure_relations import of_structure
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Ratio, Vector
@@ -137,7 +140,9 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
         vector = plan_vector(step)
         if vector is None or not isinstance(value, Vector) or is_laid_off(drawing, step):
             continue
-        if is_laid_off_known(drawing, step):
+        if is_by_rate(drawing, step):
+            if not is_by_driver(drawing, step):
+                yield laid_off_length(drawing, step, value)
             continue
         size = drawing.settled(abs(value.tip - value.tail))
         read = reading(drawn_in(drawing, drawing.plane, size))
@@ -146,28 +151,42 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
 
 
 def of_laid_off(drawing: Drawing) -> Iterator[Relation]:
-    """How long the vectors are drawn that are known before: their sizes over the scale factor."""
-    scale = scale_of(drawing, drawing.plane) / 1000
+    """How long the vectors are drawn that drivers give."""
     for _, step, value in drawing.steps(drawing.plane):
-        vector = plan_vector(step)
-        if vector is None or not isinstance(value, Vector) or not is_laid_off_known(drawing, step):
-            continue
-        size = drawing.settled(abs(value.tip - value.tail))
-        yield Relation(
-            segment_of(drawing, step),
-            f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
-            f"{figure(drawing, size)}/{figure(drawing, scale)}",
-            reading(OnPaper(rounded(size) / rounded(scale))).figures(drawing),
-            "mm",
-            drawing.words("calculation.drawn"),
-        )
+        if plan_vector(step) and isinstance(value, Vector) and is_by_driver(drawing, step):
+            yield laid_off_length(drawing, step, value)
 
 
-def is_laid_off_known(drawing: Drawing, step: Step) -> bool:
-    """True for the whole vector of a point that a driver gives with its direction and size."""
-    tail, tip = (drawing.trace.program.steps[number] for number in step.args[:2])
-    kind = construction(tip)
-    return tail.name == drawing.pole and bool(kind and tip.name and kind.known_by(drawing))
+def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
+    """How long a vector is drawn that is known before: its size over the scale factor."""
+    vector, scale = plan_vector(step), scale_of(drawing, drawing.plane) / 1000
+    assert vector is not None
+    size = drawing.settled(abs(value.tip - value.tail))
+    return Relation(
+        segment_of(drawing, step),
+        f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
+        f"{figure(drawing, size)}/{figure(drawing, scale)}",
+        reading(OnPaper(rounded(size) / rounded(scale))).figures(drawing),
+        "mm",
+        drawing.words("calculation.drawn"),
+    )
+
+
+def is_by_rate(drawing: Drawing, step: Step) -> bool:
+    """True for a whole vector that is laid off by a rate, which has a relation of its own."""
+    if plan_vector(step) is None or sign_of(step):
+        return False
+    kind = construction(drawing.trace.program.steps[step.args[1]])
+    if isinstance(kind, TurnedAcceleration) and not kind.is_steady:
+        return False
+    own = isinstance(kind, TurnedVelocity | TurnedAcceleration | DrivenSlide)
+    return own and kind.start == step.args[0]
+
+
+def is_by_driver(drawing: Drawing, step: Step) -> bool:
+    """True for the whole velocity or acceleration of a point that a driver gives."""
+    kind = construction(drawing.trace.program.steps[step.args[1]])
+    return is_by_rate(drawing, step) and bool(kind and kind.known_by(drawing))
 
 
 def of_components(drawing: Drawing) -> list[Section]:

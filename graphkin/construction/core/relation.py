@@ -86,7 +86,7 @@ class RulerReading(Struct, frozen=True):
 
     def times(self, drawing: Drawing, scale: float) -> tuple[str, str]:
         """It times a scale factor, and what that gives, in as many digits as it carries."""
-        last = ceil(log10(scale * self.unit / 2))
+        last = min(ceil(log10(scale * self.unit / 2)), 0)
         value = round(rounded(scale) * self.millimetres, -last)
         if not value:
             return f"{figure(drawing, scale)}·0", "0"
