@@ -76,6 +76,10 @@ def all_rows(
             continue
         words = drawings[0].words
         yield CalculationRow(words(f"calculation.{section}"), heading=True)
+        if solved and section == FIRST:
+            said = words_of(words("calculation.readings"))
+            for line in flowed(said, "", RIGHT - LEFT - 3, LETTER):
+                yield CalculationRow(line, legend=True)
         if solved and section == FIRST and any(relation.equation for relation in found):
             yield CalculationRow(words("calculation.underlined"), legend=True)
         for relation in found:

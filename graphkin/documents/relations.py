@@ -9,14 +9,25 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
+from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
+from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.naming import drawn_in, length_scale, scale_of
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Part
-from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, length_of
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.naming import drawn_in, scale_of
+from graphkin.construction.core.plan_vector import plan_vector, sign_of
+from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.relation import (
+    Relation,
+    answer,
+    figure,
+    length_of,
+    reading,
+    rounded,
+)
 from graphkin.construction.core.segments import segment_of
+from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.drivers.driver_relations import of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.two_trials import of_trials
@@ -24,6 +35,8 @@ from graphkin.construction.rate_relations import of_sum, of_turning
 from graphkin.construction.registry import COMPONENTS
 from graphkin.construction.rolling.contact_points import of_contacts
 from graphkin.construction.vector_equations import is_laid_off, of_equations
+from graphkin.construction.velocity.turned_velocity import TurnedVelocity
+from graphkin.documents.structure_relations import of_structure
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Ratio, Vector
 
@@ -40,15 +53,14 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     first = drawings[0]
     sections: list[Section] = [
         ("data", [data_line(first, solved=solved)]),
+        ("structure", list(of_structure(first)) if solved else []),
         ("driver", [r for d in first.scene.drivers for r in of_driver(first, d)]),
         ("scales", list(of_scales(first))),
     ]
-    for drawing in drawings:
-        sections += sections_of(drawing)
-    used = dict.fromkeys(each.over for _, found in sections for each in found if each.over)
+    own = [section for drawing in drawings for section in sections_of(drawing)]
+    used = dict.fromkeys(each.over for _, found in own for each in found if each.over)
     measured = [r for p, q in used if (r := of_length(first, p, q)) is not None]
-    sections.insert(3, ("lengths", measured))
-    return sections
+    return [*sections, ("lengths", measured), *own]
 
 
 def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
@@ -61,8 +73,7 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     return Relation(
         bar(p, q),
         "",
-        f"{length_scale(drawing)}·{drawn_length(drawing, mm)}",
-        answer(drawing, mm * drawing.scales.kL / 1000),
+        *reading(mm).times(drawing, drawing.scales.kL / 1000),
         "m",
         drawing.words("calculation.measured"),
     )
@@ -94,6 +105,7 @@ def of_plan(drawing: Drawing) -> list[Relation]:
     if drawing.kind == "acceleration":
         for driver in drawing.scene.drivers:
             found += of_sum(drawing, driver)
+    found += of_laid_off(drawing)
     for rate, relation in of_equations(drawing):
         found += before_use(drawing, rate)
         found.append(relation)
@@ -128,12 +140,53 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
         vector = plan_vector(step)
         if vector is None or not isinstance(value, Vector) or is_laid_off(drawing, step):
             continue
+        if is_by_rate(drawing, step):
+            if not is_by_driver(drawing, step):
+                yield laid_off_length(drawing, step, value)
+            continue
         size = drawing.settled(abs(value.tip - value.tail))
-        name = vector.symbol
-        segment = segment_of(drawing, step)
-        length = drawn_length(drawing, drawn_in(drawing, drawing.plane, size))
-        figures = f"{figure(drawing, scale / 1000)}·{length}"
-        yield Relation(symbol(name), f"{k}·{segment}", figures, answer(drawing, size), unit)
+        read = reading(drawn_in(drawing, drawing.plane, size))
+        symbols = f"{k}·{segment_of(drawing, step)}"
+        yield Relation(symbol(vector.symbol), symbols, *read.times(drawing, scale / 1000), unit)
+
+
+def of_laid_off(drawing: Drawing) -> Iterator[Relation]:
+    """How long the vectors are drawn that drivers give."""
+    for _, step, value in drawing.steps(drawing.plane):
+        if plan_vector(step) and isinstance(value, Vector) and is_by_driver(drawing, step):
+            yield laid_off_length(drawing, step, value)
+
+
+def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
+    """How long a vector is drawn that is known before: its size over the scale factor."""
+    vector, scale = plan_vector(step), scale_of(drawing, drawing.plane) / 1000
+    assert vector is not None
+    size = drawing.settled(abs(value.tip - value.tail))
+    return Relation(
+        segment_of(drawing, step),
+        f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
+        f"{figure(drawing, size)}/{figure(drawing, scale)}",
+        reading(OnPaper(rounded(size) / rounded(scale))).figures(drawing),
+        "mm",
+        drawing.words("calculation.drawn"),
+    )
+
+
+def is_by_rate(drawing: Drawing, step: Step) -> bool:
+    """True for a whole vector that is laid off by a rate, which has a relation of its own."""
+    if plan_vector(step) is None or sign_of(step):
+        return False
+    kind = construction(drawing.trace.program.steps[step.args[1]])
+    if isinstance(kind, TurnedAcceleration) and not kind.is_steady:
+        return False
+    own = isinstance(kind, TurnedVelocity | TurnedAcceleration | DrivenSlide)
+    return own and kind.start == step.args[0]
+
+
+def is_by_driver(drawing: Drawing, step: Step) -> bool:
+    """True for the whole velocity or acceleration of a point that a driver gives."""
+    kind = construction(drawing.trace.program.steps[step.args[1]])
+    return is_by_rate(drawing, step) and bool(kind and kind.known_by(drawing))
 
 
 def of_components(drawing: Drawing) -> list[Section]:

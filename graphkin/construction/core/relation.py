@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import ceil, floor, log10
+
 from msgspec import Struct
 
 from graphkin.construction.core.amounts import OnPaper
@@ -70,6 +72,32 @@ def within(drawing: Drawing, value: float) -> str:
 def answer(drawing: Drawing, value: float) -> str:
     """A number as it comes out of a relation."""
     return drawing.words.significant(value, 4)
+
+
+class RulerReading(Struct, frozen=True):
+    """A drawn length as it is told to be read: to 0.1 mm, one below 1 mm in two digits."""
+
+    millimetres: float
+    unit: float
+
+    def figures(self, drawing: Drawing) -> str:
+        """The length as it is printed."""
+        return drawing.words.fixed(self.millimetres, -round(log10(self.unit)))
+
+    def times(self, drawing: Drawing, scale: float) -> tuple[str, str]:
+        """It times a scale factor, and what that gives, in as many digits as it carries."""
+        last = min(ceil(log10(scale * self.unit / 2)), 0)
+        value = round(rounded(scale) * self.millimetres, -last)
+        if not value:
+            return f"{figure(drawing, scale)}·0", "0"
+        told = drawing.words.significant(value, max(floor(log10(value)) - last + 1, 1))
+        return f"{figure(drawing, scale)}·{self.figures(drawing)}", told
+
+
+def reading(millimetres: OnPaper) -> RulerReading:
+    """How a drawn length is told."""
+    unit = 10.0 ** min(floor(log10(millimetres)) - 1, -1) if millimetres else 0.1
+    return RulerReading(round(millimetres / unit) * unit, unit)
 
 
 def drawn_length(drawing: Drawing, millimetres: OnPaper) -> str:

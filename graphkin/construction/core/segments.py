@@ -13,7 +13,7 @@ from graphkin.drawing.symbol_markup import symbol
 def segment_of(drawing: Drawing, step: Step) -> str:
     """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
     vector = plan_vector(step)
-    ends = list(vector.ends) if vector else []
+    ends = [told(drawing, end, step) for end in vector.ends if end] if vector else []
     if step.action is join:
         ends = [letter_at(drawing, number) for number in step.args]
         if vector and vector.foot:
@@ -33,6 +33,17 @@ def letter_at(drawing: Drawing, number: int) -> str:
     if is_foot_drawn(drawing, arrow):
         return vector.foot
     return letter_at(drawing, steps[arrow].args[1 if vector.back else 0])
+
+
+def told(drawing: Drawing, letter: str, own: Step) -> str:
+    """A letter at an end of a leg: that of a foot which is not drawn is the other of its leg."""
+    for number, step, _ in drawing.steps(drawing.plane):
+        vector = plan_vector(step)
+        if step is own or vector is None or vector.foot != letter or letter not in vector.ends:
+            continue
+        if not is_foot_drawn(drawing, number):
+            return vector.ends[0 if letter == vector.ends[1] else 1]
+    return letter
 
 
 def is_foot_drawn(drawing: Drawing, arrow: int) -> bool:

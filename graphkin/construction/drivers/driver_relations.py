@@ -104,7 +104,7 @@ def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
         kind = construction(step)
         if not isinstance(kind, TurnedVelocity) or kind.p not in frame:
             continue
-        if driver_of_rate(drawing, kind.omega) is driver:
+        if driver_of_rate(drawing, kind.omega) is driver and kind.is_of_driver(drawing, kind.omega):
             yield kind.p, kind.q
 
 

@@ -9,7 +9,7 @@ from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import vector_of, way_of
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vector_equation import Term, VectorEquation
-from graphkin.construction.velocity.known_vector import known, stated
+from graphkin.construction.velocity.known_vector import joined, known, stated
 from graphkin.drawing.symbol_markup import symbol
 
 if TYPE_CHECKING:
@@ -44,7 +44,8 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         letter = drawing.vector.letter
         if drawing.trace.program.steps[self.start].name == drawing.pole:
             name = symbol(f"{letter}_{beneath if '@' in sought else point}")
-            return stated(VectorEquation(Term(name, 1, f"∥ {guide}")))
+            rests = self.rests(drawing, point) if "@" in sought else ""
+            return stated(VectorEquation(Term(name, 1, joined(f"∥ {guide}", rests))))
         terms = [known(drawing, beneath)]
         laid = laid_off(drawing.trace.program, self.start)
         if laid is not None:
@@ -53,7 +54,14 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
             terms.append(Term(name, 2, component.formula(drawing)))
         relative = symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r"))
         terms.append(Term(relative, 1, f"∥ {guide}"))
-        return stated(VectorEquation(Term(symbol(f"{letter}_{point}")), (tuple(terms),)))
+        rests = self.rests(drawing, point)
+        whole = Term(symbol(f"{letter}_{point}"), 2 if rests else 0, rests)
+        return stated(VectorEquation(whole, (tuple(terms),)))
+
+    def rests(self, drawing: Drawing, point: str) -> str:
+        """That a fixed point does not move; nothing of one that does."""
+        fixed = point in drawing.scene.frame.points
+        return f"{symbol(f'{drawing.vector.letter}_{point}')} = 0" if fixed else ""
 
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """The point that slides and the one beneath it on the guide, as the index of symbols."""

@@ -8,7 +8,7 @@ from graphkin.construction.core.amounts import in_mm
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
-from graphkin.construction.core.naming import drawn_between, is_driven, rate_symbol
+from graphkin.construction.core.naming import drawn_between, driver_of_rate, is_driven, rate_symbol
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.velocity.about_pivot import AboutPivot
@@ -34,7 +34,10 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
 
     def is_of_driver(self, drawing: Drawing, rate: int) -> bool:
         """Whether it is that of a crank on the frame, of which the driver's own relations tell."""
-        return is_driven(drawing, rate) and self.p in drawing.scene.frame.points
+        driver = driver_of_rate(drawing, rate)
+        if driver is None or self.p not in drawing.scene.frame.points:
+            return False
+        return self.link in (driver.link, driver.against)
 
     def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
         """What a known turning gives: rate times bar, or its square for the normal component."""
@@ -43,6 +46,10 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
         size = value * value * length if square else value * length
         remark = drawing.words("calculation.square_to", bar=self.bar)
+        driver = driver_of_rate(drawing, rate)
+        if driver is not None and self.link not in ("", driver.link, driver.against):
+            own = symbol(f"{letter}_{self.link}")
+            remark = f"{remark}; {own} = {rate_symbol(drawing, rate, letter)}"
         if square:
             remark = laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
         return Relation(

@@ -1,0 +1,51 @@
+"""What a calculation begins with: the mobility, and the groups in the order of their solution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.relation import Relation
+from graphkin.drawing.richtext import escape
+from graphkin.scene.findings import natural
+from graphkin.structure.decomposition import decompose
+from graphkin.structure.groups import ROMAN, Crank, Driven, Dyad, Group, Higher, Stretched, Tie
+from graphkin.structure.mobility import count
+from graphkin.structure.pairs import Sliding
+from graphkin.text import Words
+
+
+def of_structure(drawing: Drawing) -> Iterator[Relation]:
+    """Gruebler's count, and each group with its links."""
+    words, counted = drawing.words, count(drawing.scene)
+    singles = words("calculation.counted_singles", pairs=counted.singles) if counted.singles else ""
+    pairs = words("calculation.counted", links=counted.moving, pairs=counted.pairs) + singles
+    yield Relation(f"*M* = {counted.words} ({pairs})")
+    *groups, last = [group_words(words, group) for group in decompose(drawing.scene)]
+    first, *more = [*(f"{group};" for group in groups), last]
+    yield Relation(first, more=tuple(more))
+
+
+def group_words(words: Words, group: Group) -> str:
+    """A group with its links, by its kind, class and order."""
+    noun = "one_link" if len(group.links) == 1 else "many_links"
+    numbers = words("list_mark").join(map(escape, sorted(group.links, key=natural)))
+    links = words(f"calculation.{noun}", links=numbers)
+    match group:
+        case Crank() | Driven():
+            return words("calculation.group_driven", links=links)
+        case Dyad():
+            return words("calculation.group_dyad", links=links, type=group.type)
+        case Stretched():
+            return words("calculation.group_stretched", links=links, type=group.dyad.type)
+        case Higher() if isinstance(group.last, Tie):
+            rank, order = group.order
+            rank_words = ROMAN[min(rank, len(ROMAN) - 1)]
+            return words("calculation.group_higher", links=links, rank=rank_words, order=order)
+        case Higher():
+            return words("calculation.group_closed", links=links)
+        case Tie() if isinstance(group.first, Sliding):
+            return words("calculation.group_led", links=links)
+        case Tie():
+            return words("calculation.group_idle", links=links)
+    return words("calculation.group_rolling", links=links)
