@@ -13,14 +13,7 @@ from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
 
-CROWDED = pytest.mark.xfail(strict=True, reason="in a crowd the letter of a foot is left out")
-WHICH = [
-    *(
-        pytest.param((name, None), marks=[CROWDED] if name == "rod-and-wheel" else [])
-        for name in CHOSEN
-    ),
-    *((lab, 7) for lab in SHIPPED),
-]
+WHICH = [*((name, None) for name in CHOSEN), *((lab, 7) for lab in SHIPPED)]
 LETTER = re.compile(r"\*\w+\*′?(?:_\{[^}]*\})?(?:\^\{[^}]*\})?")
 
 
