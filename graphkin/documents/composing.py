@@ -18,21 +18,23 @@ from typing import NamedTuple
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.drawing.areas import HEIGHT, LEAST_FIELD, MARGIN, WIDTH
-from graphkin.drawing.scale import LENGTHS, Extent, Scales, digits, preferred, ratio
+from graphkin.drawing.areas import ABOVE, HEIGHT, LEAST_FIELD, MARGIN, WIDTH
+from graphkin.drawing.scale import Extent, Scales, digits, preferred, preferred_scales, ratio
 from graphkin.text.errors import PageError, Problem
 
 TIMES = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
 """How many times as large as on the mechanism plans are drawn."""
 ROUND = (5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02)
 """The same of velocity plans where no crank says how large: a round kv stays round."""
+STILL_LARGER = (10.0, 8.0, 6.0, *TIMES)
+"""The same of acceleration plans there."""
 SHORTER = (0.5, 0.25, *(digit * 10.0**-power for power in range(1, 15) for digit in (2, 1, 0.5)))
 """How many times as long as the crank vectors are set on a mechanism that they outgrow."""
 LONGER = (1.5, 2.0, 3.0, 4.0, 5.0)
 """The same where they are short."""
 NARROW = LEAST_FIELD - 2 * MARGIN
 """Width that mechanism and plan have at least, in mm, so that captions have room above them."""
-LADDER, MOST = 4, 60
+LADDER, MOST = 6, 90
 """Preferred scales that are tried from the first that holds all, and in search of it."""
 PACES = 4
 """Round kv that are tried where no crank says one."""
@@ -48,6 +50,14 @@ COARSEST = 0.02
 """Part of the natural time in which vectors of no length are set."""
 NOISE = 1e-9
 """A plan so many times smaller than the mechanism is rounding."""
+WEIGHT = 1.3
+"""How much the size of a mechanism counts against that of its plans together."""
+BLUR = 0.2
+"""Loss in size for normal components that are laid off e times as long as their triangles are."""
+LINE = 0.1
+"""Part of its length that a plan is broad at least, or else is called a line."""
+LITTLE = 0.12
+"""Part of its field that a plan has at least, or else counts as smaller than it is."""
 JUST = 1 + 1e-12
 """What fits but for rounding, fits."""
 
@@ -90,11 +100,15 @@ class Stated(Struct, frozen=True):
 
 
 class Composition(NamedTuple):
-    """A scale of the mechanism, how many times as large each plan is, and how large all is."""
+    """A scale of the mechanism, how many times as large each plan is, and how large all is.
+
+    The size is less by what plans ``lack`` that fill little of their fields.
+    """
 
     size: float
     kL: float  # noqa: N815
     times: Mapping[str, float]
+    lack: float
 
 
 Ladders = Mapping[str, Sequence[float]]
@@ -120,7 +134,7 @@ class Attempt(NamedTuple):
     @property
     def scales(self) -> Scales:
         """Its scale factors."""
-        _, kL, times = self.composition
+        kL, times = self.composition.kL, self.composition.times
         m, again = (times.get(kind, 1.0) for kind in ("velocity", "acceleration"))
         return replace(self.draft, kL=kL, larger=m, larger_still=again)
 
@@ -169,16 +183,16 @@ def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
                 found = less
             if found and not fewer.outgrown:
                 break
-    elif free and found and is_short(needs, found.composition.kL):
+    elif free and found:
         size = found.size
         for times in LONGER:
-            further = yield draft(times)
-            more = tried(times, further)
+            if not found.composition.lack and not is_short(needs, found.composition.kL):
+                break
+            needs = yield draft(times)
+            more = tried(times, needs)
             if more is None or more.size < size - LOSS:
                 break
             found = more
-            if not is_short(further, more.composition.kL):
-                break
     if found is None:
         raise PageError(no_room(needs, stated, 1 / crank))
     return found
@@ -187,7 +201,7 @@ def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
 def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Best:
     """Vectors on the mechanism at a round kv, at which the longest is at most 90 mm long."""
     first = yield Scales(1.0, natural, triangles=triangles)
-    ladders = {**times_of(stated, TIMES, 1.0), "velocity": ROUND}
+    ladders = {**times_of(stated, STILL_LARGER, 1.0), "velocity": ROUND}
     best: Attempt | None = None
     for kL in islice(lengths(first, stated), LADDER):
         own: Attempt | None = None
@@ -198,9 +212,8 @@ def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Best:
             if composition and own and composition.size < own.size + PLAIN:
                 break
             own = Attempt(composition, draft) if composition else own
-        if best and own and own.size < best.size + PLAIN:
-            break
-        best = own or best
+        if own and (best is None or own.size > best.size + PLAIN):
+            best = own
     if best is None:
         raise PageError(no_room(first, stated, natural))
     return best
@@ -234,7 +247,7 @@ def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
     """The scales that are tried: the stated one, or preferred ones from which all may fit."""
     if stated.scale:
         return iter([stated.scale])
-    return preferred(least(needs.bare), LENGTHS)
+    return preferred_scales(least(needs.bare))
 
 
 def least(box: Extent) -> float:
@@ -265,14 +278,15 @@ def composed(
 ) -> Composition | None:
     """The largest plans beside a mechanism at a scale; None where it, or one of them, has no room.
 
-    Its size is the logarithm of the harmonic mean of the diagonals, of which the mechanism's counts
-    as much as those of the plans together.
+    Its size is the logarithm of a harmonic mean of the diagonals of the mechanism and the plans,
+    less what a plan lacks that fills little of its field, and less what the errors of triangles
+    cost that are laid off many times.
     """
     mm = 1000 / kL
     room = WIDTH - max(needs.whole.width * mm, NARROW)
     if needs.whole.height * mm > HEIGHT * JUST or room < NARROW:
         return None
-    times, sizes = {}, []
+    times, sizes, lack = {}, [], 0.0
     for kind, box in needs.plans.items():
         apart = stated.ka and kind == "acceleration"
         tried: Iterable[float] = [kL / stated.ka / seconds**2] if apart else ladders[kind]
@@ -284,8 +298,13 @@ def composed(
         drawn = box.diagonal > NOISE * needs.bare.diagonal
         times[kind] = found if drawn or apart else 1.0
         sizes += [box.diagonal * mm * found] if drawn else []
+        share = wide * high * found**2 / ((room + 2 * MARGIN) * (HEIGHT + 2 * ABOVE))
+        if drawn and min(wide, high) > LINE * max(wide, high):
+            lack += max(log(LITTLE / share), 0.0)
     small = sum(1 / size for size in sizes) / len(sizes) if sizes else 0.0
-    return Composition(-log(1 / (needs.bare.diagonal * mm) + small), kL, times)
+    size = -log(WEIGHT / (needs.bare.diagonal * mm) + small)
+    blur = BLUR * max(log(times.get("acceleration", 1.0)), 0.0)
+    return Composition(size - blur - lack, kL, times, lack)
 
 
 def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
@@ -299,7 +318,7 @@ def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
     found = f"does not fit: at {ratio(stated.scale or 1.0)} the drawing leaves its fields"
     if fits is None:
         return Problem("sheet", found, "drawings of a size", "leave [sheet] out")
-    kL = next(kL for kL in preferred(least(needs.bare), LENGTHS) if fits_at(needs, free, kL))
+    kL = next(kL for kL in preferred_scales(least(needs.bare)) if fits_at(needs, free, kL))
     hint = f"write scale = {digits(kL)}, or leave it out"
     return Problem("sheet.scale", found, f"{ratio(kL)} or smaller", hint)
 

@@ -179,8 +179,9 @@ def is_by_rate(drawing: Drawing, step: Step) -> bool:
     kind = construction(drawing.trace.program.steps[step.args[1]])
     if isinstance(kind, TurnedAcceleration) and not kind.is_steady:
         return False
-    own = isinstance(kind, TurnedVelocity | TurnedAcceleration | DrivenSlide)
-    return own and kind.start == step.args[0]
+    if not isinstance(kind, TurnedVelocity | TurnedAcceleration | DrivenSlide):
+        return False
+    return kind.start == step.args[0]
 
 
 def is_by_driver(drawing: Drawing, step: Step) -> bool:

@@ -8,7 +8,9 @@ of the crank's pin is as long as the crank. The plans are drawn m and m′ times
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from math import floor, hypot, log10
+from fractions import Fraction
+from itertools import takewhile
+from math import floor, hypot, isclose, log10
 
 from msgspec import Struct
 
@@ -16,8 +18,11 @@ from graphkin.numbers.arithmetic import Real
 
 STEPS = (1.0, 2.0, 5.0)
 """First digits of preferred numbers."""
-LENGTHS = (1.0, 2.0, 2.5, 4.0, 5.0)
-"""First digits of the scales of mechanisms: those of ISO 5455, 1:2.5 and 1:4."""
+ENLARGED, REDUCED = (1.0, 2.0, 2.5, 4.0, 5.0), (1.0, 1.5, 2.0, 2.5, 4.0, 5.0, 7.5)
+"""First digits of kL for scales above 2:1 and from there on: ISO 5455, GOST 2.302, and 4:3."""
+
+TWICE = 0.5
+"""kL of a drawing twice as large as its mechanism."""
 
 
 class Scales(Struct, frozen=True):
@@ -73,8 +78,15 @@ class Scales(Struct, frozen=True):
 
 
 def ratio(kL: float) -> str:
-    """A scale as a drawing writes it, 1:5 or 2:1."""
-    return f"1:{digits(kL)}" if kL >= 1 else f"{digits(1 / kL)}:1"
+    """A scale as a drawing writes it, 1:5, 2:1 or 4:3."""
+    if kL >= 1:
+        return f"1:{digits(kL)}"
+    whole = Fraction(1 / kL).limit_denominator(3)
+    return (
+        f"{whole.numerator}:{whole.denominator}"
+        if isclose(whole * kL, 1)
+        else f"{digits(1 / kL)}:1"
+    )
 
 
 def digits(number: float) -> str:
@@ -127,6 +139,12 @@ def extent_of(points: Sequence[complex]) -> Extent:
     """The upright box around points; the origin where there are none."""
     xs, ys = [p.real for p in points or [0j]], [p.imag for p in points or [0j]]
     return Extent(min(xs), min(ys), max(xs), max(ys))
+
+
+def preferred_scales(smallest: float) -> Iterator[float]:
+    """The kL of preferred scales, upwards from one not less than given."""
+    yield from takewhile(lambda kL: kL < TWICE, preferred(smallest, ENLARGED))
+    yield from preferred(max(smallest, TWICE), REDUCED)
 
 
 def preferred(smallest: float, digits: Sequence[float] = STEPS) -> Iterator[float]:
