@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from graphkin.construction import step_marks
 from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.link_poses import lettered
@@ -22,6 +21,7 @@ from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.normal_component.normal_component import pins_of_triangles
 from graphkin.construction.result_tables import tables
 from graphkin.documents.captions import headlines
+from graphkin.documents.data_heading import data_heading
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
@@ -34,16 +34,12 @@ from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import are_clear, escape, extent, flowed
+from graphkin.drawing.richtext import escape, extent, flowed
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.text.errors import PageError, Problem
 
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
-DATA = ((2.5, 4.2, 2, False), (2.5, 3.8, 3, True), (1.8, 3.2, 3, False), (1.8, 2.9, 4, False))
-"""How the data may look: height of letters and distance of lines in mm, lines at most, and whether
-these are so near that signs may touch."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
@@ -137,28 +133,7 @@ def heading(drawing: Drawing, view: str = "key") -> list[Mark]:
     marks += check_bar(AREA[2] - 106, top + 5.5, "")
     bar = words("page.check_bar")
     marks.append(Text(AREA[2] - 109, top + 5.5, bar, "check-bar", 1.8, "end"))
-    return [*marks, *data_lines(drawing, view, left, data, AREA[2] - left - 3)]
-
-
-def data_lines(drawing: Drawing, view: str, x: float, y: float, width: float) -> list[Mark]:
-    """The data in two lines, or in three, of smaller lettering only where signs would touch."""
-    first, *pieces = given(drawing, solved=view != "task")
-    pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
-    for height, leading, room, near in DATA:
-        lines = flowed(pieces, "; ", width, height)
-        if len(lines) <= room and not (near and not are_clear(lines, height, leading)):
-            return [
-                Text(x, y + i * leading, line, "caption", height, name="data")
-                for i, line in enumerate(lines)
-            ]
-    raise PageError(
-        Problem(
-            "data",
-            f"does not fit: {len(lines)} lines of small lettering",
-            "four lines above the drawing",
-            "shorten names and notes, or split the scene",
-        )
-    )
+    return [*marks, *data_heading(drawing, view, left, data)]
 
 
 def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from graphkin.construction.core.given_data import given
+from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.naming import called, scale_of
 from graphkin.construction.core.program import Part
 from graphkin.documents.captions import HEADING, apart
@@ -83,7 +83,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
     told = telling(sheets)
     moves = slider(mechanism, sheets)
     drawing = sheets[0].drawing
-    pieces = given(drawing)
+    given_data = data(drawing)
     body = filled(
         "web/templates/step.html",
         **common(sheets),
@@ -97,8 +97,8 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
             (sheet.drawing.kind, sheet_name(sheet), list(facts.results(sheet.drawing)))
             for sheet in sheets
         ],
-        data=pieces,
-        datum=place_of(moves.datum, pieces),
+        data=[datum.said for datum in given_data],
+        datum=place_of(moves.datum, given_data),
         meanings=list(meanings(drawing.words, sheets)),
         steps=len(told.said),
         stops=[(first, last, STOP_NAMES[stop]) for first, last, stop in told.stops()],
@@ -237,10 +237,10 @@ def fields(
     return SheetFields(place, sheet.drawing.kind, sheet_name(sheet), pictures)
 
 
-def place_of(datum: str, pieces: Sequence[str]) -> int | None:
-    """Which of the data is the one that is moved, by the symbol ``datum``; None where none is."""
-    start = f"{datum} = "
-    return next((i for i, piece in enumerate(pieces) if datum and piece.startswith(start)), None)
+def place_of(symbol: str, given_data: Sequence[Datum]) -> int | None:
+    """Which of the data is the one that is moved, by its symbol; None where none is."""
+    names = [datum.name for datum in given_data]
+    return names.index(symbol) if symbol and symbol in names else None
 
 
 def construction(

@@ -22,6 +22,8 @@ class Printed:
 
     lines: list[str]
     marks: dict[str, complex]
+    cells: list[str]
+    """The table of the data: each name, and below it its value."""
 
     @property
     def sentences(self) -> list[str]:
@@ -40,10 +42,11 @@ class Printed:
 
     @property
     def data(self) -> str:
-        """The given data, in one line."""
-        start = next(n for n, line in enumerate(self.lines) if line.startswith("Given:"))
+        """The given data, in one line: the table's, and what stands beside it."""
         stop = next(n for n, line in enumerate(self.lines) if line.startswith("Mechanism, scale"))
-        return " ".join(self.lines[start:stop]).removeprefix("Given:").strip()
+        pairs = zip(self.cells[::2], self.cells[1::2], strict=True)
+        listed = [f"{name} {'' if value[0] == '(' else '= '}{value}" for name, value in pairs]
+        return "; ".join([*listed, " ".join(self.lines[:stop]).removeprefix("Given: ").strip()])
 
     @property
     def scale(self) -> float:
@@ -61,17 +64,21 @@ class Printed:
 
 def printed(path: Path) -> Printed:
     """The words and marks of an SVG file: indices as ``_{…}``, exponents as ``^{…}``."""
-    lines, marks = [], {}
+    lines: list[str] = []
+    cells: list[str] = []
+    marks = {}
     for item in ElementTree.parse(path).iter():
         kind = set((item.get("class") or "").split())
         name = item.get("data-name")
         if item.tag.endswith("}text") and kind == {"caption"}:
             lines.append(marked_up(item))
+        elif item.tag.endswith("}text") and kind == {"table"} and name == "data":
+            cells.append(marked_up(item))
         elif item.tag.endswith("}circle") and name and kind & MARKED and not kind & ENLARGED:
             x, y = float(item.get("cx", 0)), float(item.get("cy", 0))
             if y < FOOT:  # below stands the scheme, which is not to scale
                 marks[name] = complex(x, -y)
-    return Printed(lines, marks)
+    return Printed(lines, marks, cells)
 
 
 def marked_up(item: ElementTree.Element) -> str:

@@ -209,11 +209,11 @@ class Reader:
             turning = turning.rpartition(" = ")[2]
         index = turning[3:-1]
         symbols = (turning, f"n_{{{index}}}") if turning[0] == "ω" else (turning,)
-        for item in self.items:
-            if item.split(" = ")[0] in symbols:
-                if not (way := re.search(r"turning (counter-)?clockwise", item)):
-                    raise DefectError(f"{turning} is given without its sense")
-                return 1 if way[1] else -1
+        told = [item for item in self.items if re.split(" = |: ", item)[0] in symbols]
+        if told:
+            if not (way := re.search(r"turning (counter-)?clockwise", " ".join(told))):
+                raise DefectError(f"{turning} is given without its sense")
+            return 1 if way[1] else -1
         if turning[0] == "ε":
             raise DefectError(f"the sense of {turning} is not given")
         points = re.findall(NAME, self.links.get(index, "").split(" ")[-1])

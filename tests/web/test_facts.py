@@ -42,7 +42,10 @@ def test_a_task_says_at_which_scale_to_draw_on_paper(name, language):
     mechanism, spoken = mechanism_of(name), words(language)
     chosen = scales(mechanism)
     for said in told(mechanism, language):
-        assert f"{chosen.words} (kL = {spoken.decimal(digits(chosen.kL / 1000))} m/mm)" in said
+        assert (
+            f"{spoken.decimal(chosen.words)} (kL = {spoken.decimal(digits(chosen.kL / 1000))} m/mm)"
+            in said
+        )
 
 
 @pytest.mark.parametrize("name", LABS)

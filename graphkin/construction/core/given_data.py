@@ -1,8 +1,10 @@
-"""What is given, in words: parameters, drivers, lengths, points, sides, guides and wheels."""
+"""What is given: parameters, drivers, lengths, points, sides, guides and wheels."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+
+from msgspec import Struct
 
 from graphkin.construction.core.amounts import in_degrees, written
 from graphkin.construction.core.drawn_scene import Drawing
@@ -32,14 +34,57 @@ from graphkin.scene.quantity import Quantity
 from graphkin.text import MINUS, Words
 
 
+class Datum(Struct, frozen=True):
+    """One of the data as markup: a value with its ``name`` and what is said of it, or words alone.
+
+    ``sign`` stands between name and value; a rate may be ``constant`` and have a ``sense``.
+    """
+
+    words: str = ""
+    name: str = ""
+    value: str = ""
+    sign: str = " = "
+    constant: str = ""
+    sense: str = ""
+
+    @property
+    def said(self) -> str:
+        """It as a piece of a sentence."""
+        if not self.value:
+            return self.remark
+        told = " = ".join(filter(None, (self.value, self.constant)))
+        return self.name + self.sign + told + (f", {self.sense}" if self.sense else "")
+
+    @property
+    def remark(self) -> str:
+        """What is said of it beside its value."""
+        if self.constant:
+            return f"{self.name} = {self.constant}" + (f", {self.sense}" if self.sense else "")
+        return f"{self.name}: {self.sense}" if self.sense else self.words
+
+
 def given(drawing: Drawing, *, solved: bool = True) -> list[str]:
     """The data of a scene as short pieces of markup, in the order of the scene.
 
     Unless ``solved``, without the numbers that a student reckons from the parameters.
     """
+    return [datum.said for datum in data(drawing, solved=solved)]
+
+
+def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
+    """The same, names and values apart."""
     scene, words = drawing.scene, drawing.words
+    sentences = [
+        *sides(scene, words),
+        *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
+        *wheels(scene, words),
+        *tracks(drawing),
+        *closures(drawing),
+        *of_scales(drawing),
+        *(escape(note) for note in [scene.notes.get(words.language)] if note),
+    ]
     return [
-        *other_parameters(scene, words),
+        *(Datum(name=name, value=value) for name, value in other_parameters(scene, words)),
         *(
             piece
             for driver in scene.drivers
@@ -48,13 +93,7 @@ def given(drawing: Drawing, *, solved: bool = True) -> list[str]:
         *lengths(scene, words),
         *fixed_points(scene, words),
         *plates(drawing),
-        *sides(scene, words),
-        *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
-        *wheels(scene, words),
-        *tracks(drawing),
-        *closures(drawing),
-        *of_scales(drawing),
-        *(escape(note) for note in [scene.notes.get(words.language)] if note),
+        *map(Datum, sentences),
     ]
 
 
@@ -66,7 +105,9 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
         yield drawing.words(f"page.enlarged_{drawing.kind}", m=figure(drawing, m))
 
 
-def of_driver(scene: Scene, words: Words, driver: Driver, *, solved: bool = True) -> Iterator[str]:
+def of_driver(
+    scene: Scene, words: Words, driver: Driver, *, solved: bool = True
+) -> Iterator[Datum]:
     """Position, speed and acceleration of a driver."""
     speed = "*v*"
     if driver.kind == "turn":
@@ -75,22 +116,19 @@ def of_driver(scene: Scene, words: Words, driver: Driver, *, solved: bool = True
     if solved or not reckoned(scene, driver.position):
         angle = in_degrees(scene, words, driver.position)
         place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
-        yield f"{angle_symbol(scene, driver)} = {place}"
+        yield Datum(name=angle_symbol(scene, driver), value=place)
     steady = driver.acceleration.is_zero()
-    rates = [(f"{speed}{index}", driver.speed, [words("page.constant")] if steady else [])]
+    rates = [(f"{speed}{index}", driver.speed, words("page.constant") if steady else "")]
     if not steady:
         rate = "*ε*" if driver.kind == "turn" else "*a*"
-        rates.append((f"{rate}{index}", driver.acceleration, []))
+        rates.append((f"{rate}{index}", driver.acceleration, ""))
     for name, quantity, constant in rates:
         if not solved and is_derived(quantity):
             continue  # its law tells its sense, too
         size, sense = with_sense(scene, words, driver, quantity)
-        told = [size] if solved or not reckoned(scene, quantity) else []
-        parts = [name, *told, *constant]
-        if len(parts) > 1:
-            yield " = ".join(parts) + (f", {sense}" if sense else "")
-        elif sense:
-            yield f"{name}: {sense}"
+        told = size if solved or not reckoned(scene, quantity) else ""
+        if told or constant or sense:
+            yield Datum(name=name, value=told, constant=constant, sense=sense)
 
 
 def driver_index(driver: Driver) -> str:
@@ -117,7 +155,7 @@ def angle_symbol(scene: Scene, driver: Driver) -> str:
     return ("*φ*" if driver.kind == "turn" else "*s*") + index
 
 
-def lengths(scene: Scene, words: Words) -> Iterator[str]:
+def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
     """The lengths of bars, those of equal length together."""
     equal: dict[str, list[str]] = {}
     for link in (scene.frame, *scene.links.values()):
@@ -125,40 +163,45 @@ def lengths(scene: Scene, words: Words) -> Iterator[str]:
             for p, q, length in placing.lengths():
                 equal.setdefault(after_parameter(scene, words, length), []).append(bar(p, q))
     for text, bars in equal.items():
-        yield " = ".join([*bars, text])
+        yield Datum(name=" = ".join(bars), value=text)
 
 
-def fixed_points(scene: Scene, words: Words) -> Iterator[str]:
+def fixed_points(scene: Scene, words: Words) -> Iterator[Datum]:
     """The coordinates of the frame's points."""
     for placing in scene.frame.placings:
         if isinstance(placing, At):
-            yield f"{coordinates(scene, words, placing)} {placing.x.unit}"
+            place = f"{place_of(scene, words, placing)} {placing.x.unit}"
+            yield Datum(name=symbol(placing.point), value=place, sign=" ")
 
 
-def plates(drawing: Drawing) -> Iterator[str]:
+def plates(drawing: Drawing) -> Iterator[Datum]:
     """Points of links that are given by coordinates or by an angle."""
     scene, words = drawing.scene, drawing.words
     for link in (scene.frame, *scene.links.values()):
         fixed = link is scene.frame
         places = [placing for placing in link.placings if isinstance(placing, At)]
         if not fixed and len(places) > 1:
-            points = ", ".join(coordinates(scene, words, placing) for placing in places)
-            yield f"{points} {places[0].x.unit}, {words('page.on_link', k=escape(link.name))}"
+            points = ", ".join(
+                f"{symbol(placing.point)} {place_of(scene, words, placing)}" for placing in places
+            )
+            on_link = words("page.on_link", k=escape(link.name))
+            yield Datum(f"{points} {places[0].x.unit}, {on_link}")
         for placing in link.placings:
             point = symbol(placing.point)
             if isinstance(placing, Polar):
                 key = "page.polar_frame" if fixed else "page.polar"
                 fields = {"bar": bar(placing.start, placing.point), "axis": axis_of(drawing, link)}
-                yield words(key, angle=written(scene, words, placing.angle), **fields)
+                yield Datum(words(key, angle=written(scene, words, placing.angle), **fields))
             elif isinstance(placing, Angled):
                 turn = written(scene, words, placing.angle)
-                yield f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point} = {turn}"
+                angle = f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point}"
+                yield Datum(name=angle, value=turn)
 
 
-def coordinates(scene: Scene, words: Words, placing: At) -> str:
-    """A point with its coordinates."""
+def place_of(scene: Scene, words: Words, placing: At) -> str:
+    """A point's coordinates."""
     x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
-    return f"{symbol(placing.point)} {words.place(x, y)}"
+    return words.place(x, y)
 
 
 def sides(scene: Scene, words: Words) -> Iterator[str]:

@@ -29,11 +29,11 @@ def variant(scene: Scene, words: Words) -> list[str]:
     ]
 
 
-def other_parameters(scene: Scene, words: Words) -> list[str]:
+def other_parameters(scene: Scene, words: Words) -> list[tuple[str, str]]:
     """The parameters put into an expression that no driver or length shows by itself."""
     shown = {name for quantity in shown_quantities(scene) if (name := lone(scene, quantity))}
     put = put_in(scene)
-    return [parameter(scene, words, name) for name in scene.values if name in put - shown]
+    return [as_set(scene, words, name) for name in scene.values if name in put - shown]
 
 
 def put_in(scene: Scene) -> set[str]:
@@ -43,11 +43,16 @@ def put_in(scene: Scene) -> set[str]:
 
 
 def parameter(scene: Scene, words: Words, name: str) -> str:
-    """A parameter as set; t is the moment of laws of time, in seconds."""
+    """A parameter and what it is set to."""
+    return " = ".join(as_set(scene, words, name))
+
+
+def as_set(scene: Scene, words: Words, name: str) -> tuple[str, str]:
+    """A parameter's symbol and what it is set to; t is the moment of laws of time, in seconds."""
     unit = "s" if name == TIME else unit_of(scene, name)
     printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
     space = " " if printed and printed != "°" else ""
-    return f"*{escape(name)}* = {words.decimal(shortest(scene.values[name]))}{space}{printed}"
+    return f"*{escape(name)}*", words.decimal(shortest(scene.values[name])) + space + printed
 
 
 def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str = "") -> str:

@@ -1,0 +1,44 @@
+"""The data at the head of a sheet: each stands there once, in the table or in words beside it."""
+
+import pytest
+
+from graphkin.documents.data_heading import NAME, data, data_heading
+from graphkin.documents.sheet import sheet
+from graphkin.drawing.areas import AREA
+from graphkin.drawing.marks import LineMark, Text, reach
+from tests.chosen import CHOSEN
+from tests.documents.sheet_tools import drawings
+from tests.mechanisms import SHIPPED
+
+WHICH = [*((name, None) for name in CHOSEN), *((lab, 7) for lab in SHIPPED)]
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+@pytest.mark.parametrize("which", WHICH, ids=str)
+def test_every_datum_stands_there_once(which, language):
+    for drawing in drawings(*which, language):
+        marks = data_heading(drawing, "key", 24, 22.4)
+        texts = [mark.markup for mark in marks if isinstance(mark, Text)]
+        said = "; ".join(texts).replace(";;", ";")
+        found = data(drawing)
+        if any(isinstance(mark, LineMark) for mark in marks):
+            cells = [part for datum in found if datum.value for part in (datum.name, datum.value)]
+            rest = [datum.remark for datum in found if datum.remark]
+            assert texts[: len(cells)] == cells
+            assert " ".join(texts[len(cells) :]).split() == "; ".join(rest).split()
+        else:
+            assert all(datum.said.split()[0] in said for datum in found)
+
+
+@pytest.mark.parametrize("which", WHICH, ids=str)
+def test_data_stay_clear_of_captions_and_of_the_frame(which):
+    for drawing in drawings(*which):
+        marks = sheet(drawing, "key", "1/2").marks
+        boxes = [reach(mark) for mark in marks if isinstance(mark, Text) and mark.name == NAME]
+        captions = [mark for mark in marks if isinstance(mark, Text) and mark.name == "heading"]
+        heads = [reach(mark) for mark in captions]
+        assert max(box[2] for box in boxes) < AREA[2]
+        for box in boxes:
+            for head in heads:
+                beside = box[2] < head[0] or head[2] < box[0]
+                assert beside or box[3] < head[1] + 0.4, which
