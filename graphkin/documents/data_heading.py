@@ -13,7 +13,7 @@ from graphkin.text.errors import PageError, Problem
 
 NAME = "data"
 """The name of the marks of the data."""
-LETTERS, ROW, BASE, PAD = 2.5, 4.4, 3.0, 3.0
+LETTERS, ROW, BASE, PAD = 2.5, 4.5, 3.1, 3.0
 """Of the table in mm: letters, rows, how far below its upper line these stand, room beside them."""
 ABOVE = 2.6
 """How far the table begins above the first line's foot, in mm."""
