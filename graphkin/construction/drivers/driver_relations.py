@@ -28,6 +28,7 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.expression import CONSTANT
 from graphkin.scene.model import FRAME, Driver
 from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.simplify import simplified, text_of
 
 OMEGA = 6
 """Significant digits of the driver's angular velocity, from which all else follows."""
@@ -46,14 +47,18 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
         (f"{speed}{index}", driver.speed),
         (f"{rate}{index}", driver.acceleration),
     ):
-        derived = is_derived(quantity)  # figures are put in only after it is derived
         if reckoned(scene, quantity):
             value = written(scene, words, quantity)
             amount, _, unit = value.removesuffix("°").partition(" ")
-            figures = "" if derived else expression(drawing, quantity, values=True)
+            symbols, law = expression(drawing, quantity, values=False), quantity
+            if is_derived(quantity):  # figures are put in only after it is derived
+                law = short(quantity)
+                derived = expression(drawing, law, values=False)
+                symbols += f" = {derived}" if law.uses() else ""
+            figures = expression(drawing, law, values=True)
             yield Relation(
                 letter,
-                expression(drawing, quantity, values=False),
+                symbols,
                 figures if figures != amount else "",
                 amount,
                 "°" if value.endswith("°") else unit,
@@ -80,6 +85,12 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
             yield from of_pin(drawing, driver, p, q)
     if drawing.kind == "velocity":
         yield from of_sum(drawing, driver)
+
+
+def short(derivative: Quantity) -> Quantity:
+    """A derivative written out."""
+    tree = simplified(derivative.tree)
+    return Quantity(text_of(tree), tree, derivative.unit, derivative.place)
 
 
 def in_radians(drawing: Drawing, name: str, quantity: Quantity, unit: str) -> Relation:
