@@ -92,7 +92,14 @@ def sheet(
         from graphkin.documents.sheet_documents import hand_out
 
         for part in hand_out(mechanism, view=view, language=lang):
-            files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, kinds, ink)
+            files |= rendered(
+                f"{stem}-{part.kind}-{view}",
+                part.kind,
+                part.pages,
+                kinds,
+                ink,
+                steps=view == "steps",
+            )
     tell(str(path) for path in write_all(folder, files, force))
 
 

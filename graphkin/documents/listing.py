@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
-from graphkin.drawing.areas import MARKED
+from graphkin.drawing.areas import MARKED, Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
 from graphkin.text.errors import PageError, Problem
@@ -43,20 +43,57 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
         if height == LOOKS[-1][0] or are_clear([line for _, line in lines], height, leading):
             break
     else:
-        raise PageError(
-            Problem(
-                "construction",
-                f"does not fit: {len(lines)} lines",
-                "a shorter construction",
-                "ask for less on one sheet",
-            )
-        )
+        raise too_long(len(lines), "ask for less on one sheet")
     marks: list[Mark] = []
     for i, (number, line) in enumerate(lines):
         if number:
             marks.append(Text(x + 5, y + i * leading, number, "caption", height, "end"))
         marks.append(Text(x + INDENT, y + i * leading, line, "caption", height))
     return marks
+
+
+def in_columns(drawing: Drawing, columns: Sequence[Rect]) -> list[Mark]:
+    """The sentences of a sheet of their own, from one column to the next, none of them parted.
+
+    Raises PageError where there are too many.
+    """
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    for height, most, least in LOOKS:
+        sets = [
+            [flowed(words, " ", right - left - INDENT, height) for words in said]
+            for left, _, right, _ in columns
+        ]
+        for leading in distances(most, least):
+            marks = filled(sets, columns, height, leading)
+            if marks:
+                return marks
+    raise too_long(sum(map(len, sets[0])), "view the steps, a sentence on each page: --view steps")
+
+
+def filled(
+    sets: Sequence[list[list[str]]], columns: Sequence[Rect], height: float, leading: float
+) -> list[Mark]:
+    """Columns with the lines of sentences, broken for each; nothing where they are too many."""
+    marks: list[Mark] = []
+    place, y = 0, columns[0][1]
+    for number in range(len(sets[0])):
+        while y + (len(sets[place][number]) - 1) * leading > columns[place][3]:
+            place += 1
+            if place == len(columns):
+                return []
+            y = columns[place][1]
+        x = columns[place][0]
+        marks.append(Text(x + 5, y, f"{number + 1}.", "caption", height, "end"))
+        for line in sets[place][number]:
+            marks.append(Text(x + INDENT, y, line, "caption", height))
+            y += leading
+    return marks
+
+
+def too_long(lines: int, hint: str) -> PageError:
+    """The problem of a construction that has too many lines."""
+    found, expected = f"does not fit: {lines} lines", "a shorter construction"
+    return PageError(Problem("construction", found, expected, hint))
 
 
 def distances(most: float, least: float) -> Iterator[float]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from enum import Enum
+
+from msgspec import Struct
 
 from graphkin.construction import step_marks
 from graphkin.construction.core.curve_marks import draw_curves
@@ -37,6 +40,7 @@ from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import escape, extent, flowed
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.text.errors import PageError
 
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
@@ -48,9 +52,31 @@ RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
 
-def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None) -> Page:
+class Moved(Enum):
+    """What goes on to a continuation sheet where it has no room; its value names it in words."""
+
+    DATA = "data"
+    CONSTRUCTION = "construction"
+    TABLES = "tables"
+
+
+class Writing(Struct, frozen=True):
+    """What is written above and below the drawings of a sheet, and what of it has no room."""
+
+    head: list[Mark]
+    foot: list[Mark]
+    moved: frozenset[Moved]
+
+
+def sheet(
+    drawing: Drawing,
+    view: str,
+    number: str,
+    layout: Layout | None = None,
+    written: Writing | None = None,
+) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
-    layout = layout or lay_out(drawing)
+    layout, written = layout or lay_out(drawing), written or writing(drawing, view)
     boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
     (left, detail), (right, other) = parted(*boards)
     if view != "task":
@@ -59,13 +85,17 @@ def sheet(drawing: Drawing, view: str, number: str, layout: Layout | None = None
         other += plan_signs(drawing, layout.plan, [*right, *other])
     marks: list[Mark] = [
         *sheet_frame(title_block(drawing, view, number)),
-        *heading(drawing, view),
+        *written.head,
         *(*left, *detail, *right, *other),
         *panels(layout),
-        *below(drawing, view),
+        *written.foot,
     ]
-    title = f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
-    return Page(420, 297, tuple(marks), title, drawing.words.language)
+    return Page(420, 297, tuple(marks), page_title(drawing), drawing.words.language)
+
+
+def page_title(drawing: Drawing) -> str:
+    """The title of a page's file."""
+    return f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
 
 
 def panels(layout: Layout) -> list[Mark]:
@@ -116,11 +146,18 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     )
 
 
-def heading(drawing: Drawing, view: str = "key") -> list[Mark]:
-    """The sheet's title and the data, in as many lines as they need."""
+def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved]]:
+    """The sheet's title and the data, in as many lines as they need; what has no room."""
+    marks, x, y = title_line(drawing)
+    data, moved = with_room(drawing, Moved.DATA, lambda: data_heading(drawing, view, x, y), x, y)
+    return [*marks, *data], moved
+
+
+def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:
+    """The sheet's title and the bar that checks the print; where the data may begin."""
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
-    name = f"{words('sheet.' + called(drawing))} – {title_of(drawing)}"
+    name = f"{words('sheet.' + called(drawing))} – {title_of(drawing)}{remark}"
     lines, height = [escape(name)], 5.0
     if extent(lines[0], height)[0] > TITLE:
         height = next((h for h in (3.5, 2.5) if len(wrapped(name, TITLE, h)) <= 2), 1.8)
@@ -133,7 +170,27 @@ def heading(drawing: Drawing, view: str = "key") -> list[Mark]:
     marks += check_bar(AREA[2] - 106, top + 5.5, "")
     bar = words("page.check_bar")
     marks.append(Text(AREA[2] - 109, top + 5.5, bar, "check-bar", 1.8, "end"))
-    return [*marks, *data_heading(drawing, view, left, data)]
+    return marks, left, data
+
+
+def with_room(
+    drawing: Drawing, part: Moved, made: Callable[[], Iterable[Mark]], x: float, y: float
+) -> tuple[list[Mark], set[Moved]]:
+    """The marks of a part; where they have no room, a line at a place that says where they are."""
+    try:
+        return list(made()), set()
+    except PageError:
+        where = drawing.words("page.moved")
+        if part is not Moved.CONSTRUCTION:
+            where = f"{drawing.words(f'page.{part.value}')}: {where}"
+        return [Text(x, y, where, "caption", 2.5, name="moved")], {part}
+
+
+def writing(drawing: Drawing, view: str) -> Writing:
+    """What is written above and below the drawings of a sheet."""
+    head, moved = heading(drawing, view)
+    foot, more = below(drawing, view)
+    return Writing(head, foot, frozenset(moved | more))
 
 
 def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
@@ -200,25 +257,44 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     return board
 
 
-def below(drawing: Drawing, view: str) -> list[Mark]:
-    """The construction in words, the tables, the check bar and the witness's verdict."""
-    words = drawing.words
+def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved]]:
+    """The construction in words, the tables, the check bar and the witness's verdict; what of them
+    has no room."""
+    words, moved = drawing.words, set[Moved]()
     left, top = BELOW[0] + 2, BELOW[1]
-    marks: list[Mark] = []
     width = TABLES[0] - left - 5
     bottom = BELOW[3] - 3.5
     if view == "key":
-        marks.append(Text(left, top + 4.5, words("page.construction"), "caption", 3.5))
-        marks += listed(drawing, left, top + 10.5, width, bottom)
+        said, moved = with_room(
+            drawing,
+            Moved.CONSTRUCTION,
+            lambda: listed(drawing, left, top + 10.5, width, bottom),
+            left,
+            top + 10.5,
+        )
+        marks = [construction_head(drawing, left, top + 4.5), *said]
     else:
-        marks += wanted(drawing, left, top)
-    marks += tables(drawing, TABLES, empty=view == "task")
+        marks = list(wanted(drawing, left, top))
+    found, more = with_room(
+        drawing,
+        Moved.TABLES,
+        lambda: tables(drawing, TABLES, empty=view == "task"),
+        TABLES[0],
+        TABLES[1] + 4.5,
+    )
+    marks += found
+    moved |= more
     if view == "task":
-        return marks
+        return marks, moved
     worst = words.significant(drawing.verdict.largest_difference, 2)
     text = words("page.verified", difference=worst)
     marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
-    return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])]
+    return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])], moved
+
+
+def construction_head(drawing: Drawing, x: float, y: float) -> Text:
+    """What stands above the construction in sentences."""
+    return Text(x, y, drawing.words("page.construction"), "caption", 3.5)
 
 
 def wanted(drawing: Drawing, x: float, y: float) -> Iterator[Mark]:

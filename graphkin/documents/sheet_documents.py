@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -52,29 +52,52 @@ def hand_out(
         )
     verdict = proved(mechanism, shown(mechanism))
     drawings = drawings_of(mechanism, verdict, spoken)
-    total = len(drawings)
-    sheets = [
-        SheetDocument(drawing.kind, drawn(drawing, view, f"{i}/{total}"))
-        for i, drawing in enumerate(drawings, 1)
-    ]
+    sheets = drawn_sheets(drawings, view)
     if view not in CALCULATED:
         return sheets
     return [*sheets, SheetDocument("calculation", calculation(drawings, view))]
 
 
-def drawn(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
-    """The pages of one drawing in a view."""
+def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
+    """The sheets of a mechanism's drawings in a view, numbered through.
+
+    What has no room on a key or a task goes on to a continuation sheet.
+    """
+    if view in CALCULATED:
+        from graphkin.documents.continuation import continuation
+        from graphkin.documents.sheet import sheet, writing
+
+        every = [(drawing, writing(drawing, view)) for drawing in drawings]
+        total = sum(1 + bool(written.moved) for _, written in every)
+        found, number = [], 0
+        for drawing, written in every:
+            number += 1
+            pages = [sheet(drawing, view, f"{number}/{total}", written=written)]
+            if written.moved:
+                number += 1
+                pages.append(continuation(drawing, view, f"{number}/{total}", written.moved))
+            found.append(SheetDocument(drawing.kind, tuple(pages)))
+        return found
+    total = len(drawings)
+    return [
+        SheetDocument(drawing.kind, by_itself(drawing, view, f"{i}/{total}"))
+        for i, drawing in enumerate(drawings, 1)
+    ]
+
+
+def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
+    """The pages of one drawing, step by step, or as an overlay."""
     if view == "steps":
+        from graphkin.documents.continuation import continuation
+        from graphkin.documents.sheet import heading
         from graphkin.documents.step_pages import growing
 
-        return growing(drawing, number)
-    if view == "overlay":
-        from graphkin.documents.overlay import overlay
+        moved = frozenset(heading(drawing)[1])
+        more = [continuation(drawing, view, number, moved)] if moved else []
+        return (*growing(drawing, number), *more)
+    from graphkin.documents.overlay import overlay
 
-        return (overlay(drawing, number),)
-    from graphkin.documents.sheet import sheet
-
-    return (sheet(drawing, view, number),)
+    return (overlay(drawing, number),)
 
 
 def language_of(mechanism: Mechanism, language: str | None) -> Words:

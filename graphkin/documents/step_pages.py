@@ -10,13 +10,19 @@ from msgspec.structs import replace
 from graphkin.construction.core.crossings import Crossing, flattest
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out
-from graphkin.construction.core.naming import called
 from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import crossings_on, group_closed, is_gap, letter_of_crossing
 from graphkin.documents.inset import insets
 from graphkin.documents.sentences import sentences
-from graphkin.documents.sheet import heading, left_board, panels, right_board, title_block, title_of
+from graphkin.documents.sheet import (
+    heading,
+    left_board,
+    page_title,
+    panels,
+    right_board,
+    title_block,
+)
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.step_numbers import BEFORE, stages
 from graphkin.documents.step_visibility import appearing, grown, when_told
@@ -54,14 +60,14 @@ def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tupl
     last = [*detail, *other, *plan_signs(drawing, layout.plan, [*right, *other])]
     block, same = (
         title_block(drawing, "steps", number),
-        [*heading(drawing), *panels(layout)],
+        [*heading(drawing)[0], *panels(layout)],
     )
     lines = [
         (stage_of_crossing(drawing, each, staged), each)
         for each in crossings_on(drawing)
         if not is_gap(drawing, each)
     ]
-    title = f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
+    title = page_title(drawing)
     return tuple(
         Page(
             420,

@@ -113,7 +113,9 @@ def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
         files[f"{stem}-{view}.{PAGE}"] = page.encode("utf-8")
     if set(formats) - {PAGE}:
         for part in hand_out(mechanism, view=view, language=language):
-            files |= rendered(f"{stem}-{part.kind}-{view}", part.kind, part.pages, formats)
+            files |= rendered(
+                f"{stem}-{part.kind}-{view}", part.kind, part.pages, formats, steps=view == "steps"
+            )
     return files
 
 

@@ -53,14 +53,19 @@ def rendered(
     pages: Sequence[Page],
     formats: Sequence[str],
     ink: Ink = "colour",
+    *,
+    steps: bool = False,
 ) -> dict[str, bytes]:
-    """The files of one sheet by name: an SVG for each drawing, one PDF for all its pages."""
+    """The files of one sheet by name: an SVG for each page, one PDF for all of them.
+
+    The pages of a sheet that grows by ``steps`` are numbered; else the first is the sheet itself.
+    """
     files: dict[str, bytes] = {}
     if "svg" in formats and kind != PDF_ONLY:
         from graphkin.writers.svg import write_svg
 
         for number, page in enumerate(pages, 1):
-            tail = f"-{number}" if len(pages) > 1 else ""
+            tail = f"-{number}" if steps or number > 1 else ""
             files[f"{stem}{tail}.svg"] = write_svg(page, ink).encode("utf-8")
     if "pdf" in formats:
         from graphkin.writers.pdf import write_pdf

@@ -13,7 +13,7 @@ import shapely
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.documents.overlay import overlay
 from graphkin.documents.sheet import sheet
-from graphkin.documents.sheet_documents import drawn as pages_of
+from graphkin.documents.sheet_documents import by_itself
 from graphkin.drawing.marks import Page, Text, reach
 from graphkin.scene.scene_files import names
 from graphkin.text import LANGUAGES
@@ -98,7 +98,7 @@ def box_of(text: Text) -> shapely.Polygon:
 @pytest.mark.parametrize("which", VIEWED, ids=named)
 def test_in_every_view_nothing_stands_on_anything(which):
     for drawing, layout in zip(drawings(*which), layouts(*which), strict=True):
-        last = pages_of(drawing, "steps", "1/2")[-1]
+        last = by_itself(drawing, "steps", "1/2")[-1]
         assert not faults(last), faults(last)
         assert not crossed(last), crossed(last)
         for page in (overlay(drawing, "1/2", layout), sheet(drawing, "task", "1/2", layout)):

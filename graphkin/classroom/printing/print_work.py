@@ -24,7 +24,7 @@ from graphkin.documents.sheet import title_of
 from graphkin.documents.sheet_documents import (
     SheetDocument,
     drawings_of,
-    drawn,
+    drawn_sheets,
     language_of,
     proved,
 )
@@ -113,11 +113,9 @@ class Sheets:
 
     def draw(self, view: str) -> Iterator[SheetDocument]:
         """The sheets of a view, each page with its student's name and code."""
-        total = len(self.drawings)
-        for i, drawing in enumerate(self.drawings, 1):
-            own = replace(owned(drawing, self.whose), computed=self.computed)
-            pages = drawn(own, view, f"{i}/{total}")
-            yield SheetDocument(drawing.kind, tuple(signed(pages, view, self.whose)))
+        own = [replace(owned(each, self.whose), computed=self.computed) for each in self.drawings]
+        for sheet in drawn_sheets(own, view):
+            yield SheetDocument(sheet.kind, tuple(signed(sheet.pages, view, self.whose)))
         if view in ("task", "key"):
             pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed)
             pages = tuple(signed(pages, view, self.whose))
@@ -187,6 +185,6 @@ def files_of(
 
     for sheet in sheets.of(view):
         for number, page in enumerate(sheet.pages, 1):
-            tail = f"-{number:02d}" if len(sheet.pages) > 1 else ""
+            tail = f"-{number:02d}" if view == "steps" or number > 1 else ""
             name = f"{view}/{stem}-{view}-{sheet.kind}{tail}.svg"
             yield name, write_svg(page, ink).encode("utf-8")
