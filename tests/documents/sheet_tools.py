@@ -302,7 +302,7 @@ def collisions(marks: Sequence[Mark]) -> list[str]:
     edges = np.array([outline(mark) for mark in inked])
     widths = np.array([half_width(mark) for mark in inked])
     labels = labels_of(marks)
-    boxes = np.array([label.ink() for label in labels])
+    boxes = np.array([label.ink() for label in labels], dtype=object)
     tree = shapely.STRtree(edges)
     which, what = tree.query(boxes, predicate="dwithin", distance=widths.max())
     close = shapely.distance(boxes[which], edges[what]) <= widths[what]

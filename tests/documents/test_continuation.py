@@ -1,0 +1,87 @@
+"""Continuation sheets: nothing is lost, nothing is told twice, and sheets are numbered through."""
+
+from functools import cache
+
+import pytest
+
+from graphkin.documents.data_heading import data
+from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
+from graphkin.drawing.marks import Text
+from graphkin.drawing.richtext import plain
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.text import words
+from graphkin.writers.files import rendered
+from tests.bench.chain import scene
+from tests.documents.sheet_tools import collisions, outside
+
+
+def train(wheels: int) -> str:
+    """A row of wheels that mesh."""
+    head = 'graphkin = 1\ntitle = "Train"\nmodule = 4\n'
+    head += 'units = { length = "mm", angle = "deg", speed = "rev/min" }\n[frame]\n'
+    pivots = "".join(f"O{i} = [{80 * i}, 0]\n" for i in range(wheels))
+    links = ""
+    for i in range(wheels):
+        links += f'[links.{i + 1}]\nO{i}-A{i} = 30\nwheel = {{ centre = "O{i}", teeth = 20 }}\n'
+        if i:
+            links += f"rolls = {{ on = {i}, start = {{ {i} = 0, {i + 1} = 0 }} }}\n"
+    return head + pivots + links + "[[drivers]]\nturn = 1\nangle = 20\nspeed = 60\n"
+
+
+TEXTS = {"chain of 4": scene(4), "chain of 8": scene(8), "train of 6": train(6)}
+
+
+@cache
+def handed(name: str, view: str, language: str):
+    mechanism = Mechanism(read_text(TEXTS[name], "large"))
+    spoken = words(language)
+    drawings = drawings_of(mechanism, proved(mechanism, mechanism.solve()), spoken)
+    return drawings, hand_out(mechanism, view, language)
+
+
+def said(pages) -> str:
+    """All texts of pages, without markup and spaces."""
+    marks = [mark for page in pages for mark in page.marks if isinstance(mark, Text)]
+    return "".join("".join(plain(mark.markup).split()) for mark in marks)
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+@pytest.mark.parametrize("name", TEXTS)
+def test_every_sentence_and_every_datum_is_told_once(name, language):
+    drawings, documents = handed(name, "key", language)
+    assert any(len(document.pages) > 1 for document in documents[:-1])
+    for drawing, document in zip(drawings, documents, strict=False):
+        told = said(document.pages)
+        for sentence in sentences(drawing):
+            assert "".join(plain(sentence.markup).split()) in told
+        for datum in data(drawing):
+            parts = (datum.name, datum.value) if datum.value else (datum.words,)
+            assert all("".join(plain(part).split()) in told for part in parts)
+
+
+@pytest.mark.parametrize("view", ["key", "task"])
+@pytest.mark.parametrize("name", TEXTS)
+def test_sheets_are_numbered_through(name, view):
+    _, documents = handed(name, view, "en")
+    pages = [page for document in documents[:-1] for page in document.pages]
+    for number, page in enumerate(pages, 1):
+        assert f"{number}/{len(pages)}" in [m.markup for m in page.marks if isinstance(m, Text)]
+
+
+@pytest.mark.parametrize("view", ["key", "task"])
+@pytest.mark.parametrize("name", TEXTS)
+def test_on_a_continuation_sheet_nothing_stands_on_anything(name, view):
+    _, documents = handed(name, view, "en")
+    for document in documents[:-1]:
+        for page in document.pages[1:]:
+            assert not collisions(page.marks) and not outside(page.marks)
+
+
+def test_the_first_sheet_keeps_its_name():
+    _, documents = handed("chain of 8", "key", "en")
+    pages = documents[1].pages
+    files = rendered("large-acceleration-key", "acceleration", pages, ("svg", "pdf"))
+    stem = "large-acceleration-key"
+    assert list(files) == [f"{stem}.svg", f"{stem}-2.svg", f"{stem}.pdf"]
