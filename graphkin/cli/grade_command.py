@@ -115,9 +115,15 @@ def grade(
     earlier values, and against slips known by name. Writes marks.csv, a feedback page for each
     student, a report on the class, and fills in gradebooks.
 
+    You have the last word: REPORT/decisions.csv is yours, id;field;points;reason, and is never
+    overwritten. A row sets the points of a field, or of the whole form (total); without points the
+    mark stays; "?" keeps a student's request that is not decided. Mark again with --force, and
+    feedback, report and gradebook follow.
+
     Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
-    another's get no mark until you decide: mark again with --force and --release ID. The report
-    keeps whom you released, for every later marking, until --hold ID.
+    another's get no mark until you decide: a row of theirs in decisions.csv, or mark again with
+    --force and --release ID. The report keeps whom you released, for every later marking, until
+    --hold ID.
 
     \b
     Examples:
@@ -134,6 +140,13 @@ def grade(
     from graphkin.classroom.grading.class_folder import open_class
     from graphkin.classroom.grading.class_marking import graded_class
     from graphkin.classroom.grading.class_report import result_lines
+    from graphkin.classroom.grading.decisions import (
+        DECISIONS,
+        EMPTY,
+        Deciding,
+        read_decisions,
+        settled,
+    )
     from graphkin.classroom.grading.releases import releases
     from graphkin.text import words as words_in
     from graphkin.writers.files import write_all
@@ -149,12 +162,19 @@ def grade(
         raise click.UsageError(f"--release, --hold: {both} cannot be both", context)
     out = report or folder / "report"
     free = releases(out, tuple(ids), released, held)
+    deciding = Deciding(opened.takers, opened.book.form, opened.book.lab.rubric)
+    decisions = read_decisions(out, deciding)
+    if both := ", ".join(who for who in held if who in settled(decisions)):
+        said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
+        raise click.UsageError(said, context)
     codes = {code: who for who, code in ids.items()}
     given = read_answers(answers, opened.book.form, ids, codes)
     words = words_of(opened, lang)
     processes = jobs or usual_jobs(opened)
-    found = graded_class(opened.book, opened.takers, given.of, processes, free.ids)
+    found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
+    if not (out / DECISIONS).exists():
+        files[DECISIONS] = EMPTY
     spoken = words_in(TERMINAL)
     books = filled_books(gradebooks, column, found, spoken)
     written = write_all(out, {**files, **books}, force)

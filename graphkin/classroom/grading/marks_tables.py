@@ -9,12 +9,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from graphkin.classroom.grading.graded import EarnedMark, Graded, Result, Status
+from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.text import Words
 
-BEFORE = ("row", "number", "id", "name", "group", "points", "of", "percent", "pending", "evidence")
+BEFORE = (
+    *("row", "number", "id", "name", "group", "points", "of", "percent", "pending", "evidence"),
+    "decision",
+)
 WHY = " why"
 FIRST = 5
 """Changes that a terminal shows."""
@@ -36,7 +39,8 @@ def marks_table(result: Result) -> bytes:
 
     ``of`` and ``percent`` are of the points that are decided; ``pending`` are those that wait;
     ``evidence`` names whose data the answers fit better than the own, and who has the same values;
-    points and percent of who is held are empty, those of each field stay for the decision.
+    points and percent of who is held are empty, those of each field stay for the decision;
+    ``decision`` is the lecturer's on the whole form, those on fields stand with their reasons.
     """
     graded = result.graded
     fits: dict[str, list[str]] = defaultdict(list)
@@ -66,6 +70,7 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
         f"{float(100 * share):.1f}" if share is not None else "",
         number(graded.pending) if graded.pending else "",
         "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
+        ruling(graded.decision) if graded.decision is not None else "",
         *(points_cell(marks[name]) if graded.present else "" for name in fields),
         *(reason(graded, name) if graded.present else "" for name in fields),
     ]
@@ -73,7 +78,17 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
 
 def points_cell(mark: EarnedMark) -> str:
     """The points of a field; empty while an answer that cannot be read waits for a decision."""
-    return number(mark.earned) if mark.status is not Status.UNREADABLE else ""
+    return number(mark.earned) if not mark.waits else ""
+
+
+def ruling(decision: Decision) -> str:
+    """What the lecturer decided, in plain words: decided, was 0: why; stands: why; asked: why."""
+    if decision.is_open:
+        return f"asked: {decision.reason}"
+    if decision.points is None:
+        return f"stands: {decision.reason}"
+    before = "open" if decision.before is None else number(decision.before)
+    return f"decided, was {before}: {decision.reason}"
 
 
 def reason(graded: Graded, name: str) -> str:
@@ -88,7 +103,8 @@ def reason(graded: Graded, name: str) -> str:
         source, paid = "", f"paid at {source}"
     torn = "contradicts its sign" if mark.torn else ""
     parts = (mark.status.value, source, mark.slip, paid, torn)
-    return " ".join(part for part in parts if part)
+    found = " ".join(part for part in parts if part)
+    return found if mark.decision is None else f"{found}; {ruling(mark.decision)}"
 
 
 def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) -> bytes:
