@@ -23,6 +23,7 @@ from graphkin.classroom.roster.spreadsheets import (
     folded,
     read_sheet,
 )
+from graphkin.classroom.roster.student_signs import Signs
 from graphkin.scene.findings import nearest, shown
 
 DECISIONS = "decisions.csv"
@@ -51,6 +52,7 @@ class Deciding(Struct, frozen=True):
     takers: Sequence[Taker]
     form: Sequence[Item]
     rubric: Rubric
+    signs: Signs
 
     def worth_of(self, taker: Taker) -> Mapping[str, Fraction]:
         """The points of each field of a student's own form that is worth any."""
@@ -75,8 +77,7 @@ def read_decisions(report: Path, on: Deciding) -> tuple[Decision, ...]:
         found = f"no column {', '.join(missing)}"
         told.add(DECISIONS, found, "the head id;field;points;reason")
         told.stop()
-    takers = {taker.student.id: taker for taker in on.takers}
-    read = [decision(sheet, row, where, takers, on, told) for row in sheet.rows]
+    read = [decision(sheet, row, where, on, told) for row in sheet.rows]
     seen: dict[tuple[str, str], int] = {}
     for row, each in zip(sheet.rows, read, strict=True):
         first = seen.setdefault((each.who, each.field), row.line) if each else row.line
@@ -91,7 +92,6 @@ def decision(
     sheet: Spreadsheet,
     row: SheetRow,
     where: Mapping[str, int],
-    takers: Mapping[str, Taker],
     on: Deciding,
     told: TableProblems,
 ) -> Decision | None:
@@ -99,10 +99,11 @@ def decision(
     cells = {what: row.cells[column] for what, column in where.items()}
     places = {what: sheet.place(row, sheet.head[column]) for what, column in where.items()}
     before = len(told.problems)
-    taker = takers.get(cells["id"])
+    who = on.signs.who(cells["id"])
+    taker = next((each for each in on.takers if each.student.id == who), None)
     if taker is None:
         found = f"{shown(cells['id'])} is no student of this class" if cells["id"] else "is missing"
-        told.add(places["id"], found, "an id of the class list", nearest(cells["id"], takers))
+        told.add(places["id"], found, "an id of the class list", nearest(cells["id"], on.signs.ids))
     worths = on.worth_of(taker) if taker is not None else {}
     field, most = field_in(cells, places["field"], worths, told, taker is not None)
     points = points_in(cells["points"], places["points"], most, told)

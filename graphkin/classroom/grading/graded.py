@@ -113,7 +113,7 @@ class Taker(Struct, frozen=True):
     """A student who takes part: the parameters of the own variant, exact and as written.
 
     ``compute`` are fields too small to be measured, which were to be computed; ``code`` is the
-    opaque name on the sheets, ``language`` what the class list says of the student's.
+    opaque name on the sheets, ``language`` and ``email`` what the class list says of the student's.
     """
 
     student: Student
@@ -121,6 +121,7 @@ class Taker(Struct, frozen=True):
     code: str = ""
     compute: tuple[str, ...] = ()
     language: str = ""
+    email: str = ""
 
 
 class Graded(Struct, frozen=True):

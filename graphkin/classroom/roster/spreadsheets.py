@@ -82,22 +82,27 @@ def read_sheet(
     Rows that cannot be read are left out and noted in ``told``, if there is one: the caller finds
     the other problems, and then stops.
     """
-    path = Path(path)
-    data = bytes_of(path)
-    own, told = told is None, told or TableProblems(path.name)
+    return sheet_in(bytes_of(Path(path)), Path(path).name, heads, told)
+
+
+def sheet_in(
+    data: bytes, name: str, heads: Sequence[str] = (), told: TableProblems | None = None
+) -> Spreadsheet:
+    """The same of the bytes of a file, by the name that errors give it."""
+    own, told = told is None, told or TableProblems(name)
     rows: Iterable[SheetRow]
     if data.startswith(OLD_EXCEL):
         hint = "save it as .xlsx or as CSV UTF-8"
-        raise RosterError(Problem(path.name, "is an old Excel file (.xls)", "CSV or XLSX", hint))
+        raise RosterError(Problem(name, "is an old Excel file (.xls)", "CSV or XLSX", hint))
     if data.startswith(ZIP):
         from graphkin.classroom.roster.xlsx import xlsx_rows
 
-        rows, separator = list(xlsx_rows(data, path.name)), "\t"
+        rows, separator = list(xlsx_rows(data, name)), "\t"
     else:
-        text = text_of(data, path.name)
+        text = text_of(data, name)
         separator = separator_of(text, heads)
         rows = csv_rows(text, separator, told)
-    sheet = sheet_of(path.name, rows, separator, told)
+    sheet = sheet_of(name, rows, separator, told)
     if own:
         told.stop()
     return sheet

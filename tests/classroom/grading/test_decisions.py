@@ -15,6 +15,7 @@ from graphkin.classroom.grading.graded import Answer, Decision, Status
 from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
 from graphkin.classroom.grading.marks_tables import read_marks
 from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import LANGUAGES, words
 from tests.classroom.grading.students import book_of, key_answers, lab_of, marker_of, taker
 
@@ -24,7 +25,7 @@ TAKERS = tuple(taker(n) for n in (7, 8, 9))
 
 
 def deciding() -> Deciding:
-    return Deciding(TAKERS, book_of(LAB).form, lab_of(LAB).rubric)
+    return Deciding(TAKERS, book_of(LAB).form, lab_of(LAB).rubric, signs(WHO))
 
 
 def read(folder: Path, text: str) -> tuple[Decision, ...]:

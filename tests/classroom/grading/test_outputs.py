@@ -285,7 +285,7 @@ def test_the_command_marks_a_class_and_fills_the_gradebook(folder):
         assert (folder / "out" / name).is_file()
     text = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
     assert f"A,{table['0001']['points']},88.5" in text
-    assert "“Lab 3 (4711)” is worth 24 points there, the lab 20.5" in found.output
+    assert "“Lab 3 (4711)” is worth 24 points there, full marks are 20.5" in found.output
     assert "stefan,A,," in text
 
 
@@ -362,7 +362,7 @@ def test_decisions_survive_a_new_marking_and_reach_the_gradebook(folder):
     refused = run(folder, "--force", "--hold", "0001")
     assert refused.exit_code == 2 and "take the row out of it" in refused.output
     before = (folder / "out" / "marks.csv").read_bytes()
-    path.write_text("id;field;points;reason\n0001;v_Q;9;\n1;total;2;why\n", encoding="utf-8")
+    path.write_text("id;field;points;reason\n0001;v_Q;9;\n9;total;2;why\n", encoding="utf-8")
     refused = run(folder, "--force")
     assert refused.exit_code == 2
     assert "row 2" in refused.output and "row 3" in refused.output
