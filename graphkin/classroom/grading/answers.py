@@ -167,7 +167,7 @@ class AnswerReading(Struct, dict=True):
             return
         self.seen |= set(own.values())
         for i, cell in enumerate(sheet.head):
-            if i not in own and i not in where.values() and cell:
+            if i not in own and cell and folded(cell) not in IDS | OTHERS:
                 self.stranger(sheet, cell)
         for row in sheet.rows:
             column = where[meant[0]]
@@ -181,6 +181,7 @@ class AnswerReading(Struct, dict=True):
         of the file, or the student's name is that under which a learning platform has the file.
         """
         stated = [row for row in sheet.rows if folded(row.cells[0]) in IDS]
+        stated = [row for row in stated if row.cells[1]] or stated
         sign = stated[0].cells[1] if stated else file.stem
         sender = file.sender
         if not sign or (not stated and self.signs.who(sign) is None):

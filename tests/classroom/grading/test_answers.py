@@ -43,6 +43,9 @@ IDS = ("001", "002", "ĂÎ-3")
         ("27,6 1/s", RATE, 27.6),
         ("27,6 s^-1", RATE, 27.6),
         ("27.6 (rad/s)", RATE, 27.6),
+        ("≈ 3,8", SPEED, 3.8),
+        ("~3.8 m/s", SPEED, 3.8),
+        ("ca. -5", LENGTH, -5.0),
     ],
 )
 def test_numbers_are_read_with_point_or_comma_and_unit(text, item, value):
@@ -158,8 +161,8 @@ def test_everything_wrong_with_the_rows_is_told_at_once(tmp_path):
 def test_zeros_that_a_spreadsheet_took_away_count_only_where_two_ids_differ_by_them(tmp_path):
     path = written(tmp_path, "a.csv", "id,v_D\n1,2\n")
     assert read_answers(path, FORM, signs(IDS)).of["001"]["v_D"].value == 2
-    with pytest.raises(RosterError, match="no student of this class; did you mean 001"):
-        read_answers(path, FORM, signs([*IDS, "01"]))
+    with pytest.raises(RosterError, match=r"no student of this class; did you mean 0*1"):
+        read_answers(path, FORM, signs([*IDS, "0001"]))
 
 
 @pytest.mark.parametrize("text", ["name,v_D\nA,1\n", "id,colour\n001,red\n"])
@@ -223,3 +226,14 @@ def test_a_unit_of_something_else_is_no_mistyped_number(text):
 def test_letters_among_the_digits_are_told_as_no_number(language, said):
     answer = read_answer("5o0", HARD)
     assert unread(answer.problem, HARD.unit, words(language)) == said
+
+
+@pytest.mark.parametrize("text", ["-", "–", " n/a ", "N.A.", "na", "--"])
+def test_what_stands_for_no_answer_is_none(text):
+    assert read_answer(text, SPEED).is_blank
+    sense = read_answer(text, SENSE)
+    assert sense.is_blank or (text in "-–" and sense.value == -1)
+
+
+def test_a_number_that_is_about_right_is_as_rough_as_its_digits():
+    assert rounding(read_answer("≈ 3,8", SPEED)) == rounding(read_answer("3,8", SPEED))
