@@ -344,11 +344,10 @@ def notes(opened: ClassFolder, given: Answers, words: Words) -> None:
     pages', cells that cannot be read.
     """
     from graphkin.classroom.grading.class_report import language_lines, stranger_lines, unread_lines
-    from graphkin.scene.findings import visible
 
     names = [taker.student for taker in opened.takers]
     tell_some(list(stranger_lines(given, words)), words)
-    tell_some([words("class.no_table", who=visible(each.name)) for each in given.empty], words)
+    tell_some([words("class.no_table", who=each.name) for each in given.empty], words)
     tell_some(list(language_lines(opened.takers, words)), words)
     tell_some(list(unread_lines(names, given.unread, words)), words)
 

@@ -97,7 +97,7 @@ def read_answers(path: Path, items: Sequence[Item], signs: Signs, match: Match =
     for file in given.tables:
         try:
             told = reading.told if given.is_one else None
-            sheet = sheet_in(file.data, visible(file.name), heads, told)
+            sheet = sheet_in(file.data, file.name, heads, told)
         except RosterError as error:
             reading.told.extend(error.problems)
             continue
